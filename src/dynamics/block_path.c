@@ -331,7 +331,7 @@ static baum_status refine_space(baum_i_block_path *path, bool fair)
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     path->refinements++;
-    baum_i_space_find_residual(path->space);
+    path->residual_kernel->find(path->space);
     change = kernel->correct(path->space);
     done = kernel->check(path->space) || change <= SETTLED;
   }

@@ -28,6 +28,7 @@ struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
   const baum_i_space_sides_kernel *space_sides;
+  const baum_i_space_residual_kernel *residual_kernel;
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
   bool has_planar;   /* a body is planar */

@@ -9,7 +9,7 @@
 
 /* The determinants are products of up to three ratios, each of which is a few hundredths in healthy
  * loops, so this limit is lower than that of block.c. many_nodes is the same. */
-static const double weak_pivot = 1e-4;
+static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
 /* ---- memory ---- */

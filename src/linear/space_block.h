@@ -181,9 +181,6 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
 
-/* Computes pull[] and rest[] in twice the working precision. */
-void baum_i_space_find_residual(baum_i_space *space);
-
 /* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull(). */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
@@ -201,6 +198,14 @@ typedef struct baum_i_space_sides_kernel {
 
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
+
+typedef struct baum_i_space_residual_kernel {
+  /* Computes pull[] and rest[] in twice the working precision. */
+  void (*find)(baum_i_space *space);
+} baum_i_space_residual_kernel;
+
+extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_plain;
+extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
 /* Hot functions for the solution, as those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {

@@ -22,6 +22,9 @@ static inline void baum_i_twofold_add(baum_i_twofold *sum, double x)
 static inline void baum_i_twofold_subtract_product(baum_i_twofold *sum, double x, double y)
 {
   double product = x * y;
+#ifdef BAUM_I_WIDE
+  __asm__("" : "+x"(product)); /* the compiler must not fuse it with the addition */
+#endif
   sum->low -= fma(x, y, -product);
   baum_i_twofold_add(sum, -product);
 }

@@ -96,6 +96,8 @@ static bool plain_run(void *self, int last_phase)
   s->path->sides_kernel = &baum_i_block_sides_kernel_plain;
   s->path->space_kernel = &baum_i_space_kernel_plain;
   s->path->space_sides = &baum_i_space_sides_kernel_plain;
+  s->path->residual_kernel = &baum_i_space_residual_kernel_plain;
+  s->path->joints_kernel = &baum_i_space_joints_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
   bool done = block_run(self, last_phase);
   s->path->kernel = path.kernel;
@@ -103,6 +105,8 @@ static bool plain_run(void *self, int last_phase)
   s->path->sides_kernel = path.sides_kernel;
   s->path->space_kernel = path.space_kernel;
   s->path->space_sides = path.space_sides;
+  s->path->residual_kernel = path.residual_kernel;
+  s->path->joints_kernel = path.joints_kernel;
   point->kernel = frames;
   return done;
 }

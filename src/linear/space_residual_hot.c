@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Residual of the whole system in space in twice the working precision, as block_residual.c has it
- * for the plane. */
+ * for the plane. The wide version has the instruction of fma(). */
 #include <string.h>
 
+#include "base/hot.h"
 #include "linear/space_block.h"
 #include "linear/twofold.h"
 
 enum { MOTION = BAUM_I_SPACE_MOTION };
 
-static void subtract(double *high, double *low, double x, double y)
+BAUM_I_INLINE void subtract(double *high, double *low, double x, double y)
 {
   baum_i_twofold sum = {*high, *low};
   baum_i_twofold_subtract_product(&sum, x, y);
@@ -57,7 +58,7 @@ static void subtract_node(baum_i_space *b, const baum_i_space_node *node)
   }
 }
 
-void baum_i_space_find_residual(baum_i_space *b)
+static void find_residual(baum_i_space *b)
 {
   begin(b);
   for (int k = 0; k < b->node_count; k++) {
@@ -71,3 +72,6 @@ void baum_i_space_find_residual(baum_i_space *b)
     }
   }
 }
+
+const baum_i_space_residual_kernel BAUM_I_HOT(baum_i_space_residual_kernel) = {
+  .find = find_residual};
