@@ -16,6 +16,8 @@ static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 /* Refinements gain fewer digits with uneven inertias. */
 static const double SETTLING_IN_SPACE = 1e-12;
+/* Each refinement gains at least four digits, or the next one shows that it does not. */
+static const double SETTLED_IN_SPACE = 1e-11;
 
 /* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding level.
  * A thin shaft that carries heavy bodies has such pivots at all times. */
@@ -333,7 +335,7 @@ static baum_status refine_space(baum_i_block_path *path, bool fair)
     path->refinements++;
     path->residual_kernel->find(path->space);
     change = kernel->correct(path->space);
-    done = kernel->check(path->space) || change <= SETTLED;
+    done = kernel->check(path->space) || change <= SETTLED_IN_SPACE;
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }

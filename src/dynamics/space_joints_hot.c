@@ -41,6 +41,7 @@ BAUM_I_INLINE void set_axes(const double p[4], four a[3], double rows[9])
     1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
     2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
     2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
+  BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
     a[c] = baum_i_four_set(s[c], s[3 + c], s[6 + c], 0.0);
   }
@@ -114,6 +115,7 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   four r = three(q);
   four w = baum_i_four_zero();
   four velocity = three(v);
+  BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) { /* L^-T is upper triangular */
     four sum = baum_i_four_times(a[0], baum_i_four_all(white[c]));
     for (int k = 1; k <= c; k++) {
@@ -182,7 +184,7 @@ BAUM_I_INLINE void put(column *x, int i, double s)
   if (i < 4) {
     x->low = baum_i_four_put(x->low, i, s);
   } else {
-    x->high[i - 4] = s;
+    x->high = i == 4 ? (baum_i_pair){s, x->high[1]} : (baum_i_pair){x->high[0], s};
   }
 }
 
@@ -210,6 +212,7 @@ BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame
     bend = baum_i_four_plus(baum_i_four_times(x2, e), baum_i_four_times(x, e2));
     bend = baum_i_four_plus(bend, baum_i_four_times(baum_i_four_plus(x1, x1), e1));
     four kept = baum_i_four_times(x, baum_i_four_all(keep));
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       put(&out->move[c], i, baum_i_four_get(kept, c));
     }
@@ -223,13 +226,16 @@ BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame
     sums[1][3] = baum_i_four_times(z, y);
     bend = baum_i_four_times(v, y);
   }
+  BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
     const double *b = (k == 0 ? f : g)->turned;
     t[k] = baum_i_four_times(t[k], baum_i_four_all(keep));
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       sums[k][c] = baum_i_four_times(t[k], baum_i_four_load(b + 4 * c));
     }
     four row = baum_i_four_sums(sums[k]);
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       put(&out->turn[k][c], i, baum_i_four_get(row, c));
     }
@@ -274,8 +280,9 @@ BAUM_I_INLINE void set_rights(const baum_i_space *b, const baum_i_space_joint *j
   right.low = baum_i_four_times(right.low, kept.low);
   right.high = tall ? right.high * kept.high : right.high;
   four apart = baum_i_four_minus(baum_i_four_load(free[1]), baum_i_four_load(free[0]));
-  column sum = {.low = points ? apart : baum_i_four_zero()};
+  column sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}};
   sum = baum_i_column_subtract(sum, right, 1.0, tall);
+  BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
     sum = baum_i_column_add(sum, row->turn[0][c], free[0][4 + c], tall);
     sum = baum_i_column_add(sum, row->turn[1][c], free[1][4 + c], tall);
@@ -294,11 +301,13 @@ BAUM_I_INLINE void store_sides(const baum_i_space *b, const baum_i_space_joint *
                                bool slides, const rows *row)
 {
   bool tall = n > 4;
+  BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
     if (joint->side[k] < 0) {
       continue;
     }
     const baum_i_space_side *side = &b->side_list[joint->side[k]];
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       baum_i_column_store(b->sides + side->turn, 3, c, tall, row->turn[k][c]);
       if (slides) {
@@ -319,21 +328,26 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   int32_t any = joint->side[joint->side[0] < 0 ? 1 : 0];
   const double *move = b->sides + b->side_list[any].move;
   column sums[BAUM_I_SPACE_ROWS];
+  BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
-    sums[j] = (column){.low = baum_i_four_zero()};
+    sums[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
     put(&sums[j], j, (points && j < 3 ? weight : 0.0) + 1.0 - keep[j]);
+    BAUM_I_UNROLL(3)
     for (int c = 0; slides && c < 3; c++) {
       double s = weight * move[baum_i_column_entry(3, j, c)];
       s = joint->side[0] < 0 ? s : -s; /* E_a = -move */
       sums[j] = baum_i_column_add(sums[j], row->move[c], s, j >= 4);
     }
   }
+  BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
     if (joint->side[k] < 0) {
       continue;
     }
     const double *turn = b->sides + b->side_list[joint->side[k]].turn;
+    BAUM_I_UNROLL(6)
     for (int j = 0; j < n; j++) {
+      BAUM_I_UNROLL(3)
       for (int c = 0; c < 3; c++) {
         double s = turn[baum_i_column_entry(3, j, c)];
         sums[j] = baum_i_column_add(sums[j], row->turn[k][c], s, j >= 4);
@@ -343,6 +357,7 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   baum_i_space_measure *measure = &b->measures[joint->node];
   measure->size[0] = 1.0;
   measure->size[1] = 1.0;
+  BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
     baum_i_four_store(d + (ptrdiff_t)4 * j, sums[j].low);
     if (j >= 4) {
@@ -362,18 +377,21 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   const double *numbers = at->joints.numbers + joint->numbers;
   const double *axes = numbers + BAUM_I_JOINT_AXES;
   const double *keep = numbers + BAUM_I_JOINT_KEEP;
-  rows row = {.phi = {.low = baum_i_four_zero()}};
+  const column zero = {baum_i_four_zero(), {0.0, 0.0}};
+  rows row = {{{zero, zero, zero}, {zero, zero, zero}}, {zero, zero, zero}, zero, zero, zero};
   const marker m[2] = {marker_on(f, numbers), marker_on(g, numbers + 4)};
   if (points) {
     row.phi.low = baum_i_four_minus(m[1].place, m[0].place);
     row.rate.low = baum_i_four_minus(m[1].rate, m[0].rate);
     row.gamma.low = baum_i_four_minus(m[0].bend, m[1].bend);
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       const double *arms = numbers + BAUM_I_JOINT_ARMS + 4 * c;
       row.turn[0][c].low = turned(f->axes, arms);
       row.turn[1][c].low = turned(g->axes, arms + 12);
     }
   }
+  BAUM_I_UNROLL(6)
   for (int i = points ? 3 : 0; i < n; i++) {
     set_row(f, g, axes, keep[i], (slides >> i & 1u) != 0, m, i, &row);
     axes += 8;
