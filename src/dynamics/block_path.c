@@ -326,7 +326,7 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->space_kernel->eliminate(path->space);
 }
 
-static baum_status refine_space(baum_i_block_path *path, bool fair)
+static baum_status refine_space(baum_i_block_path *path, bool fair, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
   bool done = kernel->check(path->space) && fair;
@@ -335,7 +335,7 @@ static baum_status refine_space(baum_i_block_path *path, bool fair)
     path->refinements++;
     path->residual_kernel->find(path->space);
     change = kernel->correct(path->space);
-    done = kernel->check(path->space) || change <= SETTLED_IN_SPACE;
+    done = kernel->check(path->space) || change <= settled;
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
@@ -356,7 +356,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     return BAUM_OK;
   }
   bool fair = pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT);
-  baum_status status = refine_space(path, fair);
+  baum_status status = refine_space(path, fair, last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;
 }

@@ -152,24 +152,31 @@ BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *
 {
   int n1 = n < 3 ? n : 3;
   int n2 = n - n1;
+  BAUM_I_UNROLL(6)
   for (int i = 0; i < n1; i++) {
+    BAUM_I_UNROLL(3)
     for (int j = 0; j <= i; j++) {
       t->p[i * (i + 1) / 2 + j] = pivot_entry(d, n, j, i);
     }
   }
+  BAUM_I_UNROLL(6)
   for (int i = 0; i < n; i++) {
     t->b[i] = b[i];
   }
   det[0] = invert(n1, t->p);
+  BAUM_I_UNROLL(6)
   for (int k = 0; k < n2; k++) {
+    BAUM_I_UNROLL(6)
     for (int i = 0; i < 3; i++) {
       t->c[k][i] = d[4 * (3 + k) + i];
     }
+    BAUM_I_UNROLL(6)
     for (int i = 0; i < 3; i++) {
       t->y[k][i] = of_triangle(t->p, i, 0) * t->c[k][0] + of_triangle(t->p, i, 1) * t->c[k][1] +
                    of_triangle(t->p, i, 2) * t->c[k][2];
     }
     t->b[3 + k] -= t->y[k][0] * b[0] + t->y[k][1] * b[1] + t->y[k][2] * b[2];
+    BAUM_I_UNROLL(3)
     for (int j = 0; j <= k; j++) {
       t->z[k * (k + 1) / 2 + j] =
         pivot_entry(d, n, 3 + j, 3 + k) -
@@ -184,29 +191,32 @@ BAUM_I_INLINE void keep_pivot(int n, const pivot *t, double *d, double *b)
 {
   int n1 = n < 3 ? n : 3;
   int n2 = n - n1;
+  double p[6] = {0.0};
+  double z[6] = {0.0};
+  double x[6] = {0.0};
+  BAUM_I_UNROLL(3)
   for (int c = 0; c < n1; c++) {
-    for (int i = 0; i < 4; i++) {
-      d[4 * c + i] = i < n1 ? of_triangle(t->p, i, c) : 0.0;
+    BAUM_I_UNROLL(3)
+    for (int i = 0; i < n1; i++) {
+      p[i] = of_triangle(t->p, i, c);
+      x[i] += p[i] * t->b[c];
     }
+    baum_i_four_store(d + 4 * c, baum_i_four_set(p[0], p[1], p[2], 0.0));
   }
+  BAUM_I_UNROLL(3)
   for (int k = 0; k < n2; k++) {
-    for (int i = 0; i < 4; i++) {
-      d[12 + 4 * k + i] = i < 3 ? t->y[k][i] : 0.0;
-      d[12 + 4 * n2 + 4 * k + i] = i < n2 ? of_triangle(t->z, i, k) : 0.0;
+    BAUM_I_UNROLL(3)
+    for (int i = 0; i < n2; i++) {
+      z[i] = of_triangle(t->z, i, k);
+      x[3 + i] += z[i] * t->b[3 + k];
     }
+    baum_i_four_store(d + 12 + 4 * k, baum_i_four_set(t->y[k][0], t->y[k][1], t->y[k][2], 0.0));
+    baum_i_four_store(d + 12 + 4 * n2 + 4 * k, baum_i_four_set(z[0], z[1], z[2], 0.0));
   }
-  double x[8] = {0.0};
-  for (int i = 0; i < n1; i++) {
-    for (int c = 0; c < n1; c++) {
-      x[i] += of_triangle(t->p, i, c) * t->b[c];
-    }
+  baum_i_four_store(b, baum_i_four_set(x[0], x[1], x[2], x[3]));
+  if (n > 4) {
+    baum_i_store(b + 4, (baum_i_pair){x[4], x[5]});
   }
-  for (int i = 0; i < n2; i++) {
-    for (int c = 0; c < n2; c++) {
-      x[3 + i] += of_triangle(t->z, i, c) * t->b[3 + c];
-    }
-  }
-  memcpy(b, x, (size_t)(n > 4 ? 8 : 4) * sizeof *b);
 }
 
 /* Subtracts X' U^T of an earlier coupling from a block or, if `pivot`, from D, of which only the
@@ -222,6 +232,7 @@ BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, cons
     if (high) {
       sum.high = baum_i_load(high_at);
     }
+    BAUM_I_UNROLL(6)
     for (int k = 0; k < n; k++) {
       sum = baum_i_column_subtract(sum, x[k], u[baum_i_column_entry(n, j, k)], high);
     }
@@ -239,29 +250,37 @@ BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, b
 {
   int n1 = n < 3 ? n : 3;
   column u[MOST];
+  BAUM_I_UNROLL(6)
   for (int k = 0; k < n; k++) {
     x[k] = baum_i_column_load(off, n, k, tall);
   }
+  BAUM_I_UNROLL(6)
   for (int j = 0; j < n1; j++) {
     u[j] = baum_i_column_times(x[0], of_triangle(t->p, 0, j), tall);
+    BAUM_I_UNROLL(6)
     for (int k = 1; k < n1; k++) {
       u[j] = baum_i_column_add(u[j], x[k], of_triangle(t->p, k, j), tall);
     }
     baum_i_column_store(off, n, j, tall, u[j]);
   }
+  BAUM_I_UNROLL(6)
   for (int j = 3; j < n; j++) {
+    BAUM_I_UNROLL(6)
     for (int k = 0; k < 3; k++) {
       x[j] = baum_i_column_subtract(x[j], u[k], t->c[j - 3][k], tall);
     }
   }
+  BAUM_I_UNROLL(6)
   for (int j = 3; j < n; j++) {
     u[j] = baum_i_column_times(x[3], of_triangle(t->z, 0, j - 3), tall);
+    BAUM_I_UNROLL(6)
     for (int k = 4; k < n; k++) {
       u[j] = baum_i_column_add(u[j], x[k], of_triangle(t->z, k - 3, j - 3), tall);
     }
     baum_i_column_store(off, n, j, tall, u[j]);
   }
   column b = baum_i_column_load(node, 1, 0, tall);
+  BAUM_I_UNROLL(6)
   for (int k = 0; k < n; k++) {
     b = baum_i_column_subtract(b, u[k], t->b[k], tall);
   }
@@ -391,6 +410,7 @@ BAUM_I_INLINE void add_products(int n, const double *u, const double *later, boo
                                 baum_i_four sum[8])
 {
   column lambda = baum_i_column_load(later, 1, 0, tall);
+  BAUM_I_UNROLL(8)
   for (int c = 0; c < n; c++) {
     column x = baum_i_column_load(u, n, c, tall);
     sum[c] = baum_i_four_plus(sum[c], baum_i_four_times(x.low, lambda.low));
@@ -408,6 +428,7 @@ BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
   double *numbers = b->nodes + node->at;
   const double *d = numbers + baum_i_space_pivot(n);
   baum_i_four sum[8];
+  BAUM_I_UNROLL(8)
   for (int c = 0; c < 8; c++) {
     sum[c] = baum_i_four_zero();
   }
@@ -427,6 +448,7 @@ BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
   if (n > 3) { /* row 3 of Y is 0 */
     baum_i_four first = lambda.low;
     first = baum_i_four_subtract(first, baum_i_four_load(d + 12), baum_i_four_high(lambda.low)[1]);
+    BAUM_I_UNROLL(8)
     for (int c = 4; c < n; c++) {
       first = baum_i_four_subtract(first, baum_i_four_load(d + 4 * c), lambda.high[c - 4]);
     }
