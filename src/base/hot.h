@@ -18,6 +18,16 @@
 /* Always inline, so that the compiler can use the values of constant arguments. */
 #define BAUM_I_INLINE static inline __attribute__((always_inline))
 
+/* Unrolls the next loop, so that its local arrays can stay in registers. */
+#define BAUM_I_PRAGMA(text) _Pragma(#text)
+#if defined(__clang__)
+#define BAUM_I_UNROLL(times) BAUM_I_PRAGMA(unroll times)
+#elif defined(__GNUC__)
+#define BAUM_I_UNROLL(times) BAUM_I_PRAGMA(GCC unroll times)
+#else
+#define BAUM_I_UNROLL(times)
+#endif
+
 /* Tell whether this build has the tables for wide vectors and this processor can run them. This
  * may take 100 us, because virtual machines emulate CPUID. Mechanisms keep the answer. */
 bool baum_i_hot_is_wide(void);

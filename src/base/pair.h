@@ -37,13 +37,13 @@ static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
   return (baum_i_pair){p[1], p[0]};
 }
 
-/* |x| */
+/* Return |x|. */
 static inline baum_i_pair baum_i_magnitude(baum_i_pair x)
 {
   return (baum_i_pair){__builtin_fabs(x[0]), __builtin_fabs(x[1])};
 }
 
-/* The larger numbers, or those of y where x is NaN. */
+/* Return the larger numbers, or those of y where x is NaN. */
 static inline baum_i_pair baum_i_larger(baum_i_pair x, baum_i_pair y)
 {
   return (baum_i_pair){x[0] > y[0] ? x[0] : y[0], x[1] > y[1] ? x[1] : y[1]};

@@ -5,326 +5,32 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/hot.h"
-#include "base/message.h"
+#include "linear/block_pull.h"
 
-/* In chains rounding errors grow even without small pivots, at worst in proportion to the number of
- * nodes. Up to FEW_NODES nodes the error stays below 5e-13. With more nodes every evaluation checks
- * the residual. */
-enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
+enum { MOST_REFINEMENTS = 3 };
 
 /* Relative change of the multipliers by a refinement. Below SETTLED it has converged; up to
  * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
+/* Refinements gain fewer digits with uneven inertias. */
+static const double SETTLING_IN_SPACE = 1e-12;
+/* Each refinement gains at least four digits, or the next one shows that it does not. */
+static const double SETTLED_IN_SPACE = 1e-11;
 
-/* The residual is checked if inverse masses differ by more than the factor UNEVEN and the largest
- * a0 exceeds the largest a by more than the factor CANCELLED, because then digits have cancelled in
- * a = a0 - W J^T lambda (W: inverse masses; a0: accelerations without constraint forces). */
-static const double UNEVEN = 1e3;
+/* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding level.
+ * A thin shaft that carries heavy bodies has such pivots at all times. */
+static const double FAIR_PIVOT = 1e-6;
+
+/* The residual is checked if masses are uneven and the largest a0 exceeds the largest a by more
+ * than this factor, because then digits have cancelled in a = a0 - W J^T lambda (W: inverse masses;
+ * a0: accelerations without constraint forces). */
 static const double CANCELLED = 2048.0;
 
-/* ---- create ---- */
-
-static bool is_diagonal(const baum_i_body *body)
-{
-  return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
-}
-
-/* Properties of bodies, joints and rows that the solver needs. */
-typedef struct traits {
-  baum_i_block_pin *pins;
-  unsigned char *diagonal;
-  unsigned char *fixed;
-  unsigned char *omitted;
-} traits;
-
-static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
-{
-  const baum_mechanism *m = w->mechanism;
-  for (int i = 0; i < m->body_count; i++) {
-    out->diagonal[i] = is_diagonal(m->bodies[i + 1]) ? 1 : 0;
-    out->fixed[i] = for_motion && m->bodies[i + 1]->fixed ? 1 : 0;
-  }
-  for (int i = 0; i < m->joint_count; i++) {
-    const baum_i_joint *joint = m->joints[i];
-    if (joint->type->is_pin) {
-      out->pins[i] = (baum_i_block_pin){
-        .is_pin = true, .body_a = joint->span.bodies[0] - 1, .body_b = joint->span.bodies[1] - 1};
-    }
-    for (int k = joint->row; k < joint->row + joint->rows; k++) {
-      bool redundant = w->rows.omitted[k];
-      out->omitted[k] = redundant || (for_motion && joint->fixed) ? 1 : 0;
-    }
-  }
-}
-
-static baum_status make_block(const baum_workspace *w, bool for_motion,
-                              baum_i_block_verdict *verdict, baum_i_block_path *path)
-{
-  const baum_mechanism *m = w->mechanism;
-  traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
-              .diagonal = baum_i_alloc((size_t)m->body_count, 1),
-              .fixed = baum_i_alloc((size_t)m->body_count, 1),
-              .omitted = baum_i_alloc((size_t)m->nc, 1)};
-  baum_status status = BAUM_ERR_MEMORY;
-  if (t.pins && t.diagonal && t.fixed && t.omitted) {
-    find_traits(w, for_motion, &t);
-    const baum_i_block_layout layout = {.structure = &w->structure,
-                                        .pins = t.pins,
-                                        .diagonal = t.diagonal,
-                                        .omitted = t.omitted,
-                                        .fixed = t.fixed};
-    int hub = -1;
-    status = baum_i_block_create(&layout, &hub, &path->block);
-    verdict->blocks = hub < 0 ? BAUM_I_BLOCKS_FILLED : BAUM_I_BLOCKS_CROWDED;
-    verdict->body = hub + 1;
-  }
-  baum_i_free(t.pins);
-  baum_i_free(t.diagonal);
-  baum_i_free(t.fixed);
-  baum_i_free(t.omitted);
-  return status;
-}
-
-/* Copy the points of pins in the solver's order, and mark their joints as done. */
-static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
-                                unsigned char *is_done)
-{
-  const baum_i_block *block = path->block;
-  size_t count = baum_i_even((size_t)block->pin_count);
-  path->points = baum_i_alloc(4 * count, sizeof *path->points);
-  if (!path->points) {
-    return BAUM_ERR_MEMORY;
-  }
-  for (size_t i = 0; i < count; i++) {
-    int joint = baum_i_row_joint(w->mechanism, block->pins[i].row);
-    is_done[joint] = 1;
-    const double *points = w->point.parameters + w->mechanism->joints[joint]->element.parameter;
-    memcpy(path->points + 4 * i, points, 4 * sizeof *points);
-  }
-  return BAUM_OK;
-}
-
-/* Copy the groups of the mechanism without the joints that are marked as done. */
-static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_done,
-                               baum_i_block_path *path)
-{
-  path->groups = baum_i_alloc((size_t)m->joint_count, sizeof *path->groups);
-  path->joints = baum_i_alloc((size_t)m->joint_count, sizeof(baum_i_joint *));
-  if (!path->groups || !path->joints) {
-    return BAUM_ERR_MEMORY;
-  }
-  const baum_i_joint **next = path->joints;
-  for (const baum_i_joint_group *all = m->joint_groups; all->type; all++) {
-    baum_i_joint_group *group = &path->groups[path->group_count];
-    *group = (baum_i_joint_group){.type = all->type, .joints = next};
-    for (int i = 0; i < all->count; i++) {
-      if (!is_done[all->joints[i]->element.index - 1]) {
-        next[group->count++] = all->joints[i];
-      }
-    }
-    next += group->count;
-    path->group_count += group->count > 0 ? 1 : 0;
-  }
-  return BAUM_OK;
-}
-
-static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum_i_block_path *path)
-{
-  const baum_mechanism *m = w->mechanism;
-  unsigned char *is_done = baum_i_alloc((size_t)m->joint_count, 1);
-  baum_status status = is_done ? place_points(w, path, is_done) : BAUM_ERR_MEMORY;
-  for (int k = 0; k < m->joint_count && status == BAUM_OK; k++) {
-    is_done[k] |= for_motion && m->joints[k]->fixed ? 1 : 0;
-  }
-  if (status == BAUM_OK) {
-    status = make_groups(m, is_done, path);
-  }
-  baum_i_free(is_done);
-  return status;
-}
-
-static baum_status list_omitted_rows(const baum_workspace *w, baum_i_block_path *path)
-{
-  path->omitted = baum_i_alloc((size_t)w->mechanism->nc, sizeof *path->omitted);
-  if (!path->omitted) {
-    return BAUM_ERR_MEMORY;
-  }
-  for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
-    if (w->rows.omitted[i]) {
-      const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, i)];
-      int nl = joint->span.nl;
-      path->omitted[path->omitted_count++] =
-        (baum_i_omitted_row){i, joint->jacobian + (i - joint->row) * nl, nl, joint->span.columns};
-    }
-  }
-  return BAUM_OK;
-}
-
-static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
-{
-  const baum_mechanism *m = w->mechanism;
-  path->constant_force = baum_i_alloc((size_t)m->nv, sizeof *path->constant_force);
-  if (!path->constant_force) {
-    return BAUM_ERR_MEMORY;
-  }
-  path->force_is_constant = baum_i_has_constant_force(m);
-  BAUM_I_TRY(baum_i_mechanism_add_body_forces(&w->point, true, path->constant_force));
-  if (path->force_is_constant) {
-    memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
-    path->sides_kernel->set_force(path->block, w->force);
-  }
-  return BAUM_OK;
-}
-
-/* Find the number, from 1, of the first body whose M has no factorization L L^T, or 0. */
-static int find_massless(const baum_workspace *w, const baum_i_block *block)
-{
-  for (int i = 0; i < block->dense_count; i++) {
-    const baum_i_dense_body *dense = &block->dense[i];
-    int n = w->structure.mass_blocks[dense->mass_block].size;
-    for (int k = 0; k < n; k++) {
-      if (!(block->factor[dense->factor + k * n + k] > 0.0)) {
-        return dense->mass_block + 1;
-      }
-    }
-  }
-  return 0;
-}
-
-/* Invert constant masses. Returns BAUM_ERR_SINGULAR if M is not positive definite. */
-static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdict,
-                                  baum_i_block_path *path)
-{
-  path->mass_is_constant = w->mechanism->constant_mass;
-  baum_i_point_set(&w->point, 0.0, w->mechanism->design_q, NULL);
-  BAUM_I_TRY(baum_i_evaluate_mass(w));
-  bool positive = baum_i_block_set_mass(path->block, w->mass);
-  if (path->mass_is_constant) {
-    positive = positive && baum_i_block_factor_dense(path->block, w->mass);
-  }
-  verdict->blocks = BAUM_I_BLOCKS_MASSLESS;
-  verdict->body = find_massless(w, path->block);
-  return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
-}
-
-/* The smallest positive number and the largest number that were included. */
-typedef struct range {
-  double least;
-  double most;
-} range;
-
-static void include(range *r, double x)
-{
-  r->least = x > 0.0 && x < r->least ? x : r->least;
-  r->most = x > r->most ? x : r->most;
-}
-
-/* Tell whether joints may connect a light body to a heavy one. The function compares the inverse
- * masses w_0 + w_2 |p|^2 at both sides of all pins, and the inverse inertias of all bodies that
- * other joints connect. It returns true for every mechanism with dense bodies. */
-static bool is_uneven(const baum_i_block_path *path)
-{
-  const baum_i_block *b = path->block;
-  range moves = {.least = (double)INFINITY};
-  range turns = {.least = (double)INFINITY};
-  for (int i = 0; i < 2 * b->pin_count; i++) {
-    const double *w = b->weight + 2 * (size_t)b->pins[i / 2].body_block[i % 2];
-    const double *p = path->points + 2 * (size_t)i;
-    include(&moves, w[0] + w[1] * (p[0] * p[0] + p[1] * p[1]));
-  }
-  for (int i = 0; i < b->full_count; i++) {
-    const baum_i_full_node *full = &b->fulls[i];
-    for (int k = full->first_side; full->side_count > 1 && k < full->first_side + full->side_count;
-         k++) {
-      include(&moves, b->weight[2 * (size_t)b->side_body_block[k]]);
-      include(&turns, b->weight[2 * (size_t)b->side_body_block[k] + 1]);
-    }
-  }
-  return b->dense_count > 0 || moves.most > UNEVEN * moves.least ||
-         turns.most > UNEVEN * turns.least;
-}
-
-static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
-                        baum_i_block_path *path)
-{
-  BAUM_I_TRY(make_block(w, for_motion, verdict, path));
-  BAUM_I_TRY(arrange_joints(w, for_motion, path));
-  BAUM_I_TRY(list_omitted_rows(w, path));
-  BAUM_I_TRY(prepare_masses(w, verdict, path));
-  BAUM_I_TRY(prepare_forces(w, path));
-  path->uneven = is_uneven(path);
-  path->always_check = path->block->node_count > FEW_NODES;
-  return BAUM_OK;
-}
-
-baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
-                                     baum_i_block_verdict *verdict, baum_i_block_path **out)
-{
-  *out = NULL;
-  baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
-  BAUM_I_TRY(baum_i_check_memory(path));
-  path->kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_kernel);
-  path->sides_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_sides_kernel);
-  path->pins_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_pins_kernel);
-  path->fixed_count = for_motion ? w->mechanism->fixed_count : 0;
-  baum_status status = fill(w, for_motion, verdict, path);
-  if (status != BAUM_OK) {
-    baum_i_block_path_destroy(path);
-    if (status == BAUM_ERR_MEMORY) {
-      return baum_i_fail_memory();
-    }
-    return status == BAUM_ERR_SINGULAR ? BAUM_OK : status;
-  }
-  *verdict = (baum_i_block_verdict){0};
-  *out = path;
-  return BAUM_OK;
-}
-
-void baum_i_block_path_destroy(baum_i_block_path *path)
-{
-  if (!path) {
-    return;
-  }
-  baum_i_block_destroy(path->block);
-  baum_i_free(path->points);
-  baum_i_free(path->groups);
-  baum_i_free(path->joints);
-  baum_i_free(path->omitted);
-  baum_i_free(path->constant_force);
-  baum_i_free(path);
-}
-
-baum_status baum_i_paths_create(baum_workspace *w, baum_i_block_verdict *verdict, baum_i_paths *out)
-{
-  *out = (baum_i_paths){0};
-  baum_status status = baum_i_block_path_create(w, false, verdict, &out->all);
-  out->motion = out->all;
-  if (status == BAUM_OK && w->mechanism->fixed_count > 0) {
-    baum_i_block_verdict of_motion;
-    status = baum_i_block_path_create(w, true, &of_motion, &out->motion);
-  }
-  if (status != BAUM_OK) {
-    baum_i_block_path_destroy(out->all);
-    *out = (baum_i_paths){0};
-  }
-  return status;
-}
-
-void baum_i_paths_destroy(const baum_i_paths *paths)
-{
-  baum_i_block_path_destroy(paths->all);
-  if (paths->motion != paths->all) {
-    baum_i_block_path_destroy(paths->motion);
-  }
-}
-
-/* ---- solve ---- */
-
 /* If `bending` is 0, set gamma to zero, because its old values may be infinite. */
-static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path, bool bending)
+BAUM_I_INLINE baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path,
+                                          bool bending)
 {
   const baum_i_rows rows = {
     .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = bending ? w->gamma : NULL};
@@ -359,9 +65,10 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
 }
 
 /* Phi' = J v - nu (3) of the omitted rows. */
-static void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path, const double *v)
+BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path,
+                                     const double *v)
 {
-  for (int i = 0; v && i < path->omitted_count; i++) {
+  for (int i = 0; v && i < path->rated_count; i++) {
     const baum_i_omitted_row *omitted = &path->omitted[i];
     double rate = -w->nu[omitted->row];
     for (int c = 0; c < omitted->count; c++) {
@@ -371,15 +78,21 @@ static void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path, 
   }
 }
 
+/* What the gain of a single row adds to damping Phi' + stiffness Phi. */
+static double gain_of_row(const baum_workspace *w, const baum_i_right_side *right, int row)
+{
+  double f = right->row_gains[row];
+  return (f - 1.0) * right->damping * w->phi_rate[row] +
+         (f * f - 1.0) * right->stiffness * w->phi[row];
+}
+
 static void add_row_gain(const baum_workspace *w, baum_i_block *block,
                          const baum_i_right_side *right, int node, int slot, int row)
 {
   if (row < 0) {
     return;
   }
-  double f = right->row_gains[row];
-  double more =
-    (f - 1.0) * right->damping * w->phi_rate[row] + (f * f - 1.0) * right->stiffness * w->phi[row];
+  double more = gain_of_row(w, right, row);
   block->right[2 * (size_t)node + (size_t)slot] -= more;
   block->nodes[node].lambda[slot] += more; /* J a0 - r */
 }
@@ -443,13 +156,13 @@ static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
 }
 
 /* Tell whether a is small compared with a0. */
-static bool has_cancelled(const baum_i_block *block)
+static bool has_cancelled(const double *from, const double *motion, int count)
 {
   double before = 0.0;
   double after = 0.0;
-  for (int i = 0; i < block->motion_size; i++) {
-    double a0 = fabs(block->from[i]);
-    double a = fabs(block->motion[i]);
+  for (int i = 0; i < count; i++) {
+    double a0 = fabs(from[i]);
+    double a = fabs(motion[i]);
     before = a0 > before ? a0 : before;
     after = a > after ? a : after;
   }
@@ -475,7 +188,7 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
   }
   kernel->substitute(block, w->lambda);
   bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
-               (path->uneven && has_cancelled(block));
+               (path->uneven && has_cancelled(block->from, block->motion, block->motion_size));
   if (!check) {
     return BAUM_OK;
   }
@@ -485,8 +198,9 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 }
 
 /* Evaluate joints, masses and forces at a state, and write them to the block. */
-static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
-                             const double *q, const double *v, const baum_i_right_side *right)
+BAUM_I_INLINE baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
+                                    const double *q, const double *v,
+                                    const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
@@ -502,10 +216,169 @@ static baum_status set_state(baum_workspace *w, const baum_i_block_path *path, d
   return BAUM_OK;
 }
 
+/* ---- in space ---- */
+
+/* As add_row_gains(). */
+static void add_row_gains_in_space(const baum_workspace *w, const baum_i_space *space,
+                                   const baum_i_right_side *right)
+{
+  for (int k = 0; k < space->node_count; k++) {
+    const baum_i_space_node *node = &space->list[k];
+    double *numbers = space->nodes + node->at;
+    for (int i = 0; i < node->rows; i++) {
+      bool omitted = (node->omitted >> i & 1u) != 0;
+      double more = omitted ? 0.0 : gain_of_row(w, right, node->row[i]);
+      numbers[baum_i_space_vector(node->rows) + i] -= more;
+      numbers[i] += more;
+    }
+  }
+}
+
+/* Add the forces of all but the bodies in space. */
+static baum_status add_other_forces(baum_workspace *w, const baum_i_block_path *path)
+{
+  const baum_mechanism *m = w->mechanism;
+  for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
+    if (!baum_i_is_spatial(group->type->frame)) {
+      for (int i = 0; i < group->count; i++) {
+        memset(w->force + group->bodies[i]->v, 0, (size_t)group->bodies[i]->nv * sizeof *w->force);
+      }
+      BAUM_I_TRY(group->type->force(group, &w->point, w->force));
+    }
+  }
+  for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
+    BAUM_I_TRY(group->type->force(group, &w->point, w->force));
+  }
+  path->space_sides->set_force(path->space, w->force);
+  return BAUM_OK;
+}
+
+/* As baum_i_point_set(). */
+static void begin_point(baum_i_point *point, double t, const double *q, const double *v)
+{
+  point->t = t;
+  point->q = point->normalized ? point->normalized : q;
+  point->v = v;
+  point->retry = false;
+}
+
+static baum_i_space_pass pass_of(const baum_workspace *w, const baum_i_block_path *path,
+                                 const double *q, const double *v, const baum_i_right_side *right)
+{
+  return (baum_i_space_pass){.joints = path->space_joints,
+                             .places = w->mechanism->places,
+                             .q = q,
+                             .v = v,
+                             .normalized = w->point.normalized,
+                             .spatial = w->point.spatial,
+                             .gravity = right->force ? w->mechanism->gravity : NULL,
+                             .moments = w->point.moments,
+                             .force = w->force,
+                             .bending = right->bending,
+                             .damping = right->damping,
+                             .stiffness = right->stiffness,
+                             .phi = w->phi,
+                             .phi_rate = w->phi_rate,
+                             .gamma = w->gamma};
+}
+
+static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, double t,
+                             const double *q, const double *v, const baum_i_right_side *right)
+{
+  const baum_i_space_pass pass = pass_of(w, path, q, v, right);
+  const baum_i_block_rows rows = {.jacobian = w->jacobian,
+                                  .v = v,
+                                  .phi = w->phi,
+                                  .nu = w->nu,
+                                  .gamma = w->gamma,
+                                  .bending = right->bending,
+                                  .damping = right->damping,
+                                  .stiffness = right->stiffness,
+                                  .phi_rate = w->phi_rate};
+  if (path->has_planar) {
+    baum_i_point_set(&w->point, t, q, v);
+  } else {
+    begin_point(&w->point, t, q, v);
+  }
+  path->joints_kernel->set_bodies(path->space, &pass);
+  w->eliminated_by = NULL;
+  w->jacobian_ready = false; /* if a function fails, J is partly overwritten */
+  BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
+  baum_i_space_use_force(path->space, right->force);
+  if (right->force && !path->only_weights) {
+    BAUM_I_TRY(add_other_forces(w, path));
+  }
+  w->jacobian_ready = path->space_joints.count == 0 && path->fixed_count == 0;
+  path->joints_kernel->set_joints(path->space, &pass);
+  path->space_sides->set(path->space, &rows);
+  set_omitted_rates(w, path, v);
+  if (right->row_gains) {
+    add_row_gains_in_space(w, path->space, right);
+  }
+  return BAUM_OK;
+}
+
+static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
+{
+  path->space_kernel->couple(path->space);
+  path->factorizations++;
+  w->eliminated_by = path;
+  return path->space_kernel->eliminate(path->space);
+}
+
+static baum_status refine_space(baum_i_block_path *path, bool fair, double settled)
+{
+  const baum_i_space_kernel *kernel = path->space_kernel;
+  bool done = kernel->check(path->space) && fair;
+  double change = 0.0;
+  for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
+    path->refinements++;
+    path->residual_kernel->find(path->space);
+    change = kernel->correct(path->space);
+    done = kernel->check(path->space) || change <= settled;
+  }
+  return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
+}
+
+static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last)
+{
+  const baum_i_space_kernel *kernel = path->space_kernel;
+  baum_i_space *space = path->space;
+  baum_i_pivots pivots = factor_space(w, path);
+  if (pivots == BAUM_I_PIVOTS_BAD) {
+    return BAUM_ERR_SINGULAR;
+  }
+  kernel->substitute(space, w->lambda);
+  bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
+               (path->uneven &&
+                has_cancelled(space->from, space->motion, BAUM_I_SPACE_MOTION * space->body_count));
+  if (!check) {
+    return BAUM_OK;
+  }
+  bool fair = pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT);
+  baum_status status = refine_space(path, fair, last ? SETTLED : SETTLED_IN_SPACE);
+  kernel->read_lambda(space, w->lambda);
+  return status;
+}
+
+/* ---- both ---- */
+
+baum_status baum_i_block_path_evaluate(baum_workspace *w, const baum_i_block_path *path, double t,
+                                       const double *q, const double *v,
+                                       const baum_i_right_side *right)
+{
+  return path->space ? set_space(w, path, t, q, v, right) : set_state(w, path, t, q, v, right);
+}
+
 baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path, double t,
                                      const double *q)
 {
   const baum_i_right_side nothing = {0};
+  if (path->space) {
+    BAUM_I_TRY(set_space(w, path, t, q, NULL, &nothing));
+    (void)factor_space(w, path);
+    return BAUM_OK;
+  }
   BAUM_I_TRY(set_state(w, path, t, q, NULL, &nothing));
   (void)factor(w, path);
   return BAUM_OK;
@@ -515,14 +388,63 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
                                     const double *q, const double *v,
                                     const baum_i_right_side *right)
 {
-  w->solved_by = path;
-  BAUM_I_TRY(set_state(w, path, t, q, v, right));
   /* The projection of velocities solves once; the projection of positions repeats the solution and
    * so corrects it. */
-  BAUM_I_TRY(solve(w, path, v && !right->force));
-  bool finite = path->kernel->read_motion(path->block, w->a);
+  bool last = v && !right->force;
+  bool finite;
+  w->solved_by = path;
+  if (path->space) {
+    BAUM_I_TRY(set_space(w, path, t, q, v, right));
+    BAUM_I_TRY(solve_space(w, path, last));
+    finite = path->space_kernel->read_motion(path->space, w->a);
+  } else {
+    BAUM_I_TRY(set_state(w, path, t, q, v, right));
+    BAUM_I_TRY(solve(w, path, last));
+    finite = path->kernel->read_motion(path->block, w->a);
+  }
   for (int i = 0; i < path->omitted_count; i++) {
     w->lambda[path->omitted[i].row] = 0.0;
   }
   return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
+}
+
+/* ---- other right sides ---- */
+
+/* Set out to `factor` times the solution for the right side in the solver. */
+static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
+{
+  bool finite;
+  if (path->space) {
+    (void)path->space_kernel->correct(path->space);
+    finite = path->space_kernel->read_motion(path->space, out);
+  } else {
+    (void)path->kernel->correct(path->block);
+    finite = path->kernel->read_motion(path->block, out);
+  }
+  int nv = path->space ? path->space->structure->nv : path->block->structure->nv;
+  for (int i = 0; i < nv; i++) {
+    out[i] *= factor;
+  }
+  return finite ? BAUM_OK : BAUM_ERR_NOT_FINITE;
+}
+
+baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r, double *out)
+{
+  if (path->space) {
+    baum_i_space_set_rest(path->space, r);
+  } else {
+    baum_i_block_set_rest(path->block, r);
+  }
+  return solve_again(path, 1.0, out);
+}
+
+baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
+                                          double *out)
+{
+  if (path->space) {
+    baum_i_space_pull(path->space, x);
+  } else {
+    baum_i_block_pull(path->block, x);
+  }
+  return solve_again(path, -1.0, out);
 }

@@ -10,7 +10,9 @@
 
 #include "dynamics/dynamics.h"
 #include "dynamics/pins.h"
+#include "dynamics/space_joints.h"
 #include "linear/block.h"
+#include "linear/space_block.h"
 
 /* An omitted row. No node of the block sets its Phi' and its multiplier. */
 typedef struct baum_i_omitted_row {
@@ -20,16 +22,27 @@ typedef struct baum_i_omitted_row {
   const int *columns; /* (count) */
 } baum_i_omitted_row;
 
+/* The block solver is `space` if the mechanism has bodies in space and none with user coordinates,
+ * otherwise `block`; the other is NULL. */
 struct baum_i_block_path {
+  baum_i_space *space;
+  const baum_i_space_kernel *space_kernel;
+  const baum_i_space_sides_kernel *space_sides;
+  const baum_i_space_residual_kernel *residual_kernel;
+  const baum_i_space_joints_kernel *joints_kernel;
+  baum_i_space_joints space_joints;
+  bool has_planar;   /* a body is planar */
+  bool only_weights; /* all bodies are in space, and nothing else exerts forces */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
   double *points;              /* (pin_count, made even, x 4) points of the pins */
-  int group_count;             /* groups of joints that are not pins of the block */
+  int group_count;             /* groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
+  int rated_count;             /* those whose Phi' comes from J; they are first in the list */
   baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
@@ -41,6 +54,14 @@ struct baum_i_block_path {
   int64_t refinements;
 };
 
+/* The size of the system of a path. */
+typedef struct baum_i_block_size {
+  int nodes;
+  int couplings;
+  int fill;           /* couplings of nodes that share no body */
+  int most_couplings; /* of one node */
+} baum_i_block_size;
+
 /* Create a path for the rows that are omitted now. for_motion: exclude fixed bodies and the rows
  * between them. If blocks do not suit the mechanism, returns BAUM_OK with *out = NULL and the
  * reason in *verdict. Otherwise returns BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK or
@@ -48,6 +69,14 @@ struct baum_i_block_path {
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
+
+/* space_joints.c: find the joints that space_joints_hot.c evaluates and mark them; later set their
+ * constants. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_space_joints_find(const baum_workspace *workspace, baum_i_space *space,
+                                     unsigned char *is_done, baum_i_space_joints *out);
+baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_i_space *space,
+                                    baum_i_space_joints *joints);
+void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
  * They are the same path if no body is fixed. *verdict describes the first. */
@@ -72,11 +101,26 @@ typedef struct baum_i_right_side {
   const double *row_gains;
 } baum_i_right_side;
 
-/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints that are not pins. v may be
+/* The first part of baum_i_block_path_solve(): evaluate a state and write it to the solver. */
+baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_block_path *path,
+                                       double t, const double *q, const double *v,
+                                       const baum_i_right_side *right);
+
+/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints of the path's groups. v may be
  * NULL if the right side does not need it. BAUM_ERR_SINGULAR means that the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
+
+/* With the factors of the last solution: set out (nv) to the smallest vector, in the metric of M,
+ * with J out = r (nc), or to x minus its part in the null space of J. BAUM_ERR_NOT_FINITE: without
+ * a message. */
+baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
+                                        double *out);
+baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
+                                          double *out);
+
+baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
  * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or

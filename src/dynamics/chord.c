@@ -43,10 +43,7 @@ baum_status baum_i_chord_begin(baum_workspace *w, double t, const double *q, bau
 
 static baum_status change_by_blocks(baum_workspace *w, const baum_i_block_path *path)
 {
-  baum_i_block_set_rest(path->block, w->rhs);
-  (void)path->kernel->correct(path->block);
-  bool finite = path->kernel->read_motion(path->block, w->a);
-  return finite ? BAUM_OK : baum_i_report_constraints(w, BAUM_ERR_NOT_FINITE);
+  return baum_i_report_constraints(w, baum_i_block_path_meet_rows(path, w->rhs, w->a));
 }
 
 static baum_status change_by_whole(baum_workspace *w)

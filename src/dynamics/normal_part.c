@@ -13,18 +13,6 @@
 #include <string.h>
 
 #include "dynamics/block_path.h"
-#include "linear/block_pull.h"
-
-/* Set out to `factor` times the solution for the right side in the block. */
-static baum_status solve_by_blocks(const baum_i_block_path *path, double factor, double *out)
-{
-  (void)path->kernel->correct(path->block);
-  bool finite = path->kernel->read_motion(path->block, out);
-  for (int i = 0; i < path->block->structure->nv; i++) {
-    out[i] *= factor;
-  }
-  return finite ? BAUM_OK : BAUM_ERR_NOT_FINITE;
-}
 
 static baum_status solve_whole(baum_workspace *w, const double *rows, double *out)
 {
@@ -39,8 +27,7 @@ baum_status baum_i_normal_part(baum_workspace *w, const double *x, double *out)
     return BAUM_OK;
   }
   if (w->solved_by) {
-    baum_i_block_pull(w->solved_by->block, x);
-    return solve_by_blocks(w->solved_by, -1.0, out);
+    return baum_i_block_path_normal_part(w->solved_by, x, out);
   }
   memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
   baum_i_jacobian_times(&w->structure, w->jacobian, x, w->work_c);
@@ -54,8 +41,7 @@ baum_status baum_i_least_with_rows(baum_workspace *w, const double *rows, double
     return BAUM_OK;
   }
   if (w->solved_by) {
-    baum_i_block_set_rest(w->solved_by->block, rows);
-    return solve_by_blocks(w->solved_by, 1.0, out);
+    return baum_i_block_path_meet_rows(w->solved_by, rows, out);
   }
   return solve_whole(w, rows, out);
 }

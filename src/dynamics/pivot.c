@@ -4,7 +4,8 @@
  * For blocks the measure is the smallest ratio, over all nodes, of det D to the same determinant
  * before the elimination. For a pin the determinant before the elimination is det S, which does not
  * depend on the direction of axes. For other pairs of rows, which may depend on each other, the
- * product of the diagonal entries of S = J M^-1 J^T replaces this determinant. For other solvers
+ * product of the diagonal entries of S = J M^-1 J^T replaces this determinant. In space the node is
+ * a whole joint, and the determinant before is that of its block of S. For other solvers
  * the measure is the reciprocal condition number of the scaled matrix. Both measures are free of
  * units and fall with the square of the distance from a singular configuration. Their sizes differ,
  * so each must be compared with its own usual value. If a body has a small inertia, the block
@@ -26,12 +27,10 @@ static double size_of_pin(const baum_i_block *block, int k)
   return node->size - off * off;
 }
 
-/* Update *smallest and *row if the pivot of a node is smaller. `size` is the determinant of the
- * node before the elimination. NaN, which results from an earlier zero pivot, counts as zero. */
-static void compare_pivot(const baum_i_node *node, double size, int first_row, double *smallest,
-                          int *row)
+/* Update *smallest and *row if the pivot of a node is smaller. NaN, which results from an earlier
+ * zero pivot, counts as zero. */
+static void compare_pivot(double pivot, int first_row, double *smallest, int *row)
 {
-  double pivot = 1.0 / fabs(node->inverse * size);
   pivot = isnan(pivot) ? 0.0 : pivot;
   if (pivot < *smallest) {
     *smallest = pivot;
@@ -46,11 +45,26 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   *row = -1;
   for (int k = 0; k < block->pin_count; k++) {
     const baum_i_node *node = &block->nodes[block->pins[k].node];
-    compare_pivot(node, size_of_pin(block, k), block->pins[k].row, &smallest, row);
+    compare_pivot(1.0 / fabs(node->inverse * size_of_pin(block, k)), block->pins[k].row, &smallest,
+                  row);
   }
   for (int k = 0; k < block->full_count; k++) {
     const baum_i_node *node = &block->nodes[block->fulls[k].node];
-    compare_pivot(node, node->size, block->fulls[k].row[0], &smallest, row);
+    compare_pivot(1.0 / fabs(node->inverse * node->size), block->fulls[k].row[0], &smallest, row);
+  }
+  return smallest;
+}
+
+static double smallest_in_space(const baum_i_space *space, int *row)
+{
+  double smallest = 1.0;
+  *row = -1;
+  for (int k = 0; k < space->node_count; k++) {
+    const double *det = space->measures[k].det;
+    double whole[2];
+    baum_i_space_undivided(space, k, whole);
+    double pivot = fabs(det[0] / whole[0] * (det[1] / whole[1]));
+    compare_pivot(pivot, space->list[k].row[0], &smallest, row);
   }
   return smallest;
 }
@@ -64,7 +78,8 @@ static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *ro
   if (!w->eliminated_by) {
     return false;
   }
-  *pivot = smallest_of_blocks(w->eliminated_by->block, row);
+  const baum_i_block_path *path = w->eliminated_by;
+  *pivot = path->space ? smallest_in_space(path->space, row) : smallest_of_blocks(path->block, row);
   return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
 }
 

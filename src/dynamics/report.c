@@ -95,15 +95,12 @@ static void say_most_joined(const baum_mechanism *m, baum_report *report)
 
 static void report_block(const baum_i_block_path *path, baum_report *report)
 {
-  const baum_i_block *block = path->block;
+  const baum_i_block_size size = baum_i_block_path_size(path);
   report->blocks = true;
-  report->nodes = block->node_count;
-  report->couplings = block->off_count;
-  report->fill = block->zero_count;
-  for (int k = 0; k < block->node_count; k++) {
-    int later = block->order.start[k + 1] - block->order.start[k];
-    report->most_couplings = later > report->most_couplings ? later : report->most_couplings;
-  }
+  report->nodes = size.nodes;
+  report->couplings = size.couplings;
+  report->fill = size.fill;
+  report->most_couplings = size.most_couplings;
   say(report, "fill          %d of %d coupling%s, at most %d of one node", report->fill,
       report->couplings, plural(report->couplings), report->most_couplings);
 }

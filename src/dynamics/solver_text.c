@@ -17,15 +17,14 @@ static int count_joints(const baum_mechanism *m, int body)
 
 static baum_i_text blocks_text(const baum_workspace *w, const baum_i_block_path *path)
 {
-  const baum_i_block *block = path->block;
+  const baum_i_block_size size = baum_i_block_path_size(path);
   baum_i_text fixed = {""};
   if (path->fixed_count > 0) {
     fixed = baum_i_text_of("; %d fixed %s omitted", path->fixed_count,
                            path->fixed_count == 1 ? "body" : "bodies");
   }
-  return baum_i_text_of("blocks, %d %s, %d %s%s%s", block->node_count,
-                        block->node_count == 1 ? "node" : "nodes", block->off_count,
-                        block->off_count == 1 ? "coupling" : "couplings", fixed.text,
+  return baum_i_text_of("blocks, %d %s, %d %s%s%s", size.nodes, size.nodes == 1 ? "node" : "nodes",
+                        size.couplings, size.couplings == 1 ? "coupling" : "couplings", fixed.text,
                         w->blocks_only ? ", no other solver" : "; klu and qr where pivots are bad");
 }
 

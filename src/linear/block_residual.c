@@ -6,31 +6,10 @@
  * Close to a singular configuration both are tiny differences of large numbers, and the multipliers
  * depend on all digits of these differences. The rounding errors of sums and products are therefore
  * added (T. Ogita, S. M. Rump, S. Oishi, 2005, Dot2). */
-#include <math.h>
 #include <string.h>
 
 #include "linear/block.h"
-
-/* An unevaluated sum of two numbers. */
-typedef struct twofold {
-  double high;
-  double low;
-} twofold;
-
-static inline void add(twofold *sum, double x)
-{
-  double high = sum->high + x;
-  double moved = high - sum->high;
-  sum->low += (sum->high - (high - moved)) + (x - moved);
-  sum->high = high;
-}
-
-static inline void subtract_product(twofold *sum, double x, double y)
-{
-  double product = x * y;
-  sum->low -= fma(x, y, -product);
-  add(sum, -product);
-}
+#include "linear/twofold.h"
 
 /* A side of a node, column by column. */
 typedef struct side {
@@ -65,9 +44,9 @@ static void subtract_from_motion(baum_i_block *b, int32_t node, const side *s)
   const double *l = b->nodes[node].lambda;
   for (int c = 0; c < 3; c++) {
     size_t at = (size_t)s->place + (size_t)c;
-    twofold sum = {b->pull[at], b->pull_low[at]};
-    subtract_product(&sum, s->g[2 * c], l[0]);
-    subtract_product(&sum, s->g[2 * c + 1], l[1]);
+    baum_i_twofold sum = {b->pull[at], b->pull_low[at]};
+    baum_i_twofold_subtract_product(&sum, s->g[2 * c], l[0]);
+    baum_i_twofold_subtract_product(&sum, s->g[2 * c + 1], l[1]);
     b->pull[at] = sum.high;
     b->pull_low[at] = sum.low;
   }
@@ -78,9 +57,9 @@ static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
   const double *x = b->motion + s->place;
   for (int r = 0; r < 2; r++) {
     size_t at = 2 * (size_t)node + (size_t)r;
-    twofold sum = {b->rest[at], b->rest_low[at]};
+    baum_i_twofold sum = {b->rest[at], b->rest_low[at]};
     for (int c = 0; c < 3; c++) {
-      subtract_product(&sum, s->g[2 * c + r], x[c]);
+      baum_i_twofold_subtract_product(&sum, s->g[2 * c + r], x[c]);
     }
     b->rest[at] = sum.high;
     b->rest_low[at] = sum.low;
@@ -91,8 +70,8 @@ static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
 static void begin_motion(baum_i_block *b)
 {
   for (int i = 0; i < b->motion_size; i++) {
-    twofold sum = {b->load[i], 0.0};
-    subtract_product(&sum, b->mass[i], b->motion[i]);
+    baum_i_twofold sum = {b->load[i], 0.0};
+    baum_i_twofold_subtract_product(&sum, b->mass[i], b->motion[i]);
     b->pull[i] = sum.high;
     b->pull_low[i] = sum.low;
   }

@@ -164,7 +164,8 @@ static bool finish_all(const measured *all, int count)
   return fine;
 }
 
-/* Returns false if something failed or solvers disagree. */
+/* Measures all solvers on one scene. Returns false if something failed, or if the solvers
+ * disagree. */
 static bool bench_scene(scene_kind kind, int n, bool json)
 {
   scene at;

@@ -3,24 +3,25 @@
  *
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all entries by default
  *
- * A study runs rk8, dp5 and rk4 with every formulation and many steps and tolerances. For each
- * error the table has the cheapest entry by CPU time, from the creation of a run to its end.
+ * A study runs rk8, dp5 and rk4 with every formulation, and with many steps and tolerances. For
+ * each error, the table shows the entry with the smallest CPU time. It is measured from the
+ * creation of a run to its end.
  *
- * Planar problems: errors are those of all positions at 50 samples. bench_work_precision compares
- * one angle of the N-four-bar at ten times, and has more settings, so its cheapest runs cost less.
- * Runs of baum through flat configurations locate and report each flat configuration, which takes a
- * fifth of their time with N = 1 at 1e-4; the other programs do not. The other programs are Exudyn
- * 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE with compiled right-hand sides,
- * and a hand-written RK4.
+ * Planar problems: the errors include all positions, at 50 samples. bench_work_precision compares
+ * only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
+ * therefore cost less. Runs of baum locate and report each flat configuration that they pass
+ * through. For N = 1 and an error of 1e-4, this takes a fifth of their time. The other programs do
+ * not do this. They are Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE
+ * with compiled right-hand sides, and a hand-written RK4.
  *
- * Spatial problems: errors are those of all positions at the end, against the references of the
- * catalogue, and a level counts as reached within 10 %, for all programs. The other programs are
+ * Spatial problems: the errors include all positions at the end, compared with the references of
+ * the catalogue. A level counts as reached within 10 %, for all programs. The other programs are
  * Pinocchio with RK4 and Baumgarte stabilization, MuJoCo with RK4, and Exudyn with
  * generalized-alpha.
  *
- * The times of other programs were measured for this table on similar machines, over whole runs;
- * the table shows the cheapest of them. No command repeats these measurements. Only ratios of 2 and
- * more are significant.
+ * The times of other programs were measured for this table on similar machines. They are the times
+ * of whole runs, and the table shows the cheapest of them. There is no command that repeats these
+ * measurements. Only ratios of 2 or more are significant.
  */
 #include <math.h>
 #include <stdio.h>
@@ -40,10 +41,12 @@ static const double LONGEST = 0.2;
 typedef struct peer {
   const char *entry;
   const char *what;
-  baum_catalog_setting setting; /* the parameter with another value than its default, if any */
-  double span;                  /* [s] */
-  const double *target;         /* (TARGETS) errors */
-  double ms[TARGETS];           /* of the cheapest other program; NaN: none reached the error */
+  /* A parameter that has another value than its default, if there is one. */
+  baum_catalog_setting setting;
+  double span;          /* [s] */
+  const double *target; /* (TARGETS) errors */
+  /* [ms] of the cheapest other program; NaN if none reached the error. */
+  double ms[TARGETS];
 } peer;
 
 static const peer PEERS[] = {
@@ -78,7 +81,7 @@ static const peer PEERS[] = {
 };
 enum { PEER_COUNT = sizeof PEERS / sizeof PEERS[0] };
 
-/* Gives the positions that the catalogue stores for the end of the span. */
+/* Gives the positions at the end of the span, which the catalogue stores, to the study. */
 static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
                             const baum_catalog_choice *choice, double end, double digits)
 {
@@ -95,8 +98,8 @@ static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
   return status;
 }
 
-/* Gives the reference of the catalogue: for spatial problems the end, for planar ones the exact
- * solution if there is one; else the study computes a reference. */
+/* Gives the reference of the catalogue to the study: for spatial problems the end, and for planar
+ * problems the exact solution, if there is one. Otherwise the study computes a reference. */
 static baum_status give_reference(baum_study *study, const baum_mechanism *mechanism,
                                   baum_catalog_choice *choice, const peer *at)
 {

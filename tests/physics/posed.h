@@ -19,7 +19,7 @@ typedef struct posed {
   int32_t nq;
   int32_t nv;
   int32_t nc;
-  double *memory; /* holds the arrays below */
+  double *memory; /* one block of memory for the arrays below */
   double *q;      /* (nq) */
   double *v;      /* (nv) */
   double *a;      /* (nv) as computed by the library */

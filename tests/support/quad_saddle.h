@@ -25,12 +25,13 @@
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *left_out, double *a, double *lambda);
 
-/* The same with r = gamma - 2 gain Phi' - gain^2 Phi in place of gamma; gain [1/s]. */
+/* Computes the same with r = gamma - 2 gain Phi' - gain^2 Phi in place of gamma; gain [1/s]. */
 bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double gain, const unsigned char *left_out,
                                  double *a, double *lambda);
 
-/* Reads the blocks of the workspace instead, for long chains. */
+/* Computes the same accelerations and multipliers for long chains. It reads the blocks of the
+ * workspace instead of dense matrices. */
 bool quad_acceleration_of_blocks(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *a, double *lambda);
 

@@ -21,6 +21,11 @@ static baum_i_spatial_pair pair_at(const baum_i_joint *joint, const baum_i_point
 
 /* ---- rows ---- */
 
+const baum_i_spatial_row *baum_i_spatial_rows_of(const baum_i_joint *joint)
+{
+  return joint->type->evaluate_one == baum_i_spatial_evaluate ? type_of(joint)->rows : NULL;
+}
+
 baum_status baum_i_spatial_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                     const baum_i_rows *out)
 {

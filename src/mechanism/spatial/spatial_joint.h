@@ -34,6 +34,9 @@ typedef struct baum_i_spatial_axis_head {
   BAUM_I_SPATIAL_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "-", 0.0, 0.0, 1.0), \
     BAUM_I_OPTIONAL(DEF, axis_b, POINT, "-")
 
+/* The rows of a joint of such a type; NULL for other joints. */
+const baum_i_spatial_row *baum_i_spatial_rows_of(const baum_i_joint *joint);
+
 /* ---- members of the type struct ---- */
 
 baum_status baum_i_spatial_evaluate(const baum_i_joint *joint, baum_i_point *point,

@@ -42,68 +42,32 @@ static void *plain_create(scene *at)
 
 /* ---- phases ---- */
 
-static bool run_joints(const block_solver *s)
-{
-  baum_workspace *w = s->at->workspace;
-  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = w->gamma};
-  bool done = true;
-  for (int k = 0; k < s->path->group_count && done; k++) {
-    const baum_i_joint_group *group = &s->path->groups[k];
-    done = group->type->evaluate(group, &w->point, &rows) == BAUM_OK;
-  }
-  return done;
-}
-
-static bool run_forces(const block_solver *s)
-{
-  baum_workspace *w = s->at->workspace;
-  if (s->path->force_is_constant) {
-    return true;
-  }
-  bool done = baum_i_mechanism_force(&w->point, w->force) == BAUM_OK;
-  s->path->sides_kernel->set_force(s->path->block, w->force);
-  return done;
-}
-
 static bool run_geometry(const block_solver *s)
 {
-  baum_workspace *w = s->at->workspace;
-  baum_i_point_set(&w->point, 0.0, s->at->q, s->at->v);
-  bool done = run_joints(s) && run_forces(s);
-  const baum_i_pins pins = {.points = s->path->points,
-                            .frames = w->point.frames,
-                            .bending = 1.0,
-                            .damping = 2.0 * SOLVER_GAIN,
-                            .stiffness = SOLVER_GAIN * SOLVER_GAIN,
-                            .phi = w->phi,
-                            .phi_rate = w->phi_rate,
-                            .gamma = w->gamma};
-  s->path->pins_kernel->set(s->path->block, &pins);
-  const baum_i_block_rows rows = {.jacobian = w->jacobian,
-                                  .v = s->at->v,
-                                  .phi = w->phi,
-                                  .nu = w->nu,
-                                  .gamma = w->gamma,
-                                  .bending = pins.bending,
-                                  .damping = pins.damping,
-                                  .stiffness = pins.stiffness,
-                                  .phi_rate = w->phi_rate};
-  s->path->sides_kernel->set(s->path->block, &rows);
-  return done;
+  static const baum_i_right_side right = {.bending = 1.0,
+                                          .damping = 2.0 * SOLVER_GAIN,
+                                          .stiffness = SOLVER_GAIN * SOLVER_GAIN,
+                                          .force = true};
+  return baum_i_block_path_evaluate(s->at->workspace, s->path, 0.0, s->at->q, s->at->v, &right) ==
+         BAUM_OK;
 }
 
 static bool run_phases(const block_solver *s, int last_phase)
 {
-  const baum_i_block_kernel *kernel = s->path->kernel;
+  const baum_i_block_path *path = s->path;
+  double *lambda = s->at->workspace->lambda;
   bool done = run_geometry(s);
   if (done && last_phase >= PHASE_ASSEMBLY) {
-    kernel->couple(s->path->block);
+    path->space ? path->space_kernel->couple(path->space) : path->kernel->couple(path->block);
   }
   if (done && last_phase >= PHASE_FACTOR) {
-    done = kernel->eliminate(s->path->block) != BAUM_I_PIVOTS_BAD;
+    baum_i_pivots pivots = path->space ? path->space_kernel->eliminate(path->space)
+                                       : path->kernel->eliminate(path->block);
+    done = pivots != BAUM_I_PIVOTS_BAD;
   }
   if (done && last_phase >= PHASE_SOLVE) {
-    kernel->substitute(s->path->block, s->at->workspace->lambda);
+    path->space ? path->space_kernel->substitute(path->space, lambda)
+                : path->kernel->substitute(path->block, lambda);
   }
   return done;
 }
@@ -127,18 +91,24 @@ static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;
   baum_i_point *point = &s->at->workspace->point;
-  const baum_i_block_kernel *kernel = s->path->kernel;
-  const baum_i_pins_kernel *pins = s->path->pins_kernel;
-  const baum_i_block_sides_kernel *sides = s->path->sides_kernel;
+  const baum_i_block_path path = *s->path;
   const baum_i_frames_kernel *frames = point->kernel;
   s->path->kernel = &baum_i_block_kernel_plain;
   s->path->pins_kernel = &baum_i_pins_kernel_plain;
   s->path->sides_kernel = &baum_i_block_sides_kernel_plain;
+  s->path->space_kernel = &baum_i_space_kernel_plain;
+  s->path->space_sides = &baum_i_space_sides_kernel_plain;
+  s->path->residual_kernel = &baum_i_space_residual_kernel_plain;
+  s->path->joints_kernel = &baum_i_space_joints_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
   bool done = block_run(self, last_phase);
-  s->path->kernel = kernel;
-  s->path->pins_kernel = pins;
-  s->path->sides_kernel = sides;
+  s->path->kernel = path.kernel;
+  s->path->pins_kernel = path.pins_kernel;
+  s->path->sides_kernel = path.sides_kernel;
+  s->path->space_kernel = path.space_kernel;
+  s->path->space_sides = path.space_sides;
+  s->path->residual_kernel = path.residual_kernel;
+  s->path->joints_kernel = path.joints_kernel;
   point->kernel = frames;
   return done;
 }

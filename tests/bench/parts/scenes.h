@@ -37,7 +37,7 @@ static inline scene_kind scene_of_space(model_spatial which)
   return (scene_kind)(SCENE_SPATIAL + (int)which);
 }
 
-/* Returns false with the reason in baum_message(). */
+/* Makes a scene. If this fails, returns false, and baum_message() gives the reason. */
 bool scene_make(scene_kind kind, int n, scene *out);
 void scene_clear(scene *out);
 

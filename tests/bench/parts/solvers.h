@@ -41,8 +41,8 @@ extern const solver solver_block;
 extern const solver solver_block_plain;
 extern const solver solver_automatic;
 
-/* The k-th solver, k = 0, 1, ...; NULL if k is too large. */
 typedef const solver *solver_list(int k);
+/* Returns solver number k, where k = 0, 1, ... Returns NULL if k is too large. */
 const solver *solver_at(int k);
 /* The solvers of spatial scenes; the first is the one that the library chooses. */
 const solver *solver_in_space_at(int k);

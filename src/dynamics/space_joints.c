@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Finds the joints whose geometry space_joints_hot.c computes, and their constants. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/rotation.h"
+#include "dynamics/block_path.h"
+#include "mechanism/spatial/spatial_joint.h"
+
+enum { NUMBERS = BAUM_I_JOINT_AXES + 8 * BAUM_I_SPACE_ROWS };
+
+static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppdd", "pppddd", "ddss",
+                                                  "ddssd", "dds",  "ss",    "s"};
+
+static char kind_of(baum_i_spatial_row row)
+{
+  if (row.x >= BAUM_I_X_GROUND) {
+    return 'p';
+  }
+  if (row.x >= BAUM_I_X_B) {
+    return '?';
+  }
+  return row.y == BAUM_I_APART ? 's' : 'd';
+}
+
+baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *joint)
+{
+  const baum_i_spatial_row *rows = baum_i_spatial_rows_of(joint);
+  for (int k = 0; rows && k < 2; k++) {
+    int body = joint->span.bodies[k];
+    rows = body == 0 || baum_i_is_spatial(m->bodies[body]->type->frame) ? rows : NULL;
+  }
+  char kinds[BAUM_I_SPACE_ROWS + 1] = {0};
+  for (int i = 0; rows && i < joint->rows; i++) {
+    kinds[i] = kind_of(rows[i]);
+  }
+  int shape = 0;
+  while (shape < BAUM_I_SHAPES && strcmp(kinds, SHAPES[shape]) != 0) {
+    shape++;
+  }
+  return (baum_i_space_shape)shape;
+}
+
+/* Columns of sign [s]x L^-T. */
+static void set_arms(const baum_i_space_body *body, const double s[3], double sign, double out[12])
+{
+  for (int c = 0; c < 3; c++) {
+    const double column[3] = {sign * body->whiten[c], sign * body->whiten[4 + c],
+                              sign * body->whiten[8 + c]};
+    baum_i_cross(s, column, out + (ptrdiff_t)4 * c);
+  }
+}
+
+static void set_numbers(const baum_workspace *w, const baum_i_space *space,
+                        const baum_i_space_joint *joint, double *out)
+{
+  const baum_i_space_node *node = &space->list[joint->node];
+  const baum_i_joint *of = w->mechanism->joints[node->row_block];
+  const baum_i_spatial_row *rows = baum_i_spatial_rows_of(of);
+  const double *numbers = w->point.parameters + of->element.parameter;
+  double *axes = out + BAUM_I_JOINT_AXES;
+  for (int k = 0; k < 2; k++) {
+    const double *s = numbers + BAUM_I_SPATIAL_POINTS + (ptrdiff_t)3 * k;
+    memcpy(out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k, s, 3 * sizeof *s);
+    set_arms(&space->bodies[joint->body[k]], s, k == 0 ? 1.0 : -1.0,
+             out + BAUM_I_JOINT_ARMS + (ptrdiff_t)12 * k);
+  }
+  for (int i = 0; i < node->rows; i++) {
+    out[BAUM_I_JOINT_KEEP + i] = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
+    if (rows[i].x < BAUM_I_X_B) {
+      memcpy(axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)3 * (int)(rows[i].x - BAUM_I_X_A),
+             3 * sizeof *axes);
+      if (rows[i].y < BAUM_I_X_GROUND) {
+        memcpy(axes + 4,
+               numbers + BAUM_I_SPATIAL_AXES_B + (ptrdiff_t)3 * (int)(rows[i].y - BAUM_I_X_B),
+               3 * sizeof *axes);
+      }
+      axes += 8;
+    }
+  }
+}
+
+static int32_t side_on(const baum_i_space *space, const baum_i_space_node *node, int32_t body)
+{
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    if (space->side_list[s].body == body) {
+      return s;
+    }
+  }
+  return -1;
+}
+
+/* By shape, then in the order of elimination. */
+static int by_shape(const void *a, const void *b)
+{
+  const baum_i_space_joint *x = a;
+  const baum_i_space_joint *y = b;
+  return x->shape != y->shape ? x->shape - y->shape : x->node - y->node;
+}
+
+baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *space,
+                                     unsigned char *is_done, baum_i_space_joints *out)
+{
+  const baum_mechanism *m = w->mechanism;
+  out->list = baum_i_alloc((size_t)space->node_count, sizeof *out->list);
+  out->frames = baum_i_alloc((size_t)space->body_count, sizeof *out->frames);
+  if (!out->list || !out->frames) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int c = 0; c < 12; c += 5) {
+    out->frames[0].axes[c] = 1.0;
+  }
+  for (int k = 0; k < space->node_count; k++) {
+    baum_i_space_node *node = &space->list[k];
+    const baum_i_joint *joint = m->joints[node->row_block];
+    baum_i_space_shape shape = baum_i_shape_of(m, joint);
+    node->direct = shape != BAUM_I_SHAPES && node->rows == joint->rows;
+    if (node->direct) {
+      is_done[node->row_block] = 1;
+      const int *bodies = joint->span.bodies;
+      out->list[out->count++] = (baum_i_space_joint){
+        .shape = (int32_t)shape,
+        .node = k,
+        .row = joint->row,
+        .body = {bodies[0], bodies[1]},
+        .side = {side_on(space, node, bodies[0]), side_on(space, node, bodies[1])}};
+    }
+  }
+  qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);
+  return BAUM_OK;
+}
+
+baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space *space,
+                                    baum_i_space_joints *joints)
+{
+  joints->numbers = baum_i_alloc(NUMBERS * (size_t)joints->count, sizeof *joints->numbers);
+  if (!joints->numbers) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int i = 0; i < joints->count; i++) {
+    joints->list[i].numbers = NUMBERS * i;
+    set_numbers(w, space, &joints->list[i], joints->numbers + (ptrdiff_t)NUMBERS * i);
+  }
+  return BAUM_OK;
+}
+
+void baum_i_space_joints_clear(const baum_i_space_joints *joints)
+{
+  baum_i_free(joints->list);
+  baum_i_free(joints->numbers);
+  baum_i_free(joints->frames);
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Computes the frames of bodies in space and the geometry of joints between them in two passes, and
+ * writes it directly to the solver of space. The joints are those of mechanism/spatial/lower_pairs.c
+ * whose rows make points coincide, compare directions or keep a point on a line or plane.
+ */
+#ifndef BAUM_I_DYNAMICS_SPACE_JOINTS_H
+#define BAUM_I_DYNAMICS_SPACE_JOINTS_H
+
+#include "linear/space_block.h"
+#include "mechanism/mechanism.h"
+
+/* Vectors of three numbers are followed by a 0. */
+typedef struct baum_i_space_frame {
+  double axes[12];   /* columns of A */
+  double turned[12]; /* columns of B = A L^-T */
+  double r[4];
+  double v[4];
+  double w[4]; /* angular velocity in ground axes */
+} baum_i_space_frame;
+
+/* Kinds of rows, in their order: p: points coincide (3 rows), d: directions, s: slides. */
+typedef enum baum_i_space_shape {
+  BAUM_I_SHAPE_P,
+  BAUM_I_SHAPE_PD,
+  BAUM_I_SHAPE_PDD,
+  BAUM_I_SHAPE_PDDD,
+  BAUM_I_SHAPE_DDSS,
+  BAUM_I_SHAPE_DDSSD,
+  BAUM_I_SHAPE_DDS,
+  BAUM_I_SHAPE_SS,
+  BAUM_I_SHAPE_S,
+  BAUM_I_SHAPES
+} baum_i_space_shape;
+
+/* The place of constants of a joint among its numbers, in body axes. */
+enum {
+  BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
+  BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
+  BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
+  BAUM_I_JOINT_AXES = 40   /* for each row of kind d or s: the axis on a, and for d that on b */
+};
+
+typedef struct baum_i_space_joint {
+  int32_t shape; /* baum_i_space_shape */
+  int32_t node;
+  int32_t row; /* the first of its rows */
+  int32_t body[2];
+  int32_t side[2]; /* -1: the body is ground */
+  int32_t numbers; /* start of its constants */
+} baum_i_space_joint;
+
+/* The joints of a path, with a frame for each body. */
+typedef struct baum_i_space_joints {
+  int count;
+  baum_i_space_joint *list; /* sorted by shapes */
+  double *numbers;
+  baum_i_space_frame *frames; /* (body_count), ground first */
+} baum_i_space_joints;
+
+/* The shape of a joint, or BAUM_I_SHAPES if J is needed: a body is planar, or rows are others. */
+baum_i_space_shape baum_i_shape_of(const baum_mechanism *mechanism, const baum_i_joint *joint);
+
+/* Input and output. */
+typedef struct baum_i_space_pass {
+  baum_i_space_joints joints;
+  const baum_i_body_place *places; /* (body_count) */
+  const double *q;
+  const double *v;               /* NULL: at rest */
+  double *normalized;            /* (nq) receives q, normalized; NULL: not wanted */
+  baum_i_spatial_frame *spatial; /* (body_count) the same frames for other elements */
+  const double *gravity;         /* NULL: no forces are wanted */
+  const double *moments;         /* (nv) in place of gyroscopic moments, or NULL */
+  double *force;                 /* (nv) receives weights and gyroscopic moments */
+  double bending;                /* r = bending gamma - damping Phi' - stiffness Phi */
+  double damping;
+  double stiffness;
+  double *phi; /* (nc) only rows of the joints are set */
+  double *phi_rate;
+  double *gamma;
+} baum_i_space_pass;
+
+typedef struct baum_i_space_joints_kernel {
+  /* Sets the frames of rigid bodies and particles in space, their forces and a0. */
+  void (*set_bodies)(baum_i_space *space, const baum_i_space_pass *pass);
+  /* Sets sides, r, D and J a0 - r of the joints' nodes, and their rows of Phi, Phi' and gamma. */
+  void (*set_joints)(baum_i_space *space, const baum_i_space_pass *pass);
+} baum_i_space_joints_kernel;
+
+extern const baum_i_space_joints_kernel baum_i_space_joints_kernel_plain;
+extern const baum_i_space_joints_kernel baum_i_space_joints_kernel_wide;
+
+#endif

@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Frames of bodies in space and geometry of joints between them. With a point's arm d = A s, points
+ * x = r + d, e = x_b - x_a and W the angular velocity in ground axes:
+ *
+ *   rows p   Phi = e,      R_k = -+ A_k [s_k]x L_k^-T,                        E = -+ I
+ *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
+ *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
+ *
+ * gamma = -Phi'' without accelerations. For row d, with z = x' - W_b x x and x' = W_a x x, it is
+ * -(W_a x x' + (x' + z) x W_b) . y, and Phi' = z . y.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/space_joints.h"
+#include "linear/space_columns.h"
+
+enum { MOTION = BAUM_I_SPACE_MOTION };
+
+typedef baum_i_four four;
+typedef baum_i_space_column column;
+
+/* ---- bodies ---- */
+
+/* Normalizes a quaternion unless its length is 1 up to rounding. */
+BAUM_I_INLINE void unit(const double *from, double p[4])
+{
+  double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2] + from[3] * from[3];
+  double length = fabs(square - 1.0) <= 8.0 * DBL_EPSILON ? 1.0 : sqrt(square);
+  for (int i = 0; i < 4; i++) {
+    p[i] = length == 1.0 ? from[i] : from[i] / length;
+  }
+}
+
+/* Writes the columns of A for a unit quaternion, and its rows to the other frame. */
+BAUM_I_INLINE void set_axes(const double p[4], four a[3], double rows[9])
+{
+  const double w = p[0], x = p[1], y = p[2], z = p[3];
+  const double s[9] = {
+    1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
+    2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
+    2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    a[c] = baum_i_four_set(s[c], s[3 + c], s[6 + c], 0.0);
+  }
+  memcpy(rows, s, sizeof s);
+}
+
+BAUM_I_INLINE four three(const double *from)
+{
+  return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
+}
+
+/* A x */
+BAUM_I_INLINE four turned(const double *axes, const double *x)
+{
+  four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
+  sum = baum_i_four_add(sum, baum_i_four_load(axes + 4), x[1]);
+  return baum_i_four_add(sum, baum_i_four_load(axes + 8), x[2]);
+}
+
+/* Sets the force on a body in space, and a0. */
+BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const double *w,
+                             const baum_i_space_pass *pass)
+{
+  const baum_i_space_body *own = &b->bodies[body];
+  ptrdiff_t first = pass->places[body].v;
+  double *f = b->force + (ptrdiff_t)MOTION * body;
+  double *a0 = b->free + (ptrdiff_t)MOTION * body;
+  four push = baum_i_four_times(three(pass->gravity), baum_i_four_all(own->heft));
+  four turn = baum_i_four_zero();
+  baum_i_store(pass->force + first, baum_i_four_low(push));
+  pass->force[first + 2] = baum_i_four_high(push)[0];
+  if (rigid && w) {
+    four momentum = turned(own->inertia, w);
+    turn = baum_i_four_cross(momentum, three(w));
+  }
+  if (rigid && pass->moments) {
+    turn = three(pass->moments + first + 3);
+  }
+  if (rigid) {
+    baum_i_store(pass->force + first + 3, baum_i_four_low(turn));
+    pass->force[first + 5] = baum_i_four_high(turn)[0];
+  }
+  double moment[4];
+  baum_i_four_store(moment, turn);
+  four white = turned(own->whiten, moment);
+  baum_i_four_store(f, baum_i_four_times(push, baum_i_four_all(own->mass > 0.0 ? 1.0 : 0.0)));
+  baum_i_four_store(a0, baum_i_four_times(push, baum_i_four_load(own->weight)));
+  baum_i_four_store(f + 4, white);
+  baum_i_four_store(a0 + 4, white);
+}
+
+BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
+{
+  const baum_i_body_place *place = &pass->places[body];
+  const double *white = b->bodies[body].whiten;
+  const double *q = pass->q + place->q;
+  const double *v = pass->v ? pass->v + place->v : NULL;
+  bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
+  baum_i_space_frame *to = &pass->joints.frames[body];
+  baum_i_spatial_frame *other = &pass->spatial[body];
+  double p[4] = {1.0, 0.0, 0.0, 0.0};
+  if (rigid) {
+    unit(q + 3, p);
+  }
+  if (pass->normalized) {
+    memcpy(pass->normalized + place->q, q, 3 * sizeof *q);
+    memcpy(pass->normalized + place->q + 3, p, (rigid ? sizeof p : 0));
+  }
+  four a[3];
+  set_axes(p, a, other->axes);
+  four r = three(q);
+  four w = baum_i_four_zero();
+  four velocity = three(v);
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) { /* L^-T is upper triangular */
+    four sum = baum_i_four_times(a[0], baum_i_four_all(white[c]));
+    for (int k = 1; k <= c; k++) {
+      sum = baum_i_four_add(sum, a[k], white[4 * k + c]);
+    }
+    baum_i_four_store(to->axes + (ptrdiff_t)4 * c, a[c]);
+    baum_i_four_store(to->turned + (ptrdiff_t)4 * c, sum);
+    w = rigid && v ? baum_i_four_add(w, a[c], v[3 + c]) : w;
+  }
+  baum_i_four_store(to->r, r);
+  baum_i_four_store(to->v, velocity);
+  baum_i_four_store(to->w, w);
+  /* each of these stores is partly overwritten by the next */
+  baum_i_four_store(other->r, r);
+  baum_i_four_store(other->v, velocity);
+  baum_i_store(other->w, baum_i_four_low(w));
+  other->w[2] = baum_i_four_high(w)[0];
+  if (pass->gravity) {
+    set_force(b, body, rigid, v ? v + 3 : NULL, pass);
+  }
+}
+
+static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
+{
+  const baum_i_space_pass at = *pass;
+  for (int i = 1; i < b->body_count; i++) {
+    if (baum_i_is_spatial((baum_i_frame_kind)at.places[i].kind)) {
+      set_body(b, i, &at);
+    }
+  }
+}
+
+/* ---- joints ---- */
+
+/* What the body of one side contributes. */
+typedef struct marker {
+  four arm;   /* d */
+  four place; /* r + d */
+  four rate;
+  four bend; /* W x (W x d) */
+} marker;
+
+BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
+{
+  marker m;
+  four w = baum_i_four_load(f->w);
+  m.arm = turned(f->axes, s);
+  four swing = baum_i_four_cross(w, m.arm);
+  m.place = baum_i_four_plus(baum_i_four_load(f->r), m.arm);
+  m.rate = baum_i_four_plus(baum_i_four_load(f->v), swing);
+  m.bend = baum_i_four_cross(w, swing);
+  return m;
+}
+
+/* All rows of a joint: columns of R and E of both sides, and right sides. */
+typedef struct rows {
+  column turn[2][3];
+  column move[3]; /* E_b = -E_a, only rows s */
+  column phi;
+  column rate;
+  column gamma;
+} rows;
+
+BAUM_I_INLINE void put(column *x, int i, double s)
+{
+  if (i < 4) {
+    x->low = baum_i_four_put(x->low, i, s);
+  } else {
+    x->high = i == 4 ? (baum_i_pair){s, x->high[1]} : (baum_i_pair){x->high[0], s};
+  }
+}
+
+/* Row i of kind d or s. */
+BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                           const double *axes, double keep, bool slides, const marker m[2], int i,
+                           rows *out)
+{
+  four w = baum_i_four_load(f->w);
+  four u = baum_i_four_load(g->w);
+  four x = turned(f->axes, axes);
+  four x1 = baum_i_four_cross(w, x);
+  four x2 = baum_i_four_cross(w, x1);
+  four t[2];
+  four sums[2][4];
+  four bend;
+  if (slides) {
+    four e = baum_i_four_minus(m[1].place, m[0].place);
+    four e1 = baum_i_four_minus(m[1].rate, m[0].rate);
+    four e2 = baum_i_four_minus(m[1].bend, m[0].bend);
+    t[0] = baum_i_four_cross(x, baum_i_four_plus(e, m[0].arm));
+    t[1] = baum_i_four_cross(m[1].arm, x);
+    sums[0][3] = baum_i_four_times(x, e);
+    sums[1][3] = baum_i_four_plus(baum_i_four_times(x1, e), baum_i_four_times(x, e1));
+    bend = baum_i_four_plus(baum_i_four_times(x2, e), baum_i_four_times(x, e2));
+    bend = baum_i_four_plus(bend, baum_i_four_times(baum_i_four_plus(x1, x1), e1));
+    four kept = baum_i_four_times(x, baum_i_four_all(keep));
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      put(&out->move[c], i, baum_i_four_get(kept, c));
+    }
+  } else {
+    four y = turned(g->axes, axes + 4);
+    four z = baum_i_four_minus(x1, baum_i_four_cross(u, x));
+    four v = baum_i_four_plus(x2, baum_i_four_cross(baum_i_four_plus(x1, z), u));
+    t[0] = baum_i_four_cross(x, y);
+    t[1] = baum_i_four_minus(baum_i_four_zero(), t[0]);
+    sums[0][3] = baum_i_four_times(x, y);
+    sums[1][3] = baum_i_four_times(z, y);
+    bend = baum_i_four_times(v, y);
+  }
+  BAUM_I_UNROLL(2)
+  for (int k = 0; k < 2; k++) {
+    const double *b = (k == 0 ? f : g)->turned;
+    t[k] = baum_i_four_times(t[k], baum_i_four_all(keep));
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      sums[k][c] = baum_i_four_times(t[k], baum_i_four_load(b + 4 * c));
+    }
+    four row = baum_i_four_sums(sums[k]);
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      put(&out->turn[k][c], i, baum_i_four_get(row, c));
+    }
+    put(k == 0 ? &out->phi : &out->rate, i, baum_i_four_get(row, 3));
+  }
+  put(&out->gamma, i, -baum_i_four_sum(bend));
+}
+
+/* Stores the first n numbers of a column. */
+BAUM_I_INLINE void store_rows(double *to, column x, int n)
+{
+  if (n >= 4) {
+    baum_i_four_store(to, x.low);
+  } else if (n >= 2) {
+    baum_i_store(to, baum_i_four_low(x.low));
+  }
+  if (n == 3) {
+    to[2] = baum_i_four_high(x.low)[0];
+  } else if (n == 1) {
+    to[0] = baum_i_four_low(x.low)[0];
+  } else if (n == 5) {
+    to[4] = x.high[0];
+  } else if (n == 6) {
+    baum_i_store(to + 4, x.high);
+  }
+}
+
+/* r, J a0 - r, and the joint's rows of the workspace. */
+BAUM_I_INLINE void set_rights(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                              bool points, bool slides, const rows *row,
+                              const baum_i_space_pass *at)
+{
+  bool tall = n > 4;
+  double *to = b->nodes + b->list[joint->node].at;
+  const double *keep = at->joints.numbers + joint->numbers + BAUM_I_JOINT_KEEP;
+  const double *free[2] = {b->from + (ptrdiff_t)MOTION * joint->body[0],
+                           b->from + (ptrdiff_t)MOTION * joint->body[1]};
+  column right = baum_i_column_times(row->gamma, at->bending, tall);
+  right = baum_i_column_subtract(right, row->rate, at->damping, tall);
+  right = baum_i_column_subtract(right, row->phi, at->stiffness, tall);
+  column kept = baum_i_column_load(keep, 1, 0, tall);
+  right.low = baum_i_four_times(right.low, kept.low);
+  right.high = tall ? right.high * kept.high : right.high;
+  four apart = baum_i_four_minus(baum_i_four_load(free[1]), baum_i_four_load(free[0]));
+  column sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}};
+  sum = baum_i_column_subtract(sum, right, 1.0, tall);
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    sum = baum_i_column_add(sum, row->turn[0][c], free[0][4 + c], tall);
+    sum = baum_i_column_add(sum, row->turn[1][c], free[1][4 + c], tall);
+    if (slides) {
+      sum = baum_i_column_add(sum, row->move[c], baum_i_four_get(apart, c), tall);
+    }
+  }
+  baum_i_column_store(to, 1, 0, tall, sum);
+  baum_i_column_store(to + baum_i_space_vector(n), 1, 0, tall, right);
+  store_rows(at->phi + joint->row, row->phi, n);
+  store_rows(at->phi_rate + joint->row, row->rate, n);
+  store_rows(at->gamma + joint->row, row->gamma, n);
+}
+
+BAUM_I_INLINE void store_sides(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                               bool slides, const rows *row)
+{
+  bool tall = n > 4;
+  BAUM_I_UNROLL(2)
+  for (int k = 0; k < 2; k++) {
+    if (joint->side[k] < 0) {
+      continue;
+    }
+    const baum_i_space_side *side = &b->side_list[joint->side[k]];
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      baum_i_column_store(b->sides + side->turn, 3, c, tall, row->turn[k][c]);
+      if (slides) {
+        column move = baum_i_column_times(row->move[c], k == 0 ? -1.0 : 1.0, tall);
+        baum_i_column_store(b->sides + side->move, 3, c, tall, move);
+      }
+    }
+  }
+}
+
+/* D; the sides must have been stored. */
+BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             bool points, bool slides, const rows *row, const baum_i_space_pass *at)
+{
+  const double *keep = at->joints.numbers + joint->numbers + BAUM_I_JOINT_KEEP;
+  double *d = b->nodes + b->list[joint->node].at + baum_i_space_pivot(n);
+  double weight = b->bodies[joint->body[0]].weight[0] + b->bodies[joint->body[1]].weight[0];
+  int32_t any = joint->side[joint->side[0] < 0 ? 1 : 0];
+  const double *move = b->sides + b->side_list[any].move;
+  column sums[BAUM_I_SPACE_ROWS];
+  BAUM_I_UNROLL(6)
+  for (int j = 0; j < n; j++) {
+    sums[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
+    put(&sums[j], j, (points && j < 3 ? weight : 0.0) + 1.0 - keep[j]);
+    BAUM_I_UNROLL(3)
+    for (int c = 0; slides && c < 3; c++) {
+      double s = weight * move[baum_i_column_entry(3, j, c)];
+      s = joint->side[0] < 0 ? s : -s; /* E_a = -move */
+      sums[j] = baum_i_column_add(sums[j], row->move[c], s, j >= 4);
+    }
+  }
+  BAUM_I_UNROLL(2)
+  for (int k = 0; k < 2; k++) {
+    if (joint->side[k] < 0) {
+      continue;
+    }
+    const double *turn = b->sides + b->side_list[joint->side[k]].turn;
+    BAUM_I_UNROLL(6)
+    for (int j = 0; j < n; j++) {
+      BAUM_I_UNROLL(3)
+      for (int c = 0; c < 3; c++) {
+        double s = turn[baum_i_column_entry(3, j, c)];
+        sums[j] = baum_i_column_add(sums[j], row->turn[k][c], s, j >= 4);
+      }
+    }
+  }
+  baum_i_space_measure *measure = &b->measures[joint->node];
+  measure->size[0] = 1.0;
+  measure->size[1] = 1.0;
+  BAUM_I_UNROLL(6)
+  for (int j = 0; j < n; j++) {
+    baum_i_four_store(d + (ptrdiff_t)4 * j, sums[j].low);
+    if (j >= 4) {
+      baum_i_store(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), sums[j].high);
+    }
+    measure->size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(sums[j].low, j) : sums[j].high[j - 4];
+  }
+}
+
+/* A joint of n rows. points: the first three are of kind p; slides: a bit for each row of kind
+ * s. */
+BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             bool points, unsigned slides, const baum_i_space_pass *at)
+{
+  const baum_i_space_frame *f = &at->joints.frames[joint->body[0]];
+  const baum_i_space_frame *g = &at->joints.frames[joint->body[1]];
+  const double *numbers = at->joints.numbers + joint->numbers;
+  const double *axes = numbers + BAUM_I_JOINT_AXES;
+  const double *keep = numbers + BAUM_I_JOINT_KEEP;
+  const column zero = {baum_i_four_zero(), {0.0, 0.0}};
+  rows row = {{{zero, zero, zero}, {zero, zero, zero}}, {zero, zero, zero}, zero, zero, zero};
+  const marker m[2] = {marker_on(f, numbers), marker_on(g, numbers + 4)};
+  if (points) {
+    row.phi.low = baum_i_four_minus(m[1].place, m[0].place);
+    row.rate.low = baum_i_four_minus(m[1].rate, m[0].rate);
+    row.gamma.low = baum_i_four_minus(m[0].bend, m[1].bend);
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      const double *arms = numbers + BAUM_I_JOINT_ARMS + 4 * c;
+      row.turn[0][c].low = turned(f->axes, arms);
+      row.turn[1][c].low = turned(g->axes, arms + 12);
+    }
+  }
+  BAUM_I_UNROLL(6)
+  for (int i = points ? 3 : 0; i < n; i++) {
+    set_row(f, g, axes, keep[i], (slides >> i & 1u) != 0, m, i, &row);
+    axes += 8;
+  }
+  store_sides(b, joint, n, slides != 0, &row);
+  set_rights(b, joint, n, points, slides != 0, &row, at);
+  set_pivot(b, joint, n, points, slides != 0, &row, at);
+}
+
+static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
+{
+  const baum_i_space_pass at = *pass;
+  const baum_i_space_joint *end = at.joints.list + at.joints.count;
+  for (const baum_i_space_joint *joint = at.joints.list; joint < end; joint++) {
+    switch ((baum_i_space_shape)joint->shape) {
+    case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, &at); break;
+    case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, &at); break;
+    case BAUM_I_SHAPE_PDD: set_joint(b, joint, 5, true, 0, &at); break;
+    case BAUM_I_SHAPE_PDDD: set_joint(b, joint, 6, true, 0, &at); break;
+    case BAUM_I_SHAPE_DDSS: set_joint(b, joint, 4, false, 0xc, &at); break;
+    case BAUM_I_SHAPE_DDSSD: set_joint(b, joint, 5, false, 0xc, &at); break;
+    case BAUM_I_SHAPE_DDS: set_joint(b, joint, 3, false, 0x4, &at); break;
+    case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, &at); break;
+    case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, &at); break;
+    case BAUM_I_SHAPES:
+    default: break;
+    }
+  }
+}
+
+const baum_i_space_joints_kernel BAUM_I_HOT(baum_i_space_joints_kernel) = {
+  .set_bodies = set_bodies, .set_joints = set_joints};

@@ -1,0 +1,274 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Block solver for mechanisms in space: memory, masses, and other right sides. */
+#include "linear/space_block.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+/* The determinants are products of up to three ratios, each of which is a few hundredths in healthy
+ * loops, so this limit is lower than that of block.c. many_nodes is the same. */
+static const double weak_pivot = 1e-3;
+static const double many_nodes = 128.0;
+
+/* ---- memory ---- */
+
+typedef struct array {
+  void *place; /* address of the pointer to the array */
+  size_t count;
+} array;
+
+enum { ARRAY_COUNT = 12, LINE = 8 /* doubles in a cache line */ };
+
+/* Each array begins on a cache line, and no two at a distance of whole pages. */
+static size_t padded(size_t count)
+{
+  enum { PAGE = 512 };
+  size_t lines = (count + LINE - 1) / LINE * LINE;
+  return lines % PAGE == 0 ? lines + LINE : lines;
+}
+
+static baum_status make_arrays(baum_i_space *b)
+{
+  size_t motion = BAUM_I_SPACE_MOTION * (size_t)b->body_count;
+  size_t nodes = (size_t)b->node_count;
+  size_t rows = (size_t)b->numbers_of_rows;
+  const array list[ARRAY_COUNT] = {
+    {&b->sides, (size_t)b->numbers_of_sides},
+    {&b->nodes, (size_t)b->numbers_of_nodes},
+    {&b->measures, sizeof(baum_i_space_measure) / sizeof(double) * nodes},
+    {&b->off, (size_t)b->numbers_off},
+    {&b->free, motion},
+    {&b->motion, motion},
+    {&b->force, motion},
+    {&b->nothing, motion},
+    {&b->pull, motion},
+    {&b->pull_low, motion},
+    {&b->rest, rows},
+    {&b->rest_low, rows},
+  };
+  size_t sum = LINE;
+  for (int i = 0; i < ARRAY_COUNT; i++) {
+    sum += padded(list[i].count);
+  }
+  b->numbers = baum_i_alloc(sum, sizeof *b->numbers);
+  if (!b->numbers) {
+    return BAUM_ERR_MEMORY;
+  }
+  size_t over = (uintptr_t)b->numbers / sizeof(double) % LINE;
+  double *next = b->numbers + (over > 0 ? LINE - over : 0);
+  for (int i = 0; i < ARRAY_COUNT; i++) {
+    memcpy(list[i].place, &next, sizeof next);
+    next += padded(list[i].count);
+  }
+  for (int c = 0; c < 3; c++) {
+    b->sides[5 * c] = 1.0; /* E = I and E = -I, see space_structure.c */
+    b->sides[20 + 5 * c] = -1.0;
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, baum_i_space **out)
+{
+  *out = NULL;
+  baum_i_space *b = baum_i_alloc(1, sizeof *b);
+  if (!b) {
+    return BAUM_ERR_MEMORY;
+  }
+  b->structure = layout->structure;
+  b->hub = -1;
+  baum_status status = baum_i_space_find_structure(layout, b);
+  *hub = b->hub;
+  if (status == BAUM_OK) {
+    status = make_arrays(b);
+  }
+  if (status != BAUM_OK) {
+    baum_i_space_destroy(b);
+    return status;
+  }
+  double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
+  b->weak_pivot = weak_pivot * few * sqrt(few);
+  baum_i_space_use_force(b, true);
+  *out = b;
+  return BAUM_OK;
+}
+
+void baum_i_space_destroy(baum_i_space *space)
+{
+  if (!space) {
+    return;
+  }
+  const void *arrays[] = {space->bodies,    space->list,  space->side_list, space->pairs,
+                          space->couplings, space->zeros, space->targets,   space->numbers};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+    baum_i_free(arrays[i]);
+  }
+  baum_i_elimination_clear(&space->order);
+  baum_i_free(space);
+}
+
+void baum_i_space_use_force(baum_i_space *space, bool use)
+{
+  space->from = use ? space->free : space->nothing;
+  space->load = use ? space->force : space->nothing;
+}
+
+/* ---- masses ---- */
+
+/* Sets L^T and L^-T of the tensor I = L L^T (3 x 3, at distance `stride` of rows). */
+static bool whiten(const double *tensor, int stride, baum_i_space_body *body)
+{
+  double l[9] = {0.0};
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j <= i; j++) {
+      double sum = tensor[i * stride + j];
+      for (int k = 0; k < j; k++) {
+        sum -= l[3 * i + k] * l[3 * j + k];
+      }
+      /* After strong cancellation the diagonal entry is only a rounding error. */
+      if (i == j && !(sum > 1e-14 * tensor[i * stride + i])) {
+        return false;
+      }
+      l[3 * i + j] = i == j ? sqrt(sum) : sum / l[4 * j];
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < 3; j++) {
+      body->unwhite[3 * i + j] = l[3 * j + i];
+    }
+  }
+  for (int c = 0; c < 3; c++) { /* L^T x = e_c */
+    for (int i = 2; i >= 0; i--) {
+      double sum = i == c ? 1.0 : 0.0;
+      for (int k = i + 1; k < 3; k++) {
+        sum -= l[3 * k + i] * body->whiten[4 * k + c];
+      }
+      body->whiten[4 * i + c] = sum / l[4 * i];
+    }
+  }
+  return true;
+}
+
+static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_space_body *body)
+{
+  const double *m = mass + block->value;
+  int n = block->size;
+  bool positive = m[0] > 0.0;
+  body->mass = m[0];
+  for (int i = 0; i < 3; i++) {
+    body->weight[i] = 1.0 / m[0];
+  }
+  if (n == 6) {
+    positive = whiten(m + 21, 6, body) && positive;
+  } else if (n == 3 && body->slots[2] == 5) {
+    positive = positive && m[8] > 0.0;
+    body->unwhite[8] = sqrt(m[8]);
+    body->whiten[10] = 1.0 / body->unwhite[8];
+  }
+  return positive;
+}
+
+int baum_i_space_set_mass(baum_i_space *space, const double *mass)
+{
+  for (int i = 0; i < space->structure->mass_block_count; i++) {
+    const baum_i_mass_block *block = &space->structure->mass_blocks[i];
+    baum_i_space_body *body = &space->bodies[1 + i];
+    body->heft = mass[block->value];
+    for (int c = 0; block->size == 6 && c < 9; c++) {
+      body->inertia[c / 3 * 4 + c % 3] = mass[block->value + 21 + c / 3 * 6 + c % 3];
+    }
+    if (!body->fixed && !set_body(block, mass, body)) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+/* ---- other right sides ---- */
+
+static void clear(baum_i_space *b)
+{
+  size_t motion = BAUM_I_SPACE_MOTION * (size_t)b->body_count;
+  memset(b->motion, 0, motion * sizeof *b->motion);
+  memset(b->pull, 0, motion * sizeof *b->pull);
+  memset(b->rest, 0, (size_t)b->numbers_of_rows * sizeof *b->rest);
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    memset(b->nodes + node->at, 0, (size_t)baum_i_space_vector(node->rows) * sizeof *b->nodes);
+  }
+}
+
+void baum_i_space_set_rest(baum_i_space *space, const double *r)
+{
+  clear(space);
+  for (int k = 0; k < space->node_count; k++) {
+    const baum_i_space_node *node = &space->list[k];
+    for (int i = 0; i < node->rows; i++) {
+      bool omitted = (node->omitted >> i & 1u) != 0;
+      space->rest[node->place + i] = omitted ? 0.0 : r[node->row[i]];
+    }
+  }
+}
+
+void baum_i_space_pull(baum_i_space *space, const double *x)
+{
+  clear(space);
+  for (int t = 1; t < space->body_count; t++) {
+    const baum_i_space_body *body = &space->bodies[t];
+    double six[6] = {0.0};
+    double *pull = space->pull + (ptrdiff_t)BAUM_I_SPACE_MOTION * t;
+    for (int c = 0; body->mass > 0.0 && c < body->size; c++) {
+      six[body->slots[c]] = x[body->first + c];
+    }
+    for (int i = 0; i < 3; i++) {
+      pull[i] = six[i];
+      for (int c = 0; c < 3; c++) {
+        pull[4 + i] += body->unwhite[3 * i + c] * six[3 + c];
+      }
+    }
+  }
+  for (int i = 0; i < BAUM_I_SPACE_MOTION * space->body_count; i++) {
+    space->motion[i] = -space->pull[i];
+  }
+}
+
+/* ---- pivots ---- */
+
+static double entry(const baum_i_space *b, int32_t part, int row, int column)
+{
+  return b->sides[part + (row < 4 ? 4 * column + row : 12 + 2 * column + row - 4)];
+}
+
+void baum_i_space_undivided(const baum_i_space *space, int node, double det[2])
+{
+  const baum_i_space_node *at = &space->list[node];
+  int n = at->rows;
+  double s[BAUM_I_SPACE_ROWS][BAUM_I_SPACE_ROWS] = {{0.0}};
+  for (int i = 0; i < n; i++) {
+    s[i][i] = at->omitted >> i & 1u;
+  }
+  for (int k = at->first_side; k < at->first_side + at->side_count; k++) {
+    const baum_i_space_side *side = &space->side_list[k];
+    double w = space->bodies[side->body].weight[0];
+    for (int i = 0; i < n; i++) {
+      for (int j = 0; j <= i; j++) {
+        for (int c = 0; c < 3; c++) {
+          s[i][j] += w * entry(space, side->move, i, c) * entry(space, side->move, j, c) +
+                     entry(space, side->turn, i, c) * entry(space, side->turn, j, c);
+        }
+      }
+    }
+  }
+  det[0] = 1.0;
+  det[1] = 1.0;
+  for (int k = 0; k < n; k++) {
+    det[k < 3 ? 0 : 1] *= s[k][k];
+    for (int i = k + 1; i < n; i++) {
+      double factor = s[i][k] / s[k][k];
+      for (int j = k + 1; j <= i; j++) {
+        s[i][j] -= factor * s[j][k];
+      }
+    }
+  }
+}

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Solves the saddle-point system of mechanisms in space by its Schur complement S (block.h does so
+ * for planar mechanisms):
+ *
+ *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
+ *
+ * A *node* is one joint, or up to six of its rows; omitted rows belong to no node. Rotations are
+ * *whitened*: with the tensor I = L L^T, the unknowns of a body are the acceleration x of its
+ * origin and y = L^T w', for which W is 1 / m and 1. The rows of a node on one body are a *side*
+ * [E | R] of n x 3 blocks: E on x, R = (rows on w') L^-T on y. Then
+ *
+ *   S_nk = +- sum over shared bodies of E_n E_k^T / m + R_n R_k^T
+ *
+ * The first three rows of many joints make two points coincide. Their E is +I or -I, and E of the
+ * rows that compare directions is 0. Such a side is *lean*: only R is stored. A planar body is a
+ * body whose E has no third column and whose R has only the third. Body 0 is the ground, W = 0.
+ *
+ * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
+ * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
+ * eight numbers. Numbers are loaded in the units in which they were stored, because a load waits
+ * for a narrower store before it. */
+#ifndef BAUM_I_LINEAR_SPACE_BLOCK_H
+#define BAUM_I_LINEAR_SPACE_BLOCK_H
+
+#include "linear/block.h"
+
+enum { BAUM_I_SPACE_ROWS = 6, BAUM_I_SPACE_MOTION = 8 /* x, 0, y, 0 of a body */ };
+
+/* What the columns of a body are. */
+typedef enum baum_i_space_kind {
+  BAUM_I_SPACE_BODY,
+  BAUM_I_SPACE_PARTICLE,
+  BAUM_I_SPACE_PLANAR_BODY,
+  BAUM_I_SPACE_PLANAR_PARTICLE
+} baum_i_space_kind;
+
+/* The system. The structure must outlive the solver. */
+typedef struct baum_i_space_layout {
+  const baum_i_kkt_structure *structure;
+  const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
+  /* (row_block_count) number of the body (0: ground) whose E is -I, if the first three rows make
+   * points of two rigid bodies or particles in space coincide and all other rows compare
+   * directions; -1: other rows */
+  const int *pinned;
+  /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
+   * that its size is that of the joint */
+  const unsigned char *whole;
+  const unsigned char *omitted; /* (nc) */
+  const unsigned char *fixed;   /* (mass_block_count) non-zero: a = 0 */
+} baum_i_space_layout;
+
+typedef struct baum_i_space_node {
+  int32_t rows;                   /* n */
+  int32_t row[BAUM_I_SPACE_ROWS]; /* rows of the system */
+  uint32_t omitted;               /* a bit for each row of zeros */
+  int32_t row_block;
+  int32_t at;    /* start of its numbers in nodes[]: lambda, r, D */
+  int32_t place; /* start of its vectors in rest[] */
+  int32_t first_side;
+  int32_t side_count;
+  bool lean;   /* all sides are lean */
+  bool direct; /* the caller sets its sides, Phi', r and D; otherwise they come from J */
+} baum_i_space_node;
+
+typedef struct baum_i_space_side {
+  int32_t body;
+  int32_t move; /* start of E in sides[] */
+  int32_t turn; /* start of R */
+  int32_t sign; /* lean: E = +I or -I; 0: E is stored */
+  /* column in the row block of each of the six columns of [E | R]; -1: none */
+  int32_t from[BAUM_I_SPACE_ROWS];
+} baum_i_space_side;
+
+/* Two nodes that share a body: first the one that is eliminated later. */
+typedef struct baum_i_space_pair {
+  int32_t to;   /* start of their block in off[] */
+  int32_t adds; /* 0: the first pair of this block, which sets it */
+  int32_t body;
+  int32_t sign; /* both sides are lean: product of their signs; otherwise 0 */
+  int32_t rows[2];
+  int32_t move[2];
+  int32_t turn[2];
+} baum_i_space_pair;
+
+/* A coupling of a node with one that is eliminated later. */
+typedef struct baum_i_space_coupling {
+  int32_t later;
+  int32_t at; /* start of its block in off[] */
+} baum_i_space_coupling;
+
+/* Pivots of a node: determinants of its first block, of up to three rows, and of the second after
+ * the elimination of the first. */
+typedef struct baum_i_space_measure {
+  double det[2];
+  double size[2]; /* products of the diagonal entries of S */
+} baum_i_space_measure;
+
+/* Constants of a body. */
+typedef struct baum_i_space_body {
+  double weight[4];   /* 1 / m, three times, and 0 */
+  double whiten[12];  /* L^-T, row-major, each row followed by 0 */
+  double inertia[12]; /* I likewise */
+  double unwhite[9];  /* L^T, row-major */
+  double mass;        /* 0: W = 0 */
+  double heft;        /* its mass, even if it is fixed */
+  bool fixed;         /* W = 0 */
+  int32_t first;      /* its first column */
+  int32_t size;
+  const int32_t *slots; /* (size) the place of each of its columns in [E | R] */
+} baum_i_space_body;
+
+typedef struct baum_i_space {
+  const baum_i_kkt_structure *structure;
+  baum_i_elimination order;
+  int body_count; /* with ground */
+  int node_count;
+  int side_count;
+  int pair_count;
+  int coupling_count;
+  int zero_count;
+  int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
+  int hub; /* mass block with too many sides; -1: none */
+  /* pivots are weak if a determinant of a node is below this fraction of the product of the diagonal
+   * entries of S */
+  double weak_pivot;
+  double weakest; /* the smallest fraction, if pivots are weak */
+
+  baum_i_space_body *bodies;        /* (body_count) */
+  baum_i_space_node *list;          /* (node_count) in the order of elimination */
+  baum_i_space_side *side_list;     /* (side_count) */
+  baum_i_space_pair *pairs;         /* (pair_count) ascending in `to` */
+  baum_i_space_coupling *couplings; /* (coupling_count) */
+  int32_t *zeros;                   /* (zero_count x 2) start and length of blocks in off[] that no
+                                     * pair sets */
+  int32_t *targets; /* starts in off[] of blocks that receive products of couplings */
+
+  double *numbers;                /* memory of all arrays below */
+  double *sides;                  /* constants (structure.c), then E and R of all sides */
+  double *nodes;                  /* lambda, r, and D, later its factors */
+  baum_i_space_measure *measures; /* (node_count) */
+  double *off;     /* S below the diagonal, then U = S D^-1 without the last factor of D */
+  double *free;    /* (body_count x 8) a0 */
+  double *motion;  /* a */
+  double *force;   /* f, whitened */
+  double *nothing; /* zeros */
+  double *pull;    /* W (f - M a - J^T lambda) */
+  double *pull_low;
+  double *rest; /* (numbers_of_rows) r - J a */
+  double *rest_low;
+  const double *from; /* a0 of the present right-hand side: free or nothing */
+  const double *load; /* f of the present right-hand side: force or nothing */
+} baum_i_space;
+
+/* Number of entries of a vector of n rows, and of a matrix with three columns. */
+static inline int baum_i_space_vector(int rows)
+{
+  return rows > 4 ? 8 : 4;
+}
+
+static inline int baum_i_space_part(int rows)
+{
+  return rows > 4 ? 20 : 12;
+}
+
+/* Start of D in the numbers of a node. */
+static inline int baum_i_space_pivot(int rows)
+{
+  return 2 * baum_i_space_vector(rows);
+}
+
+/* Statuses as baum_i_block_create(). */
+baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, baum_i_space **out);
+void baum_i_space_destroy(baum_i_space *space); /* NULL is allowed */
+
+/* Sets all members of an empty solver except the arrays of numbers (space_structure.c). */
+baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_i_space *space);
+
+/* Sets W. Returns -1, or the first mass block that is not positive definite. */
+int baum_i_space_set_mass(baum_i_space *space, const double *mass);
+
+/* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
+void baum_i_space_use_force(baum_i_space *space, bool use);
+
+/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull(). */
+void baum_i_space_set_rest(baum_i_space *space, const double *r);
+void baum_i_space_pull(baum_i_space *space, const double *x);
+
+/* Sets the determinants of a node's block of S, as in baum_i_space_measure. */
+void baum_i_space_undivided(const baum_i_space *space, int node, double det[2]);
+
+/* Hot functions for right-hand sides and for nodes whose sides come from J. */
+typedef struct baum_i_space_sides_kernel {
+  /* Sets f and a0 = W f. */
+  void (*set_force)(baum_i_space *space, const double *force);
+  /* Sets sides, Phi' = J v - nu, r, D and J a0 - r of the nodes that are not `direct`. */
+  void (*set)(baum_i_space *space, const baum_i_block_rows *rows);
+} baum_i_space_sides_kernel;
+
+extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
+extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
+
+typedef struct baum_i_space_residual_kernel {
+  /* Computes pull[] and rest[] in twice the working precision. */
+  void (*find)(baum_i_space *space);
+} baum_i_space_residual_kernel;
+
+extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_plain;
+extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
+
+/* Hot functions for the solution, as those of baum_i_block_kernel. */
+typedef struct baum_i_space_kernel {
+  void (*couple)(baum_i_space *space);
+  baum_i_pivots (*eliminate)(baum_i_space *space);
+  void (*substitute)(baum_i_space *space, double *lambda);
+  bool (*check)(const baum_i_space *space);
+  double (*correct)(baum_i_space *space);
+  bool (*read_motion)(const baum_i_space *space, double *a);
+  void (*read_lambda)(const baum_i_space *space, double *lambda);
+} baum_i_space_kernel;
+
+extern const baum_i_space_kernel baum_i_space_kernel_plain;
+extern const baum_i_space_kernel baum_i_space_kernel_wide;
+
+#endif

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Columns of up to six numbers for the solver of mechanisms in space (space_block.h): four, and two
+ * more if the matrix is *tall*. `tall` and numbers of columns are constants wherever speed matters,
+ * so that the compiler removes what is not needed. */
+#ifndef BAUM_I_LINEAR_SPACE_COLUMNS_H
+#define BAUM_I_LINEAR_SPACE_COLUMNS_H
+
+#include "base/four.h"
+#include "linear/space_block.h"
+
+BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
+{
+  return baum_i_four_gathered(from, from + 2);
+}
+
+BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  _mm256_storeu_pd(to, x);
+#else
+  baum_i_store(to, x.low);
+  baum_i_store(to + 2, x.high);
+#endif
+}
+
+/* (x_0, x_1, 0, 0) */
+BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_zextpd128_pd256(x);
+#else
+  return (baum_i_four){x, {0.0, 0.0}};
+#endif
+}
+
+/* sum + x s */
+BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
+{
+  return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, double s)
+{
+  return baum_i_four_minus(sum, baum_i_four_times(x, baum_i_four_all(s)));
+}
+
+/* The sums of the numbers of each of four vectors. */
+BAUM_I_INLINE baum_i_four baum_i_four_sums(const baum_i_four x[4])
+{
+#ifdef BAUM_I_WIDE
+  baum_i_four first = _mm256_hadd_pd(x[0], x[1]);
+  baum_i_four second = _mm256_hadd_pd(x[2], x[3]);
+  return _mm256_permute2f128_pd(first, second, 0x20) + _mm256_permute2f128_pd(first, second, 0x31);
+#else
+  baum_i_pair s[4];
+  for (int i = 0; i < 4; i++) {
+    s[i] = x[i].low + x[i].high;
+  }
+  return (baum_i_four){(baum_i_pair){s[0][0], s[1][0]} + (baum_i_pair){s[0][1], s[1][1]},
+                       (baum_i_pair){s[2][0], s[3][0]} + (baum_i_pair){s[2][1], s[3][1]}};
+#endif
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_set(double x, double y, double z, double u)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_setr_pd(x, y, z, u);
+#else
+  return (baum_i_four){{x, y}, {z, u}};
+#endif
+}
+
+/* One number; i is a constant. */
+BAUM_I_INLINE double baum_i_four_get(baum_i_four x, int i)
+{
+  return i < 2 ? baum_i_four_low(x)[i] : baum_i_four_high(x)[i - 2];
+}
+
+/* Replaces one number; i is a constant. */
+BAUM_I_INLINE baum_i_four baum_i_four_put(baum_i_four x, int i, double s)
+{
+#ifdef BAUM_I_WIDE
+  baum_i_four all = _mm256_set1_pd(s);
+  switch (i) {
+  case 0: return _mm256_blend_pd(x, all, 1);
+  case 1: return _mm256_blend_pd(x, all, 2);
+  case 2: return _mm256_blend_pd(x, all, 4);
+  default: return _mm256_blend_pd(x, all, 8);
+  }
+#else
+  baum_i_pair *half = i < 2 ? &x.low : &x.high;
+  *half = i % 2 == 0 ? (baum_i_pair){s, (*half)[1]} : (baum_i_pair){(*half)[0], s};
+  return x;
+#endif
+}
+
+BAUM_I_INLINE double baum_i_four_sum(baum_i_four x)
+{
+  baum_i_pair halves = baum_i_four_low(x) + baum_i_four_high(x);
+  return halves[0] + halves[1];
+}
+
+/* (x_1, x_2, x_0, x_3) */
+BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_permute4x64_pd(x, 0xc9);
+#else
+  return (baum_i_four){{x.low[1], x.high[0]}, {x.low[0], x.high[1]}};
+#endif
+}
+
+/* The cross product of vectors of three numbers, and 0 or a rounding error. */
+BAUM_I_INLINE baum_i_four baum_i_four_cross(baum_i_four x, baum_i_four y)
+{
+  baum_i_four first = baum_i_four_times(x, baum_i_four_rotated(y));
+  baum_i_four second = baum_i_four_times(baum_i_four_rotated(x), y);
+  return baum_i_four_rotated(baum_i_four_minus(first, second));
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_zero(void)
+{
+  return baum_i_four_all(0.0);
+}
+
+/* One column, or a vector. */
+typedef struct baum_i_space_column {
+  baum_i_four low;
+  baum_i_pair high;
+} baum_i_space_column;
+
+/* Loads column c of a matrix with `columns` columns. */
+BAUM_I_INLINE baum_i_space_column baum_i_column_load(const double *m, int columns, int c, bool tall)
+{
+  baum_i_space_column x = {.low = baum_i_four_load(m + 4 * c)};
+  x.high = tall ? baum_i_load(m + 4 * columns + 2 * c) : (baum_i_pair){0.0, 0.0};
+  return x;
+}
+
+BAUM_I_INLINE void baum_i_column_store(double *m, int columns, int c, bool tall,
+                                       baum_i_space_column x)
+{
+  baum_i_four_store(m + 4 * c, x.low);
+  if (tall) {
+    baum_i_store(m + 4 * columns + 2 * c, x.high);
+  }
+}
+
+/* sum + x s */
+BAUM_I_INLINE baum_i_space_column baum_i_column_add(baum_i_space_column sum, baum_i_space_column x,
+                                                    double s, bool tall)
+{
+  sum.low = baum_i_four_add(sum.low, x.low, s);
+  if (tall) {
+    sum.high += x.high * s;
+  }
+  return sum;
+}
+
+BAUM_I_INLINE baum_i_space_column baum_i_column_subtract(baum_i_space_column sum,
+                                                         baum_i_space_column x, double s, bool tall)
+{
+  sum.low = baum_i_four_subtract(sum.low, x.low, s);
+  if (tall) {
+    sum.high -= x.high * s;
+  }
+  return sum;
+}
+
+BAUM_I_INLINE baum_i_space_column baum_i_column_times(baum_i_space_column x, double s, bool tall)
+{
+  x.low = baum_i_four_times(x.low, baum_i_four_all(s));
+  if (tall) {
+    x.high *= s;
+  }
+  return x;
+}
+
+/* The place of an entry in a matrix with `columns` columns. */
+BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
+{
+  return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
+}
+
+#endif

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Computes the nodes of mechanisms in space whose sides come from the blocks of J:
+ *
+ *   R = (rows on w') L^-T,   D = sum over sides of E E^T / m + R R^T,
+ *   J a0 - r = sum over sides of E x0 + R y0, minus r */
+#include <string.h>
+
+#include "linear/space_columns.h"
+
+enum { MOST = BAUM_I_SPACE_ROWS, MOTION = BAUM_I_SPACE_MOTION };
+
+static void set_force(baum_i_space *b, const double *force)
+{
+  for (int t = 1; t < b->body_count; t++) {
+    const baum_i_space_body *body = &b->bodies[t];
+    double six[6] = {0.0};
+    double *f = b->force + (ptrdiff_t)MOTION * t;
+    double *a = b->free + (ptrdiff_t)MOTION * t;
+    for (int c = 0; c < body->size; c++) {
+      six[body->slots[c]] = force[body->first + c];
+    }
+    for (int i = 0; i < 3; i++) {
+      const double *w = body->whiten + i;
+      f[i] = body->mass > 0.0 ? six[i] : 0.0;
+      a[i] = body->weight[i] * six[i];
+      f[4 + i] = w[0] * six[3] + w[4] * six[4] + w[8] * six[5];
+      a[4 + i] = f[4 + i];
+    }
+  }
+}
+
+/* Copies E and R of a side from the rows of J. */
+static void take_side(const baum_i_space *b, const baum_i_space_node *node,
+                      const baum_i_space_side *side, const double *jacobian)
+{
+  const baum_i_row_block *rows = &b->structure->row_blocks[node->row_block];
+  const double *whiten = b->bodies[side->body].whiten;
+  for (int i = 0; i < node->rows; i++) {
+    const double *j = jacobian + rows->value + (ptrdiff_t)(node->row[i] - rows->row) * rows->cols;
+    bool omitted = (node->omitted >> i & 1u) != 0;
+    double six[6];
+    for (int c = 0; c < 6; c++) {
+      six[c] = omitted || side->from[c] < 0 ? 0.0 : j[side->from[c]];
+    }
+    for (int c = 0; c < 3; c++) {
+      ptrdiff_t at = baum_i_column_entry(3, i, c);
+      if (side->sign == 0) {
+        b->sides[side->move + at] = six[c];
+      }
+      b->sides[side->turn + at] =
+        whiten[c] * six[3] + whiten[4 + c] * six[4] + whiten[8 + c] * six[5];
+    }
+  }
+}
+
+/* Returns the right side of one row; also sets Phi'. */
+static double right_of(const baum_i_space *b, const baum_i_space_node *node, int i,
+                       const baum_i_block_rows *at)
+{
+  const baum_i_row_block *rows = &b->structure->row_blocks[node->row_block];
+  int32_t row = node->row[i];
+  const double *j = at->jacobian + rows->value + (ptrdiff_t)(row - rows->row) * rows->cols;
+  double rate = -at->nu[row];
+  for (int c = 0; at->v && c < rows->cols; c++) {
+    rate += j[c] * at->v[rows->col[c]];
+  }
+  at->phi_rate[row] = rate;
+  return at->bending * at->gamma[row] - at->damping * rate - at->stiffness * at->phi[row];
+}
+
+static void set_node(const baum_i_space *b, int k, const baum_i_block_rows *at)
+{
+  const baum_i_space_node *node = &b->list[k];
+  int n = node->rows;
+  bool tall = n > 4;
+  double *numbers = b->nodes + node->at;
+  double *d = numbers + baum_i_space_pivot(n);
+  double right[8] = {0.0};
+  double d_wide[MOST][8] = {{0.0}};
+  for (int i = 0; i < n; i++) {
+    bool omitted = (node->omitted >> i & 1u) != 0;
+    double r = right_of(b, node, i, at);
+    right[i] = omitted ? 0.0 : r;
+    d_wide[i][i] = omitted ? 1.0 : 0.0;
+  }
+  baum_i_space_column rest = baum_i_column_load(right, 1, 0, true);
+  baum_i_space_column sum = {.low = baum_i_four_zero()};
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    const baum_i_space_side *side = &b->side_list[s];
+    const double *a0 = b->from + (ptrdiff_t)MOTION * side->body;
+    take_side(b, node, side, at->jacobian);
+    for (int c = 0; c < 6; c++) {
+      const double *part = b->sides + (c < 3 ? side->move : side->turn);
+      baum_i_space_column g = baum_i_column_load(part, 3, c % 3, tall);
+      double w = c < 3 ? b->bodies[side->body].weight[0] : 1.0;
+      sum = baum_i_column_add(sum, g, a0[c < 3 ? c : c + 1], tall);
+      for (int j = 0; j < n; j++) {
+        baum_i_space_column old = baum_i_column_load(d_wide[j], 1, 0, true);
+        old = baum_i_column_add(old, g, w * part[baum_i_column_entry(3, j, c % 3)], true);
+        baum_i_column_store(d_wide[j], 1, 0, true, old);
+      }
+    }
+  }
+  sum = baum_i_column_subtract(sum, rest, 1.0, tall);
+  baum_i_column_store(numbers, 1, 0, tall, sum);
+  baum_i_column_store(numbers + baum_i_space_vector(n), 1, 0, tall, rest);
+  baum_i_space_measure *measure = &b->measures[k];
+  measure->size[0] = 1.0;
+  measure->size[1] = 1.0;
+  for (int j = 0; j < n; j++) {
+    memcpy(d + (ptrdiff_t)4 * j, d_wide[j], 4 * sizeof *d);
+    if (j >= 4) {
+      memcpy(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), d_wide[j] + 4, 2 * sizeof *d);
+    }
+    measure->size[j < 3 ? 0 : 1] *= d_wide[j][j];
+  }
+}
+
+static void set(baum_i_space *b, const baum_i_block_rows *rows)
+{
+  for (int k = 0; k < b->node_count; k++) {
+    if (!b->list[k].direct) {
+      set_node(b, k, rows);
+    }
+  }
+}
+
+const baum_i_space_sides_kernel BAUM_I_HOT(baum_i_space_sides_kernel) = {.set_force = set_force,
+                                                                         .set = set};
