@@ -181,7 +181,8 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
 
-/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull(). */
+/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull()
+ * do. */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
 
