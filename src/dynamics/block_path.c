@@ -19,8 +19,8 @@ static const double SETTLING_IN_SPACE = 1e-12;
 /* Each refinement gains at least four digits, or the next one shows that it does not. */
 static const double SETTLED_IN_SPACE = 1e-11;
 
-/* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding level.
- * A thin shaft that carries heavy bodies has such pivots at all times. */
+/* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding
+ * level. A thin shaft that carries heavy bodies has such pivots at all times. */
 static const double FAIR_PIVOT = 1e-6;
 
 /* The residual is checked if masses are uneven and the largest a0 exceeds the largest a by more
@@ -320,10 +320,10 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
 
 static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 {
-  path->space_kernel->couple(path->space);
+  path->factor_kernel->couple(path->space);
   path->factorizations++;
   w->eliminated_by = path;
-  return path->space_kernel->eliminate(path->space);
+  return path->factor_kernel->eliminate(path->space);
 }
 
 static baum_status refine_space(baum_i_block_path *path, bool fair, double settled)

@@ -28,6 +28,7 @@ struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
   const baum_i_space_sides_kernel *space_sides;
+  const baum_i_space_factor_kernel *factor_kernel;
   const baum_i_space_residual_kernel *residual_kernel;
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
@@ -106,8 +107,8 @@ baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_b
                                        double t, const double *q, const double *v,
                                        const baum_i_right_side *right);
 
-/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints of the path's groups. v may be
- * NULL if the right side does not need it. BAUM_ERR_SINGULAR means that the path gives up. */
+/* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints in the path's groups. v may
+ * be NULL if the right side does not need it. BAUM_ERR_SINGULAR: the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the frames of bodies in space and the geometry of joints between them in two passes, and
- * writes it directly to the solver of space. The joints are those of mechanism/spatial/lower_pairs.c
- * whose rows make points coincide, compare directions or keep a point on a line or plane.
+ * writes it directly to the solver of space. The joints are those of
+ * mechanism/spatial/lower_pairs.c, whose rows make points coincide, compare directions or keep a
+ * point on a line or plane.
  */
 #ifndef BAUM_I_DYNAMICS_SPACE_JOINTS_H
 #define BAUM_I_DYNAMICS_SPACE_JOINTS_H

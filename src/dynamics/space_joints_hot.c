@@ -318,27 +318,52 @@ BAUM_I_INLINE void store_sides(const baum_i_space *b, const baum_i_space_joint *
   }
 }
 
+/* Sets D to E E^T / m of both sides, and 1 for omitted rows. */
+BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                               bool points, bool slides, const rows *row, const double *keep,
+                               column d[BAUM_I_SPACE_ROWS])
+{
+  double weight = b->bodies[joint->body[0]].weight[0] + b->bodies[joint->body[1]].weight[0];
+  int first = joint->side[0] < 0 ? 1 : 0;
+  const double *move = b->sides + b->side_list[joint->side[first]].move;
+  double sign = first == 0 ? -weight : weight; /* E_a = -move */
+  BAUM_I_UNROLL(6)
+  for (int j = 0; j < n; j++) {
+    d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
+    put(&d[j], j, (points && j < 3 ? weight : 0.0) + 1.0 - keep[j]);
+    BAUM_I_UNROLL(3)
+    for (int c = 0; slides && c < 3; c++) {
+      double s = sign * move[baum_i_column_entry(3, j, c)];
+      d[j] = baum_i_column_add(d[j], row->move[c], s, j >= 4);
+    }
+  }
+}
+
+BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n,
+                               const column from[BAUM_I_SPACE_ROWS])
+{
+  double *d = b->nodes + b->list[node].at + baum_i_space_pivot(n);
+  baum_i_space_measure *measure = &b->measures[node];
+  double size[2] = {1.0, 1.0};
+  BAUM_I_UNROLL(6)
+  for (int j = 0; j < n; j++) {
+    baum_i_four_store(d + 4 * j, from[j].low);
+    if (j >= 4) {
+      baum_i_store(d + 4 * n + 2 * (j - 4), from[j].high);
+    }
+    size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(from[j].low, j) : from[j].high[j - 4];
+  }
+  measure->size[0] = size[0];
+  measure->size[1] = size[1];
+}
+
 /* D; the sides must have been stored. */
 BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                              bool points, bool slides, const rows *row, const baum_i_space_pass *at)
 {
   const double *keep = at->joints.numbers + joint->numbers + BAUM_I_JOINT_KEEP;
-  double *d = b->nodes + b->list[joint->node].at + baum_i_space_pivot(n);
-  double weight = b->bodies[joint->body[0]].weight[0] + b->bodies[joint->body[1]].weight[0];
-  int32_t any = joint->side[joint->side[0] < 0 ? 1 : 0];
-  const double *move = b->sides + b->side_list[any].move;
-  column sums[BAUM_I_SPACE_ROWS];
-  BAUM_I_UNROLL(6)
-  for (int j = 0; j < n; j++) {
-    sums[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
-    put(&sums[j], j, (points && j < 3 ? weight : 0.0) + 1.0 - keep[j]);
-    BAUM_I_UNROLL(3)
-    for (int c = 0; slides && c < 3; c++) {
-      double s = weight * move[baum_i_column_entry(3, j, c)];
-      s = joint->side[0] < 0 ? s : -s; /* E_a = -move */
-      sums[j] = baum_i_column_add(sums[j], row->move[c], s, j >= 4);
-    }
-  }
+  column d[BAUM_I_SPACE_ROWS];
+  begin_pivot(b, joint, n, points, slides, row, keep, d);
   BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
     if (joint->side[k] < 0) {
@@ -349,22 +374,11 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
     for (int j = 0; j < n; j++) {
       BAUM_I_UNROLL(3)
       for (int c = 0; c < 3; c++) {
-        double s = turn[baum_i_column_entry(3, j, c)];
-        sums[j] = baum_i_column_add(sums[j], row->turn[k][c], s, j >= 4);
+        d[j] = baum_i_column_add(d[j], row->turn[k][c], turn[baum_i_column_entry(3, j, c)], j >= 4);
       }
     }
   }
-  baum_i_space_measure *measure = &b->measures[joint->node];
-  measure->size[0] = 1.0;
-  measure->size[1] = 1.0;
-  BAUM_I_UNROLL(6)
-  for (int j = 0; j < n; j++) {
-    baum_i_four_store(d + (ptrdiff_t)4 * j, sums[j].low);
-    if (j >= 4) {
-      baum_i_store(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), sums[j].high);
-    }
-    measure->size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(sums[j].low, j) : sums[j].high[j - 4];
-  }
+  store_pivot(b, joint->node, n, d);
 }
 
 /* A joint of n rows. points: the first three are of kind p; slides: a bit for each row of kind

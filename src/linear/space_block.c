@@ -116,27 +116,31 @@ void baum_i_space_use_force(baum_i_space *space, bool use)
 
 /* ---- masses ---- */
 
-/* Sets L^T and L^-T of the tensor I = L L^T (3 x 3, at distance `stride` of rows). */
-static bool whiten(const double *tensor, int stride, baum_i_space_body *body)
+/* Computes L of I = L L^T (A.-L. Cholesky). */
+static bool factor_tensor(const double tensor[12], double l[9])
 {
-  double l[9] = {0.0};
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j <= i; j++) {
-      double sum = tensor[i * stride + j];
+      double sum = tensor[4 * i + j];
       for (int k = 0; k < j; k++) {
         sum -= l[3 * i + k] * l[3 * j + k];
       }
       /* After strong cancellation the diagonal entry is only a rounding error. */
-      if (i == j && !(sum > 1e-14 * tensor[i * stride + i])) {
+      if (i == j && !(sum > 1e-14 * tensor[5 * i])) {
         return false;
       }
       l[3 * i + j] = i == j ? sqrt(sum) : sum / l[4 * j];
     }
   }
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      body->unwhite[3 * i + j] = l[3 * j + i];
-    }
+  return true;
+}
+
+/* Sets L^T and L^-T of the tensor. */
+static bool whiten(baum_i_space_body *body)
+{
+  double l[9] = {0.0};
+  if (!factor_tensor(body->inertia, l)) {
+    return false;
   }
   for (int c = 0; c < 3; c++) { /* L^T x = e_c */
     for (int i = 2; i >= 0; i--) {
@@ -145,6 +149,7 @@ static bool whiten(const double *tensor, int stride, baum_i_space_body *body)
         sum -= l[3 * k + i] * body->whiten[4 * k + c];
       }
       body->whiten[4 * i + c] = sum / l[4 * i];
+      body->unwhite[3 * i + c] = l[3 * c + i];
     }
   }
   return true;
@@ -160,7 +165,7 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
     body->weight[i] = 1.0 / m[0];
   }
   if (n == 6) {
-    positive = whiten(m + 21, 6, body) && positive;
+    positive = whiten(body) && positive;
   } else if (n == 3 && body->slots[2] == 5) {
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);

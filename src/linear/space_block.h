@@ -120,8 +120,8 @@ typedef struct baum_i_space {
   int zero_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
   int hub; /* mass block with too many sides; -1: none */
-  /* pivots are weak if a determinant of a node is below this fraction of the product of the diagonal
-   * entries of S */
+  /* pivots are weak if a determinant of a node is below this fraction of the product of the
+   * diagonal entries of S */
   double weak_pivot;
   double weakest; /* the smallest fraction, if pivots are weak */
 
@@ -181,7 +181,8 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
 
-/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull(). */
+/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull()
+ * do. */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
 
@@ -199,6 +200,15 @@ typedef struct baum_i_space_sides_kernel {
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
 
+/* Hot functions for the factorization, as those of baum_i_block_kernel. */
+typedef struct baum_i_space_factor_kernel {
+  void (*couple)(baum_i_space *space);
+  baum_i_pivots (*eliminate)(baum_i_space *space);
+} baum_i_space_factor_kernel;
+
+extern const baum_i_space_factor_kernel baum_i_space_factor_kernel_plain;
+extern const baum_i_space_factor_kernel baum_i_space_factor_kernel_wide;
+
 typedef struct baum_i_space_residual_kernel {
   /* Computes pull[] and rest[] in twice the working precision. */
   void (*find)(baum_i_space *space);
@@ -209,8 +219,6 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
 /* Hot functions for the solution, as those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
-  void (*couple)(baum_i_space *space);
-  baum_i_pivots (*eliminate)(baum_i_space *space);
   void (*substitute)(baum_i_space *space, double *lambda);
   bool (*check)(const baum_i_space *space);
   double (*correct)(baum_i_space *space);

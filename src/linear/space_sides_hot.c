@@ -68,52 +68,68 @@ static double right_of(const baum_i_space *b, const baum_i_space_node *node, int
   return at->bending * at->gamma[row] - at->damping * rate - at->stiffness * at->phi[row];
 }
 
+/* D with columns of eight numbers. */
+typedef double square[MOST][8];
+
+/* Adds G W G^T of a side to D, and G a0 to the sum. */
+static void add_side(const baum_i_space *b, const baum_i_space_side *side, int n, square d,
+                     baum_i_space_column *sum)
+{
+  const double *a0 = b->from + (ptrdiff_t)MOTION * side->body;
+  for (int c = 0; c < 6; c++) {
+    const double *part = b->sides + (c < 3 ? side->move : side->turn);
+    baum_i_space_column g =
+      n > 4 ? baum_i_column_load(part, 3, c % 3, true) : baum_i_column_load(part, 3, c % 3, false);
+    double w = c < 3 ? b->bodies[side->body].weight[0] : 1.0;
+    *sum = baum_i_column_add(*sum, g, a0[c < 3 ? c : c + 1], true);
+    for (int j = 0; j < n; j++) {
+      baum_i_space_column old = baum_i_column_load(d[j], 1, 0, true);
+      old = baum_i_column_add(old, g, w * part[baum_i_column_entry(3, j, c % 3)], true);
+      baum_i_column_store(d[j], 1, 0, true, old);
+    }
+  }
+}
+
+static void store_pivot(const baum_i_space *b, int k, square from)
+{
+  int n = b->list[k].rows;
+  double *d = b->nodes + b->list[k].at + baum_i_space_pivot(n);
+  baum_i_space_measure measure = {.size = {1.0, 1.0}};
+  for (int j = 0; j < n; j++) {
+    memcpy(d + (ptrdiff_t)4 * j, from[j], 4 * sizeof *d);
+    if (j >= 4) {
+      memcpy(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), from[j] + 4, 2 * sizeof *d);
+    }
+    measure.size[j < 3 ? 0 : 1] *= from[j][j];
+  }
+  b->measures[k] = measure;
+}
+
 static void set_node(const baum_i_space *b, int k, const baum_i_block_rows *at)
 {
   const baum_i_space_node *node = &b->list[k];
   int n = node->rows;
   bool tall = n > 4;
   double *numbers = b->nodes + node->at;
-  double *d = numbers + baum_i_space_pivot(n);
   double right[8] = {0.0};
-  double d_wide[MOST][8] = {{0.0}};
+  square d = {{0.0}};
   for (int i = 0; i < n; i++) {
     bool omitted = (node->omitted >> i & 1u) != 0;
     double r = right_of(b, node, i, at);
     right[i] = omitted ? 0.0 : r;
-    d_wide[i][i] = omitted ? 1.0 : 0.0;
+    d[i][i] = omitted ? 1.0 : 0.0;
   }
   baum_i_space_column rest = baum_i_column_load(right, 1, 0, true);
-  baum_i_space_column sum = {.low = baum_i_four_zero()};
+  baum_i_space_column sum = {baum_i_four_zero(), {0.0, 0.0}};
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
     const baum_i_space_side *side = &b->side_list[s];
-    const double *a0 = b->from + (ptrdiff_t)MOTION * side->body;
     take_side(b, node, side, at->jacobian);
-    for (int c = 0; c < 6; c++) {
-      const double *part = b->sides + (c < 3 ? side->move : side->turn);
-      baum_i_space_column g = baum_i_column_load(part, 3, c % 3, tall);
-      double w = c < 3 ? b->bodies[side->body].weight[0] : 1.0;
-      sum = baum_i_column_add(sum, g, a0[c < 3 ? c : c + 1], tall);
-      for (int j = 0; j < n; j++) {
-        baum_i_space_column old = baum_i_column_load(d_wide[j], 1, 0, true);
-        old = baum_i_column_add(old, g, w * part[baum_i_column_entry(3, j, c % 3)], true);
-        baum_i_column_store(d_wide[j], 1, 0, true, old);
-      }
-    }
+    add_side(b, side, n, d, &sum);
   }
-  sum = baum_i_column_subtract(sum, rest, 1.0, tall);
+  sum = baum_i_column_subtract(sum, rest, 1.0, true);
   baum_i_column_store(numbers, 1, 0, tall, sum);
   baum_i_column_store(numbers + baum_i_space_vector(n), 1, 0, tall, rest);
-  baum_i_space_measure *measure = &b->measures[k];
-  measure->size[0] = 1.0;
-  measure->size[1] = 1.0;
-  for (int j = 0; j < n; j++) {
-    memcpy(d + (ptrdiff_t)4 * j, d_wide[j], 4 * sizeof *d);
-    if (j >= 4) {
-      memcpy(d + (ptrdiff_t)4 * n + (ptrdiff_t)2 * (j - 4), d_wide[j] + 4, 2 * sizeof *d);
-    }
-    measure->size[j < 3 ? 0 : 1] *= d_wide[j][j];
-  }
+  store_pivot(b, k, d);
 }
 
 static void set(baum_i_space *b, const baum_i_block_rows *rows)

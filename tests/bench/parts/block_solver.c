@@ -58,10 +58,10 @@ static bool run_phases(const block_solver *s, int last_phase)
   double *lambda = s->at->workspace->lambda;
   bool done = run_geometry(s);
   if (done && last_phase >= PHASE_ASSEMBLY) {
-    path->space ? path->space_kernel->couple(path->space) : path->kernel->couple(path->block);
+    path->space ? path->factor_kernel->couple(path->space) : path->kernel->couple(path->block);
   }
   if (done && last_phase >= PHASE_FACTOR) {
-    baum_i_pivots pivots = path->space ? path->space_kernel->eliminate(path->space)
+    baum_i_pivots pivots = path->space ? path->factor_kernel->eliminate(path->space)
                                        : path->kernel->eliminate(path->block);
     done = pivots != BAUM_I_PIVOTS_BAD;
   }
@@ -98,6 +98,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->sides_kernel = &baum_i_block_sides_kernel_plain;
   s->path->space_kernel = &baum_i_space_kernel_plain;
   s->path->space_sides = &baum_i_space_sides_kernel_plain;
+  s->path->factor_kernel = &baum_i_space_factor_kernel_plain;
   s->path->residual_kernel = &baum_i_space_residual_kernel_plain;
   s->path->joints_kernel = &baum_i_space_joints_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
@@ -107,6 +108,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->sides_kernel = path.sides_kernel;
   s->path->space_kernel = path.space_kernel;
   s->path->space_sides = path.space_sides;
+  s->path->factor_kernel = path.factor_kernel;
   s->path->residual_kernel = path.residual_kernel;
   s->path->joints_kernel = path.joints_kernel;
   point->kernel = frames;
