@@ -184,8 +184,8 @@ typedef struct baum_page {
   /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
    *  the same unit are drawn in the same plot. Default: NULL. */
   const char *const *plot_labels;
-  /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE. Default:
-   *  NULL, none. */
+  /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE.
+   *  Default: NULL, none. */
   const baum_channel *traces;
   int32_t trace_count;           /**< [-] >= 0. Default: 0. */
   const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */

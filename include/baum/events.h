@@ -38,8 +38,8 @@ typedef struct baum_event_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
   /** The event function. It writes one number to out; q (nq) and v (nv) are those of the whole
    *  mechanism. The run calls it when a step is complete, so the function cannot ask for a smaller
-   *  step: if it returns a number other than 0, the call that advances the run fails. Default:
-   *  NULL, the coordinate of `joint` is used. */
+   *  step: if it returns a number other than 0, the call that advances the run fails.
+   *  Default: NULL, the coordinate of `joint` is used. */
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
   double value;        /**< [rad or m] value of the joint coordinate at the event. Default: 0. */

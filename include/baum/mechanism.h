@@ -492,8 +492,8 @@ typedef struct baum_joint_spring_def {
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;
-  /** A law that replaces the three fields above; the spring then has no potential energy. Default:
-   *  NULL. */
+  /** A law that replaces the three fields above; the spring then has no potential energy.
+   *  Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */

@@ -78,8 +78,8 @@ typedef struct baum_planar_rack_and_pinion_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
-  /** [m] radius of the pitch circle, not 0. The comment of this struct explains its sign. Default:
-   *  0, must be set.
+  /** [m] radius of the pitch circle, not 0. The comment of this struct explains its sign.
+   *  Default: 0, must be set.
    */
   double radius;
   double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */

@@ -222,8 +222,8 @@ typedef struct baum_simulation_options {
   baum_start start;       /**< Default: BAUM_START_ASSEMBLE. */
   baum_solver solver;     /**< Default: BAUM_SOLVER_AUTO. */
   bool check_derivatives; /**< See baum_mechanism_check_derivatives(). Default: true. */
-  /** [-] > 0, largest number of steps of a call. A call that needs more steps fails. Default:
-   *  1000000000. */
+  /** [-] > 0, largest number of steps of a call. A call that needs more steps fails.
+   *  Default: 1000000000. */
   int64_t max_steps;
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */

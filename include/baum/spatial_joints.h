@@ -77,8 +77,8 @@ typedef struct baum_spatial_revolute_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
-   *  NaN, the direction of `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_revolute_def;
 
@@ -172,8 +172,8 @@ typedef struct baum_spatial_cylindrical_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
-   *  NaN, the direction of `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_cylindrical_def;
 
@@ -219,8 +219,8 @@ typedef struct baum_spatial_prismatic_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
-   *  NaN, the direction of `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_prismatic_def;
 
@@ -267,8 +267,8 @@ typedef struct baum_spatial_planar_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b. Default:
-   *  NaN, the direction of `axis` in the design configuration. */
+  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
   /** [-] direction of x; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: NaN, along the ground x axis in the design configuration, or along the ground y axis

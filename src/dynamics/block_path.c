@@ -349,13 +349,15 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(space, w->lambda);
-  bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
-               (path->uneven &&
-                has_cancelled(space->from, space->motion, BAUM_I_SPACE_MOTION * space->body_count));
+  /* If masses are uneven, a rounding error of the multipliers that does not matter for heavy bodies
+   * may accelerate light ones, also along the constraints, where J a does not show it. Such
+   * mechanisms are always refined. */
+  bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check || path->uneven;
   if (!check) {
     return BAUM_OK;
   }
-  bool fair = pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT);
+  bool fair =
+    !path->uneven && (pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT));
   baum_status status = refine_space(path, fair, last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;

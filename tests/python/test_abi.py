@@ -114,9 +114,9 @@ class Changes(unittest.TestCase):
 
     def test_additions_break_nothing(self):
         last = '("coordinate", c_int),\n'  # of baum_driver_def, which has a struct_size
-        value = "BAUM_STOP_EVENT = 2\n"
+        value = "BAUM_STOP_TIME = 3\n"
         found = self.found_after(
-            (value, value + "    BAUM_STOP_NEW = 3\n"),
+            (value, value + "    BAUM_STOP_NEW = 4\n"),
             (last, last + '        ("new", c_double),\n'),
             ("PROTOTYPES = {\n", 'PROTOTYPES = {\n    "baum_new": (c_int, []),\n'),
         )

@@ -230,7 +230,7 @@ class Views(unittest.TestCase):
             thread = self.in_background(loop)
             until(lambda: count[0] > 10)
             self.assertEqual(ask(view, "pause", "POST")[0], 204)
-            until(lambda: page.last["paused"])
+            until(lambda: page.last.get("paused"))
             before = self.until_still(lambda: count[0])
             for k in range(3):
                 ask(view, "step", "POST")
