@@ -26,9 +26,9 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* The solver of space rounds the multipliers of a whole joint. Beside a heavy body, this accelerates
- * a light one: with masses that differ by 1e6, by up to 1e-9 of its acceleration. With larger
- * ratios than this one, the solver of two rows is used. */
+/* With masses that differ by 1e6, accelerations of light bodies by the solver of space are wrong by
+ * up to 1e-9 (test_spatial_accuracy.c). If the ratio of masses is larger than this, the solver of
+ * two rows is used. */
 static const double MOST_UNEVEN = 300.0;
 
 /* Tell whether the solver of space suits: a body is in space, M of every body is known, and the
