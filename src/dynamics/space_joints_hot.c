@@ -357,7 +357,7 @@ BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n,
   measure->size[1] = size[1];
 }
 
-/* D; the sides must have been stored. */
+/* Computes the pivot D of a node from its sides, which must have been stored before. */
 BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                              bool points, bool slides, const rows *row, const baum_i_space_pass *at)
 {

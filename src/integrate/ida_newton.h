@@ -18,7 +18,7 @@ typedef struct baum_i_ida_newton {
   double momentum_q;     /* [J s^2] largest M_jj s_j tolerance_q_j */
   double momentum_v;     /* [J s] largest M_jj s_j tolerance_v_j */
   double tested;         /* [J] tolerance of |lambda_i| n_i in the error test; INFINITY: none */
-  double share;          /* factor on the tolerances of q and v in this test, <= 1 */
+  double share;          /* factor on the tolerances of q and v in the Newton test, <= 1 */
   double action;         /* [J s] largest |mu_i| n_i at the start of the step */
   double action_q;       /* [J s^2] largest W_jj s_j tolerance_q_j */
   double first;          /* size of the first correction of the step */

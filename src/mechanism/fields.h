@@ -30,8 +30,8 @@ typedef enum baum_i_rule {
   BAUM_I_RULE_DIRECTION /* all numbers of the field are finite, and at least one is not zero */
 } baum_i_rule;
 
-/* Fields whose kind contains OWN are not handled here. Functions of the definition check, copy and
- * release them. Scenes rely on the order of the groups in this list: first numbers and counts, then
+/* Fields whose kind contains OWN are not handled here, but by functions of the definition, which
+ * check, copy and release them. Scenes rely on the order of the groups in this list: first numbers and counts, then
  * flags, then references, then functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */

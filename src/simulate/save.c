@@ -386,7 +386,7 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 }
 
 /* Check that a driver whose law is the polynomial of its parameters (general/driven.h) has a
- * polynomial in the buffer, too. Its type has no other law. */
+ * polynomial in the buffer, too. This type of driver has no other law. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lets allocations fail that test_allocation.c does not reach. They are for fixed bodies, for dense
- * mass matrices with rows, for break times, and for the solver that is created at a singular
- * configuration. */
+/* Some allocations are not reached by test_allocation.c. This test makes them fail: those for fixed
+ * bodies, for dense mass matrices with rows, for break times, and for the solver that is created at
+ * a singular configuration. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <setjmp.h>
 #include <stdarg.h>

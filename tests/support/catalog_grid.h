@@ -23,7 +23,7 @@ typedef struct catalog_tally {
 
 void catalog_tally_add(catalog_tally *sum, const catalog_tally *of);
 
-/* Returns how many entries are missing, better, differ or unmarked. */
+/* Returns the number of entries that are wrong: the sum of the last four numbers of the tally. */
 int catalog_tally_wrong(const catalog_tally *of);
 
 /* Runs both studies of a catalogue entry with the settings of `grid`. Counts their entries, and
