@@ -31,8 +31,8 @@ typedef enum baum_i_rule {
 } baum_i_rule;
 
 /* Fields whose kind contains OWN are not handled here, but by functions of the definition, which
- * check, copy and release them. Scenes rely on the order of the groups in this list: first numbers and counts, then
- * flags, then references, then functions. */
+ * check, copy and release them. Scenes rely on the order of the groups in this list: first numbers
+ * and counts, then flags, then references, then functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
   /* array of doubles or NULL, its length in `counter`; used only at the start of a run */

@@ -319,7 +319,8 @@ static const struct {
 };
 enum { FAULT_COUNT = 3 };
 
-/* Checks that numbers are equal. Two NaN count as equal; one velocity of the mechanism is NaN, because it is free. */
+/* Checks that numbers are equal. Two NaN count as equal: one velocity of the mechanism is NaN,
+ * because it is free. */
 static void assert_same_numbers(const double *got, const double *want, int count)
 {
   for (int i = 0; i < count; i++) {
