@@ -12,7 +12,8 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-# [m] His thirteen numbers. The hip is at (-a, -l) from the axle of the crank, whose length is m.
+# [m] Jansen's thirteen lengths. The hip is at (-a, -l) from the axle of the crank, which has the
+# length m.
 LENGTH = SimpleNamespace(
     **{"a": 0.38, "b": 0.415, "c": 0.393, "d": 0.401, "e": 0.558, "f": 0.394, "g": 0.367},
     **{"h": 0.657, "i": 0.49, "j": 0.5, "k": 0.619, "l": 0.078, "m": 0.15},

@@ -113,6 +113,20 @@ static void add_row_gains(const baum_workspace *w, baum_i_block *block,
   }
 }
 
+static baum_i_block_rows rows_of(const baum_workspace *w, const double *v,
+                                 const baum_i_right_side *right)
+{
+  return (baum_i_block_rows){.jacobian = w->jacobian,
+                             .v = v,
+                             .phi = w->phi,
+                             .nu = w->nu,
+                             .gamma = w->gamma,
+                             .bending = right->bending,
+                             .damping = right->damping,
+                             .stiffness = right->stiffness,
+                             .phi_rate = w->phi_rate};
+}
+
 static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
                       const baum_i_right_side *right)
 {
@@ -124,15 +138,7 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
                             .phi = w->phi,
                             .phi_rate = w->phi_rate,
                             .gamma = w->gamma};
-  const baum_i_block_rows rows = {.jacobian = w->jacobian,
-                                  .v = v,
-                                  .phi = w->phi,
-                                  .nu = w->nu,
-                                  .gamma = w->gamma,
-                                  .bending = right->bending,
-                                  .damping = right->damping,
-                                  .stiffness = right->stiffness,
-                                  .phi_rate = w->phi_rate};
+  const baum_i_block_rows rows = rows_of(w, v, right);
   path->pins_kernel->set(path->block, &pins);
   path->sides_kernel->set(path->block, &rows);
   set_omitted_rates(w, path, v);
@@ -286,15 +292,7 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
                              const double *q, const double *v, const baum_i_right_side *right)
 {
   const baum_i_space_pass pass = pass_of(w, path, q, v, right);
-  const baum_i_block_rows rows = {.jacobian = w->jacobian,
-                                  .v = v,
-                                  .phi = w->phi,
-                                  .nu = w->nu,
-                                  .gamma = w->gamma,
-                                  .bending = right->bending,
-                                  .damping = right->damping,
-                                  .stiffness = right->stiffness,
-                                  .phi_rate = w->phi_rate};
+  const baum_i_block_rows rows = rows_of(w, v, right);
   if (path->has_planar) {
     baum_i_point_set(&w->point, t, q, v);
   } else {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "linear/arrays.h"
 #include "linear/block_builder.h"
 
 /* The result is refined if the pivot D (S = L D L^T) of any node has a determinant below weak_pivot
@@ -19,20 +20,12 @@ static const double many_nodes = 128.0;
 
 /* ---- memory ---- */
 
-/* An array and its number of doubles. */
-typedef struct array {
-  void *place; /* address of the pointer to the array */
-  size_t count;
-} array;
-
-enum { ARRAY_COUNT = 18, LINE = 8 /* doubles in a cache line */ };
-
-static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
+static baum_status make_arrays(baum_i_block *b)
 {
   size_t motion = (size_t)b->motion_size;
   size_t nodes = (size_t)b->node_count;
   size_t pins = baum_i_even((size_t)b->pin_count);
-  const array all[ARRAY_COUNT] = {
+  const baum_i_array arrays[] = {
     {&b->nodes, sizeof(baum_i_node) / sizeof(double) * nodes},
     {&b->weight, 2 * (size_t)b->body_block_count},
     {&b->free, motion},
@@ -52,37 +45,8 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
     {&b->rest_low, 2 * nodes},
     {&b->nothing, motion},
   };
-  memcpy(list, all, sizeof all);
-}
-
-/* All arrays are in one allocation. Each begins on a cache line. The distance of two arrays is
- * never a whole number of pages, because they would then compete for the same sets of the cache. */
-static size_t padded(size_t count)
-{
-  enum { PAGE = 512 };
-  size_t lines = (count + LINE - 1) / LINE * LINE;
-  return lines % PAGE == 0 ? lines + LINE : lines;
-}
-
-static baum_status make_arrays(baum_i_block *b)
-{
-  array list[ARRAY_COUNT];
-  list_arrays(b, list);
-  size_t sum = LINE;
-  for (int i = 0; i < ARRAY_COUNT; i++) {
-    sum += padded(list[i].count);
-  }
-  b->numbers = baum_i_alloc(sum, sizeof *b->numbers);
-  if (!b->numbers) {
-    return BAUM_ERR_MEMORY;
-  }
-  size_t over = (uintptr_t)b->numbers / sizeof(double) % LINE;
-  double *next = b->numbers + (over > 0 ? LINE - over : 0);
-  for (int i = 0; i < ARRAY_COUNT; i++) {
-    memcpy(list[i].place, &next, sizeof next);
-    next += padded(list[i].count);
-  }
-  return BAUM_OK;
+  b->numbers = baum_i_arrays_create(arrays, sizeof arrays / sizeof *arrays);
+  return b->numbers ? BAUM_OK : BAUM_ERR_MEMORY;
 }
 
 /* Dense bodies use y = L^T a in place of a, so their M and W are identities. */

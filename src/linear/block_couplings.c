@@ -9,22 +9,6 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* Finds the block below the diagonal that belongs to two nodes, given by their places. */
-static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
-{
-  int32_t low = order->start[earlier];
-  int32_t high = order->start[earlier + 1] - 1;
-  while (low < high) {
-    int32_t middle = (low + high) / 2;
-    if (order->later[middle] < later) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
 /* Returns the number of a side, with arms counted in the order of places. */
 static int32_t number_of(const baum_i_block_builder *u, const baum_i_raw_side *side)
 {
@@ -38,7 +22,8 @@ static baum_status add_pair(baum_i_block_builder *u, const baum_i_raw_side *x,
   bool in_order = order->place[x->node] < order->place[y->node];
   const baum_i_raw_side *earlier = in_order ? x : y;
   const baum_i_raw_side *later = in_order ? y : x;
-  int32_t off = find_off(order, order->place[earlier->node], order->place[later->node]);
+  int32_t off =
+    baum_i_elimination_find(order, order->place[earlier->node], order->place[later->node]);
   int32_t k = number_of(u, earlier);
   int32_t n = number_of(u, later);
   if (k < 0 && n < 0 && !u->is_set[off]) {
@@ -106,7 +91,8 @@ baum_status baum_i_block_make_targets(baum_i_block_builder *u)
     const int32_t *later = order->later;
     for (int f = order->start[k] + 1; f < order->start[k + 1]; f++) {
       for (int e = order->start[k]; e < f; e++) {
-        BAUM_I_TRY(baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f])));
+        BAUM_I_TRY(baum_i_vector_append_number(&u->targets,
+                                               baum_i_elimination_find(order, later[e], later[f])));
       }
     }
   }

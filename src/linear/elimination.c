@@ -342,6 +342,21 @@ baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_
   return status;
 }
 
+int32_t baum_i_elimination_find(const baum_i_elimination *order, int32_t earlier, int32_t later)
+{
+  int32_t low = order->start[earlier];
+  int32_t high = order->start[earlier + 1] - 1;
+  while (low < high) {
+    int32_t middle = (low + high) / 2;
+    if (order->later[middle] < later) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
 void baum_i_elimination_clear(baum_i_elimination *elimination)
 {
   baum_i_free(elimination->node);

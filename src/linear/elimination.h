@@ -34,6 +34,9 @@ typedef struct baum_i_elimination {
  * BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR if there would be more than `most` couplings. On
  * failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
+/* Finds the index in later[] of the coupling of two places. */
+int32_t baum_i_elimination_find(const baum_i_elimination *elimination, int32_t earlier,
+                                int32_t later);
 void baum_i_elimination_clear(baum_i_elimination *elimination); /* a zeroed struct is allowed */
 
 #endif

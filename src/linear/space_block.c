@@ -6,35 +6,20 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "linear/arrays.h"
 
-/* The determinants are products of up to three ratios, each of which is a few hundredths in healthy
- * loops, so this limit is lower than that of block.c. many_nodes is the same. */
+/* The same limits as in block.c. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
 /* ---- memory ---- */
-
-typedef struct array {
-  void *place; /* address of the pointer to the array */
-  size_t count;
-} array;
-
-enum { ARRAY_COUNT = 12, LINE = 8 /* doubles in a cache line */ };
-
-/* Each array begins on a cache line, and no two at a distance of whole pages. */
-static size_t padded(size_t count)
-{
-  enum { PAGE = 512 };
-  size_t lines = (count + LINE - 1) / LINE * LINE;
-  return lines % PAGE == 0 ? lines + LINE : lines;
-}
 
 static baum_status make_arrays(baum_i_space *b)
 {
   size_t motion = BAUM_I_SPACE_MOTION * (size_t)b->body_count;
   size_t nodes = (size_t)b->node_count;
   size_t rows = (size_t)b->numbers_of_rows;
-  const array list[ARRAY_COUNT] = {
+  const baum_i_array arrays[] = {
     {&b->sides, (size_t)b->numbers_of_sides},
     {&b->nodes, (size_t)b->numbers_of_nodes},
     {&b->measures, sizeof(baum_i_space_measure) / sizeof(double) * nodes},
@@ -48,19 +33,9 @@ static baum_status make_arrays(baum_i_space *b)
     {&b->rest, rows},
     {&b->rest_low, rows},
   };
-  size_t sum = LINE;
-  for (int i = 0; i < ARRAY_COUNT; i++) {
-    sum += padded(list[i].count);
-  }
-  b->numbers = baum_i_alloc(sum, sizeof *b->numbers);
+  b->numbers = baum_i_arrays_create(arrays, sizeof arrays / sizeof *arrays);
   if (!b->numbers) {
     return BAUM_ERR_MEMORY;
-  }
-  size_t over = (uintptr_t)b->numbers / sizeof(double) % LINE;
-  double *next = b->numbers + (over > 0 ? LINE - over : 0);
-  for (int i = 0; i < ARRAY_COUNT; i++) {
-    memcpy(list[i].place, &next, sizeof next);
-    next += padded(list[i].count);
   }
   for (int c = 0; c < 3; c++) {
     b->sides[5 * c] = 1.0; /* E = I and E = -I, see space_structure.c */

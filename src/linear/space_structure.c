@@ -287,21 +287,6 @@ static baum_status make_couplings(builder *u)
   return BAUM_OK;
 }
 
-static int32_t find_coupling(const baum_i_elimination *order, int32_t earlier, int32_t later)
-{
-  int32_t low = order->start[earlier];
-  int32_t high = order->start[earlier + 1] - 1;
-  while (low < high) {
-    int32_t middle = (low + high) / 2;
-    if (order->later[middle] < later) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
 static baum_status add_pair(builder *u, int32_t i, int32_t k)
 {
   baum_i_space *b = u->space;
@@ -323,7 +308,7 @@ static baum_status add_pair(builder *u, int32_t i, int32_t k)
     pair->move[n] = side[n]->move;
     pair->turn[n] = side[n]->turn;
   }
-  pair->to = b->couplings[find_coupling(&b->order, place[1 - late], place[late])].at;
+  pair->to = b->couplings[baum_i_elimination_find(&b->order, place[1 - late], place[late])].at;
   pair->body = side[0]->body;
   pair->sign = side[0]->sign * side[1]->sign;
   return BAUM_OK;
@@ -373,7 +358,7 @@ static baum_status make_targets(builder *u)
   for (int k = 0; k < b->node_count; k++) {
     for (int f = order->start[k] + 1; f < order->start[k + 1]; f++) {
       for (int e = order->start[k]; e < f; e++) {
-        int32_t to = find_coupling(order, order->later[e], order->later[f]);
+        int32_t to = baum_i_elimination_find(order, order->later[e], order->later[f]);
         BAUM_I_TRY(baum_i_vector_append_number(&u->targets, b->couplings[to].at));
       }
     }
