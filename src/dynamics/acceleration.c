@@ -44,8 +44,8 @@ static baum_status fail_blocks(const baum_workspace *w)
 
 /* ---- the solver of the whole system ---- */
 
-/* Evaluate everything of which the right side consists. gamma is evaluated only if `force` is
- * true. */
+/* Evaluate all terms that the system and its right side need. gamma and g are evaluated only if
+ * `force` is true. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -162,8 +162,8 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* The pivots are part of the factors. Without blocks, a whole solution is computed, because this
- * costs little more than computing the factors alone. */
+/* The block solver only factors, because the pivots are part of the factors. If the block solver is
+ * not used, the whole system is solved, which costs little more than factoring it. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

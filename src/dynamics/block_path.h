@@ -33,7 +33,7 @@ struct baum_i_block_path {
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
   bool has_planar;   /* a body is planar */
-  bool only_weights; /* all bodies are in space, and nothing else exerts forces */
+  bool only_weights; /* all bodies are in space, and there are no force elements */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
@@ -113,9 +113,10 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
 
-/* With the factors of the last solution: set out (nv) to the smallest vector, in the metric of M,
- * with J out = r (nc), or to x minus its part in the null space of J. BAUM_ERR_NOT_FINITE: without
- * a message. */
+/* Two solutions with the factors of the last solution. The first function sets out (nv) to the
+ * vector with J out = r (nc) that is smallest in the metric of M. The second sets out to x (nv)
+ * minus the part of x in the null space of J. Both may return BAUM_ERR_NOT_FINITE, without a
+ * message. */
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
                                         double *out);
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,

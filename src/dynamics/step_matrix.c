@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes Newton's matrix of a step from the matrix of the residual (dae_matrix.c) with y = (q, v,
  * lambda) and c = by_a / by_v. In that matrix, the columns of v contain c M - g_v. They are
- * multiplied by by_v and added to the columns of q. The rows of q' - v are left out. The place to
+ * multiplied by by_v and added to the columns of q. The rows of q' - v are not needed. The place to
  * which each entry is added is found only once, when the matrix is created.
  */
 #include "dynamics/step_matrix.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Block solver for mechanisms in space: memory, masses, and other right sides. */
+/* Block solver for mechanisms in space: memory, masses, and other right-hand sides. */
 #include "linear/space_block.h"
 
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "base/alloc.h"
 
-/* The determinants are products of up to three ratios, each of which is a few hundredths in healthy
- * loops, so this limit is lower than that of block.c. many_nodes is the same. */
+/* The limits have the same values and the same meaning as in block.c. Here they refer to the two
+ * determinants of each node. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -21,7 +21,8 @@ typedef struct array {
 
 enum { ARRAY_COUNT = 12, LINE = 8 /* doubles in a cache line */ };
 
-/* Each array begins on a cache line, and no two at a distance of whole pages. */
+/* Each array begins on a cache line. The distance between two arrays is never a whole number of
+ * pages, as in block.c. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };
@@ -190,7 +191,7 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass)
   return -1;
 }
 
-/* ---- other right sides ---- */
+/* ---- other right-hand sides ---- */
 
 static void clear(baum_i_space *b)
 {

@@ -287,7 +287,7 @@ static double correct(baum_i_space *b)
 
 static bool read_motion(const baum_i_space *b, double *a)
 {
-  double sum = 0.0; /* of 0 x: 0, or NaN if a number is not finite */
+  double sum = 0.0; /* sum of 0 x_i, which is 0, or NaN if a number is not finite */
   for (int t = 1; t < b->body_count; t++) {
     const baum_i_space_body *body = &b->bodies[t];
     const double *x = b->motion + (ptrdiff_t)MOTION * t;
