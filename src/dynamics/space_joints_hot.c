@@ -3,7 +3,7 @@
  * = A s and the position x = r + d. With e = x_b - x_a for the points of a joint, and the upper
  * sign for k = a and the lower for k = b, the rows and sides are
  *
- *   rows p   Phi = e,      R_k = -+ A_k [s_k]x L_k^-T,                        E = -+ I
+ *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
  *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
  *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
  *

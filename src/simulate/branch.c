@@ -51,8 +51,8 @@ static const double SMALL_TURN = 0.4;
  * the violation may have caused the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-/* Smallest violation that shows a gap, expressed as a displacement. Where branches cross, the
- * violation is 0. */
+/* Violations (as displacements) and smallest pivots up to this do not show a gap. Where branches
+ * cross, both are 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
@@ -130,8 +130,8 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
-/* A small pivot at a state of the run itself shows a gap, unless the violation of the state
- * explains why the pivot is small. */
+/* The last state of the run has the smallest pivot of the crossing. This pivot shows a gap if it is
+ * clearly above 0 and the violation of the state does not explain this. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

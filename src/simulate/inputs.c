@@ -69,7 +69,7 @@ static int append_others(const baum_i_schedule *old, int k, double t, int64_t in
 }
 
 /* Merge the new jumps of one input with the jumps of the other inputs, in the order of time. If a
- * new value equals the value before it, it is not a jump and is left out. */
+ * new value equals the value before it, it is not a jump and is not listed. */
 static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);
