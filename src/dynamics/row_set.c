@@ -20,8 +20,8 @@
  * selected before it, relative to its length, reaches a limit. Limits are tried from MOST down to
  * WORST, and each is STEP times the one before. The first limit at which as many rows are selected
  * as the rank gives the best set. The set counts as well separated if this limit is above LEAST. To
- * change as few rows as possible, the rows kept now are selected if they reach the limit divided by
- * FACTOR. */
+ * change as few rows as possible, the selection is then repeated with this limit divided by FACTOR,
+ * beginning with the rows that are kept now. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;

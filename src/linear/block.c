@@ -56,9 +56,9 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
   memcpy(list, all, sizeof all);
 }
 
-/* All arrays are in one allocation. Each array begins on a cache line. The distance between two
- * arrays is never a whole number of pages, because such arrays would compete for the same sets of
- * the cache. */
+/* All arrays are in one allocation. Each array begins on a cache line. The distance from one array
+ * to the next is never a whole number of pages, because such arrays would compete for the same sets
+ * of the cache. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };

@@ -3,15 +3,16 @@
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * The rows of J are paired into *nodes*. If a node has only one row, its second multiplier is 0,
- * with a unit pivot. The columns of J are grouped into *body blocks* of three. A planar body is one
- * body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has as many body blocks
- * as it needs; its unknowns are y = L^T a, for which W is the identity. Body block 0 is the ground,
- * with W = 0. Arrays such as motion[] have three numbers for each body block: first those in v,
- * then those of the ground, then y of the dense bodies. A particle has only two numbers. The third
- * number of its body block is the first number of the next body block. The particle does not change
- * that number, because its third W is 0. The 2 x 3 block of J of a node and a body block is a
- * *side* of the node. The sides of a pin are
+ * The rows of J are paired into *nodes*. If a node has only one row, S has a second row there with
+ * the diagonal entry 1, whose multiplier is 0. The columns of J are grouped into *body blocks* of
+ * three. A planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L
+ * L^T) has as many body blocks as it needs; its unknowns are y = L^T a, for which W is the
+ * identity. Body block 0 is the ground, with W = 0. Arrays such as motion[] have three numbers for
+ * each body block: first those in v, then those of the ground, then y of the dense bodies. A
+ * particle has only two numbers. The third number of its body block is the first number of the next
+ * body block. The particle does not change that number, because the third diagonal entry of its W
+ * is 0. The 2 x 3 block of J of a node and a body block is a *side* of the node. The sides of a pin
+ * are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *

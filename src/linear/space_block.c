@@ -21,8 +21,8 @@ typedef struct array {
 
 enum { ARRAY_COUNT = 12, LINE = 8 /* doubles in a cache line */ };
 
-/* Each array begins on a cache line. The distance between two arrays is never a whole number of
- * pages, as in block.c. */
+/* Each array begins on a cache line. The distance from one array to the next is never a whole
+ * number of pages, as in block.c. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };

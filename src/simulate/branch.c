@@ -28,7 +28,8 @@
 
 /* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
  * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
- * Over the longest steps, the error of the polynomials is 0.06. */
+ * Over the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
+ * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, this is unknown. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
 /* A jump that is both above KICK and above SURELY times its estimated error is caused by steps with
