@@ -200,9 +200,9 @@ static void name_contradicting(const assembly *s, const double *rows, const char
     if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
       continue;
     }
-    used +=
-      (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used, "%s%s (%.3g %s)",
-                           used ? ", " : "", baum_i_joint_label(m, joint).text, rows[i], unit);
+    used += (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used,
+                                 "%s%s (remaining violation %.3g%s)", used ? ", " : "",
+                                 baum_i_joint_label(m, joint).text, rows[i], unit);
     last = joint;
   }
 }
@@ -210,7 +210,7 @@ static void name_contradicting(const assembly *s, const double *rows, const char
 static baum_status fail_positions(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
-  name_contradicting(s, s->w->phi, "left", text);
+  name_contradicting(s, s->w->phi, "", text);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: the constraints, or constraints and held bodies, contradict each "
                      "other in %s; before assembly, %s is violated most, see baum_mechanism_svg()",
@@ -220,7 +220,7 @@ static baum_status fail_positions(const assembly *s)
 static baum_status fail_velocities(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
-  name_contradicting(s, s->w->phi_rate, "per s left", text);
+  name_contradicting(s, s->w->phi_rate, " per s", text);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: the given velocities and the constraints contradict each other in %s", s->t, text);
