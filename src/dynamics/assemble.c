@@ -341,8 +341,8 @@ static baum_status check_sides(const assembly *s)
 
 /* ---- velocities ---- */
 
-/* Set the right side to -Phi' at v, and *worst to the largest Phi', as a displacement per unit of
- * time. */
+/* Set the right-hand side to -Phi' at v, and *worst to the largest Phi', as a displacement per unit
+ * of time. */
 static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;

@@ -413,9 +413,9 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* ---- other right sides ---- */
+/* ---- other right-hand sides ---- */
 
-/* Set out to `factor` times the solution for the right side in the solver. */
+/* Set out to `factor` times the solution for the right-hand side in the solver. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
   bool finite;

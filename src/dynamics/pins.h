@@ -21,8 +21,8 @@ typedef struct baum_i_pins {
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Set arms, right sides, pivots and lambda[] of the pins. The block must already contain a0, the
-   * accelerations without constraint forces. */
+  /* Set arms, right-hand sides, pivots and lambda[] of the pins. The block must already contain a0,
+   * the accelerations without constraint forces. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

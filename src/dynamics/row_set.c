@@ -291,8 +291,9 @@ static baum_status fail_contradiction(const baum_workspace *w, int row, double p
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
-/* Return the error |J a - r| of an omitted row, where r is the right side of the row. Set *size to
- * the sum of the magnitudes of all terms of this difference. The row of J must be up to date. */
+/* Return the error |J a - r| of an omitted row, where r is the right-hand side of the row. Set
+ * *size to the sum of the magnitudes of all terms of this difference. The row of J must be up to
+ * date. */
 static double find_missed(const baum_workspace *w, int row, double alpha, double beta, double *size)
 {
   const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, row)];

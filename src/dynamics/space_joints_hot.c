@@ -172,7 +172,7 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
   return m;
 }
 
-/* All rows of a joint: columns of R and E of both sides, and right sides. */
+/* All rows of a joint: columns of R and E of both sides, and right-hand sides. */
 typedef struct rows {
   column turn[2][3];
   column move[3]; /* E_b = -E_a, only rows s */

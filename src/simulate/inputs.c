@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Handles changes from outside during a run: new values of inputs, schedules of inputs, and new
- * driver laws. Each of them changes the right side of the equations abruptly (restart.c). */
+ * driver laws. Each of them changes the right-hand side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
