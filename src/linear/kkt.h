@@ -74,8 +74,8 @@ typedef struct baum_i_kkt baum_i_kkt;
  * a factorization, is left to baum_i_kkt_prepare() or the first factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
-/* Analyse the structure, unless that is done, so that only new pivots allocate memory from here on.
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Analyse the structure, unless this has already been done, so that only new pivots allocate memory
+ * from here on. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 

@@ -92,7 +92,7 @@ struct baum_simulation {
 
   atomic_int cancelled;
   double last_progress; /* [s] */
-  double time_limit;    /* [s] of wall time of a call */
+  double time_limit;    /* [s] largest wall time of a call */
   double deadline;      /* [s] wall time at which the present call stops */
   bool reporting;       /* within progress() */
   double paced_at;      /* [s] time of the last check of the pace of this call */
