@@ -85,7 +85,7 @@ def main() -> int:
             m.freeze().simulate([0.1], "rk4", step=1e-2)
         except baum.Error as error:
             print(f"{make.__name__}: {error}\n")
-            named = f'"{joint}" is open most' in str(error) or f'"{joint}" most' in str(error)
+            named = f'"{joint}" is violated most' in str(error) or f'"{joint}" most' in str(error)
             report.expect(f"{make.__name__}: the message does not name {joint}", not named, 0)
         wrong = open_joints(str(m.draw())) != [joint]
         report.expect(f"{make.__name__}: the drawing does not show {joint} open", wrong, 0)

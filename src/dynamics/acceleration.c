@@ -7,7 +7,7 @@
  * This is equation (7) of Flores et al. 2008. With alpha = beta = 0 it is equation (5).
  *
  * The projections of positions and velocities solve systems with the same matrix, but with other
- * right sides.
+ * right-hand sides.
  *
  * Rows that always depend on other rows are omitted from the system. The multipliers of omitted
  * rows are set to zero. This gives one of many possible solutions. Users receive another one, the
@@ -18,15 +18,16 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Name the row with the largest right side in the message. When there is no solution, this row is
- * the only hint at the joint that causes the singularity, and the hint may be wrong. */
+/* Name the row with the largest right-hand side in the message. When there is no solution, this row
+ * is the only hint at the joint that causes the singularity, and the hint may be wrong. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass matrix is not "
-    "positive for motions that the constraints allow); the right side is largest in %s",
+    "positive for motions that the constraints allow); the right-hand side of the constraints is "
+    "largest in %s",
     w->point.t, baum_i_row_label(w->mechanism, row).text);
 }
 
@@ -44,8 +45,8 @@ static baum_status fail_blocks(const baum_workspace *w)
 
 /* ---- the solver of the whole system ---- */
 
-/* Evaluate everything of which the right side consists. gamma is evaluated only if `force` is
- * true. */
+/* Evaluate all terms that the system and its right-hand side need. gamma and g are evaluated only
+ * if `force` is true. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -162,8 +163,8 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* The pivots are part of the factors. Without blocks, a whole solution is computed, because this
- * costs little more than computing the factors alone. */
+/* The block solver only factors, because the pivots are part of the factors. If the block solver is
+ * not used, the whole system is solved, which costs little more than factoring it. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

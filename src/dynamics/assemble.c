@@ -29,8 +29,8 @@ static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
 static const double ROUNDING = 1e-13;  /* displacement below which a violation is zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
-/* Corrections of velocities end when they have reduced the violation by this factor, which is far
- * below its rounding. */
+/* Corrections of velocities end when they have reduced the violation by this factor. The violation
+ * that remains is then far below rounding errors. */
 static const double CORRECTED = 1e-20;
 /* Violations of velocities below either limit are rounding errors. NO_RATE is in 1/s; NO_SWING is
  * relative to the rate at which gravity swings the mechanism. */
@@ -172,8 +172,9 @@ static double worst_displacement(const assembly *s, const double *rows)
   return worst;
 }
 
-/* Keep the row that is violated most before assembly. It is often the mistake, because assembly
- * distributes the violation among all contradicting rows. */
+/* Store the row that is violated most before assembly. This row is often the cause. The
+ * violations after assembly do not show it, because assembly distributes them among all
+ * contradicting rows. */
 static void keep_open_row(assembly *s)
 {
   double worst = ROUNDING;
@@ -199,9 +200,9 @@ static void name_contradicting(const assembly *s, const double *rows, const char
     if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
       continue;
     }
-    used +=
-      (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used, "%s%s (%.3g %s)",
-                           used ? ", " : "", baum_i_joint_label(m, joint).text, rows[i], unit);
+    used += (size_t)baum_i_print(text + used, BAUM_I_MESSAGE_SIZE - used,
+                                 "%s%s (remaining violation %.3g%s)", used ? ", " : "",
+                                 baum_i_joint_label(m, joint).text, rows[i], unit);
     last = joint;
   }
 }
@@ -209,17 +210,17 @@ static void name_contradicting(const assembly *s, const double *rows, const char
 static baum_status fail_positions(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
-  name_contradicting(s, s->w->phi, "left", text);
+  name_contradicting(s, s->w->phi, "", text);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: the constraints, or constraints and held bodies, contradict each "
-                     "other in %s; before assembly, %s is open most, see baum_mechanism_svg()",
+                     "other in %s; before assembly, %s is violated most, see baum_mechanism_svg()",
                      s->t, text, baum_i_row_label(s->w->mechanism, s->open).text);
 }
 
 static baum_status fail_velocities(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
-  name_contradicting(s, s->w->phi_rate, "per s left", text);
+  name_contradicting(s, s->w->phi_rate, " per s", text);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: the given velocities and the constraints contradict each other in %s", s->t, text);
@@ -340,8 +341,8 @@ static baum_status check_sides(const assembly *s)
 
 /* ---- velocities ---- */
 
-/* Set the right side to -Phi' at v, and *worst to the largest Phi', as a displacement per unit of
- * time. */
+/* Set the right-hand side to -Phi' at v, and *worst to the largest Phi', as a displacement per unit
+ * of time. */
 static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;

@@ -14,9 +14,12 @@ enum { MOST_REFINEMENTS = 3 };
  * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
-/* Refinements gain fewer digits with uneven inertias. */
+/* The limit SETTLING for mechanisms in space, where refinements gain fewer digits if inertias are
+ * uneven. */
 static const double SETTLING_IN_SPACE = 1e-12;
-/* Each refinement gains at least four digits, or the next one shows that it does not. */
+/* In space, refinements end when the relative change of the multipliers is below this; only
+ * projections of velocities use SETTLED. A refinement that converges gains at least four digits, so
+ * the next change would be below 1e-15. */
 static const double SETTLED_IN_SPACE = 1e-11;
 
 /* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding
@@ -78,7 +81,7 @@ BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path 
   }
 }
 
-/* What the gain of a single row adds to damping Phi' + stiffness Phi. */
+/* Return the change of damping Phi' + stiffness Phi that the gain of a single row causes. */
 static double gain_of_row(const baum_workspace *w, const baum_i_right_side *right, int row)
 {
   double f = right->row_gains[row];
@@ -224,7 +227,7 @@ BAUM_I_INLINE baum_status set_state(baum_workspace *w, const baum_i_block_path *
 
 /* ---- in space ---- */
 
-/* As add_row_gains(). */
+/* Do for mechanisms in space what add_row_gains() does for other mechanisms. */
 static void add_row_gains_in_space(const baum_workspace *w, const baum_i_space *space,
                                    const baum_i_right_side *right)
 {
@@ -240,7 +243,7 @@ static void add_row_gains_in_space(const baum_workspace *w, const baum_i_space *
   }
 }
 
-/* Add the forces of all but the bodies in space. */
+/* Add the forces of all elements except bodies in space, whose forces are already set. */
 static baum_status add_other_forces(baum_workspace *w, const baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
@@ -259,7 +262,7 @@ static baum_status add_other_forces(baum_workspace *w, const baum_i_block_path *
   return BAUM_OK;
 }
 
-/* As baum_i_point_set(). */
+/* Do the same as baum_i_point_set(), but inline. */
 static void begin_point(baum_i_point *point, double t, const double *q, const double *v)
 {
   point->t = t;
@@ -408,9 +411,9 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* ---- other right sides ---- */
+/* ---- other right-hand sides ---- */
 
-/* Set out to `factor` times the solution for the right side in the solver. */
+/* Set out to `factor` times the solution for the right-hand side in the solver. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
   bool finite;

@@ -33,7 +33,7 @@ struct baum_i_block_path {
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
   bool has_planar;   /* a body is planar */
-  bool only_weights; /* all bodies are in space, and nothing else exerts forces */
+  bool only_weights; /* all bodies are in space, and there are no force elements */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
@@ -90,8 +90,8 @@ baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict 
                                 baum_i_paths *out);
 void baum_i_paths_destroy(const baum_i_paths *paths);
 
-/* Right side of the system. The right side of the rows is bending gamma - damping Phi' - stiffness
- * Phi. The right side of the bodies is g if `force`, otherwise zero. */
+/* Right-hand side of the system. The right-hand side of the rows is bending gamma - damping Phi' -
+ * stiffness Phi. The right-hand side of the bodies is g if `force`, otherwise zero. */
 typedef struct baum_i_right_side {
   double bending;
   double damping;
@@ -108,14 +108,15 @@ baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_b
                                        const baum_i_right_side *right);
 
 /* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints in the path's groups. v may
- * be NULL if the right side does not need it. BAUM_ERR_SINGULAR: the path gives up. */
+ * be NULL if the right-hand side does not need it. BAUM_ERR_SINGULAR: the path gives up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
 
-/* With the factors of the last solution: set out (nv) to the smallest vector, in the metric of M,
- * with J out = r (nc), or to x minus its part in the null space of J. BAUM_ERR_NOT_FINITE: without
- * a message. */
+/* Two solutions with the factors of the last solution. The first function sets out (nv) to the
+ * vector with J out = r (nc) that is smallest in the metric of M. The second sets out to x (nv)
+ * minus the part of x in the null space of J. Both may return BAUM_ERR_NOT_FINITE, without a
+ * message. */
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
                                         double *out);
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
@@ -123,7 +124,7 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
-/* acceleration.c: set a (0 for fixed bodies) and lambda for any right side, by the path of the
+/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by the path of the
  * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,

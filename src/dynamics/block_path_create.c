@@ -28,7 +28,7 @@ static bool is_diagonal(const baum_i_body *body)
 
 /* With masses that differ by 1e6, accelerations of light bodies by the solver of space are wrong by
  * up to 1e-9 (test_spatial_accuracy.c). If the ratio of masses is larger than this, the solver of
- * two rows is used. */
+ * linear/block.h is used, whose nodes have two rows. */
 static const double MOST_UNEVEN = 300.0;
 
 /* Tell whether the solver of space suits: a body is in space, M of every body is known, and the
@@ -67,7 +67,8 @@ static baum_i_space_kind kind_of(const baum_i_body *body)
 }
 
 /* Tell whether the omitted rows of a joint become rows of zeros, so that space_joints_hot.c can
- * evaluate it: not if points coincide only in part, and not if nothing is left. */
+ * evaluate the joint. This is not possible if a row is omitted that makes points coincide, or if
+ * all rows are omitted. */
 static bool stays_whole(const baum_mechanism *m, const baum_i_joint *joint,
                         const unsigned char *omitted)
 {
@@ -335,7 +336,8 @@ static void include(range *r, double x)
   r->most = x > r->most ? x : r->most;
 }
 
-/* The same as is_uneven() for bodies in space, whatever joints connect. */
+/* Do the same as is_uneven() for the solver of space. This function compares the inverse masses and
+ * inertias of all bodies, whichever bodies the joints connect. */
 static bool is_uneven_in_space(const baum_i_space *b)
 {
   range moves = {.least = (double)INFINITY};

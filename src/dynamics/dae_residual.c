@@ -2,7 +2,7 @@
 /* The residual forms of the equations of motion, for implicit solvers. With y = (q, v, lambda) the
  * residual consists of these rows:
  *
- *   q' - N v                                                  N = I where q is a vector
+ *   q' - N v                                                  N = I where q' = v
  *   M v' + J^T lambda - g
  *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu
  *   index 3:  Phi

@@ -85,8 +85,8 @@ struct baum_workspace {
   double *work_c;   /* (2 nc) */
   double *shift;    /* (nc) regularization of assembly */
   double *inputs;   /* (input_count) present values */
-  /* (nc) factors on the gains of single rows, 1/2 for rows of velocity level, times those of the
-   * run; NULL: 1 */
+  /* (nc) factor by which the gains of each row are multiplied: 1/2 for rows of velocity level,
+   * otherwise 1, times the row_gains of the run; NULL: all factors are 1 */
   const double *row_gains;
   double *metric; /* (nv) diagonal of W, once metric_ready */
 
@@ -128,8 +128,9 @@ baum_i_text baum_i_blocks_reason(const baum_workspace *workspace);
  * the object in the message. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
-/* Evaluations of other states with the workspace of a run. Between begin and end, near-singular
- * solutions are not counted. A message is kept only if the final status is an error. */
+/* Encloses evaluations of other states with the workspace of a run. Near-singular solutions between
+ * begin and end are not counted. A message that these evaluations set is kept only if the status
+ * passed to end is an error. */
 typedef struct baum_i_probe {
   baum_workspace *workspace;
   int64_t near_singular;
@@ -202,9 +203,10 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 /* Tell whether baum_i_smallest_pivot() uses the last elimination by blocks. */
 bool baum_i_blocks_tell(const baum_workspace *workspace);
-/* acceleration.c: find the pivot at a state without a solution. a, lambda and evaluated terms are
- * undefined afterwards. If blocks are used, the pivot is always that of the blocks, so it does not
- * jump when another solver gives the solution. Returns the statuses of baum_i_motion(). */
+/* acceleration.c: find the pivot at a state without computing a solution if possible. a, lambda and
+ * evaluated terms are undefined afterwards. If blocks are used, the pivot is always that of the
+ * blocks, so it does not jump when another solver gives the solution. Returns the statuses of
+ * baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
 
@@ -224,8 +226,9 @@ void baum_i_choose_metric(baum_workspace *workspace);
 /* Choose W from M of the design configuration, unless W has been chosen. */
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
-/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu)
- * with W chosen before, and dF/dy + c dF/dy' with displacements of length nv in place of dq ---- */
+/* ---- dae_residual.c, dae_matrix.c: the residual F(t, y, y') and its Jacobian dF/dy + c dF/dy'. y
+ * is (q, v, lambda), and for GGL (q, v, lambda, mu). For GGL, W must be chosen before. In the
+ * Jacobian, displacements of length nv replace dq. ---- */
 
 /* Length of y. */
 int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);

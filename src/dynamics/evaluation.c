@@ -255,7 +255,8 @@ baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, con
                                         double *lambda)
 {
   const char *call = "baum_workspace_acceleration";
-  /* &t replaces a and lambda here, which may be NULL. */
+  /* check_state() refuses an output that is NULL. a and lambda may be NULL here, so &t is passed in
+   * their place. */
   BAUM_I_TRY(check_state(call, workspace, t, q, v, &t));
   BAUM_I_TRY(check_gains(call, alpha, beta));
   baum_status status = accelerate(workspace, t, q, v, alpha, beta);

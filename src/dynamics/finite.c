@@ -95,7 +95,7 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w)
 {
   BAUM_I_TRY(baum_i_check_jacobian(w));
   BAUM_I_TRY(baum_i_check_velocities(w, "force", w->force));
-  BAUM_I_TRY(baum_i_check_rows(w, "right side", w->rhs));
+  BAUM_I_TRY(baum_i_check_rows(w, "right-hand side of the constraints", w->rhs));
   return baum_i_fail(
     BAUM_ERR_NOT_FINITE,
     "t = %.9g s: numbers in the equations of motion are too large for double precision",

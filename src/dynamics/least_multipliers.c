@@ -6,7 +6,7 @@
  * rows (index k) alone. Every other solution has the form lambda + N z. Here z contains one number
  * for each omitted row, and N z is a null vector of J^T, which means that
  *
- *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
+ *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z.
  *
  * N z is part of the solution of the system
  *

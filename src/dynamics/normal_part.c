@@ -5,8 +5,8 @@
  *   P x = M^-1 J^T (J M^-1 J^T)^-1 J x:   [ M  J^T ] [ P x    ]   [ 0   ]
  *                                         [ J   0  ] [ lambda ] = [ J x ]
  *
- * With any right side r of the rows in place of J x, the same system gives the smallest velocity y
- * with J y = r.
+ * With any right-hand side r of the rows in place of J x, the same system gives the smallest
+ * velocity y with J y = r.
  *
  * P P = P. In the metric of M, x - P x is the vector y nearest to x with J y = 0.
  */

@@ -9,8 +9,8 @@
 
 /* Input and output of the kernel. */
 typedef struct baum_i_pins {
-  const double *points; /* (pin_count, made even, x 4) on body a and on body b, in the order of
-                          block->pins */
+  const double *points; /* (pin_count, made even, x 4) point on body a, then point on body b;
+                          order of block->pins */
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;
@@ -21,8 +21,8 @@ typedef struct baum_i_pins {
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Set arms, right sides, pivots and lambda[] of the pins. The block must already contain a0, the
-   * accelerations without constraint forces. */
+  /* Set arms, right-hand sides, pivots and lambda[] of the pins. The block must already contain a0,
+   * the accelerations without constraint forces. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

@@ -2,22 +2,22 @@
 /* Measures how close the last solution was to a singular configuration.
  *
  * For blocks the measure is the smallest ratio, over all nodes, of det D to the same determinant
- * before the elimination. For a pin the determinant before the elimination is det S, which does not
- * depend on the direction of axes. For other pairs of rows, which may depend on each other, the
- * product of the diagonal entries of S = J M^-1 J^T replaces this determinant. In space the node is
- * a whole joint, and the determinant before is that of its block of S. For other solvers
- * the measure is the reciprocal condition number of the scaled matrix. Both measures are free of
- * units and fall with the square of the distance from a singular configuration. Their sizes differ,
- * so each must be compared with its own usual value. If a body has a small inertia, the block
- * solver gives up for some directions of its arms although the configuration is not close to a
- * singular one.
+ * before the elimination. For a pin the determinant before the elimination is that of its 2 x 2
+ * block of S, which does not depend on the direction of axes. For other pairs of rows, which may
+ * depend on each other, the product of the diagonal entries of S = J M^-1 J^T replaces this
+ * determinant. In space the node is a whole joint, and the determinant before the elimination is
+ * that of its block of S. For other solvers the measure is the reciprocal condition number of the
+ * scaled matrix. Both measures are free of units and fall with the square of the distance from a
+ * singular configuration. Their sizes differ, so each must be compared with its own usual value. If
+ * a body has a small inertia, the block solver gives up for some directions of its arms although
+ * the configuration is not close to a singular one.
  */
 #include <math.h>
 
 #include "dynamics/block_path.h"
 
-/* Return det S of a pin. If an inertia is small, the product of the diagonal entries of S would
- * depend on the direction of the arm. */
+/* Return the determinant of the block of S of a pin. If an inertia is small, the product of the
+ * diagonal entries of S would depend on the direction of the arm. */
 static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];

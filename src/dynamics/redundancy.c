@@ -9,9 +9,10 @@
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
  * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
- * configuration is ambiguous beyond the first nearly dependent row. In this case a neighbour with a
- * clear rank decides, unless its rank is smaller, and the initial configuration counts as singular.
- * If no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
+ * configuration is ambiguous beyond the first nearly dependent row. In this case the rank of a
+ * neighbour with a clear rank is used, unless it is smaller than the part of the initial rank that
+ * is not ambiguous. If a neighbour's rank is used, the initial configuration counts as singular. If
+ * no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
  * close to each other, and the ambiguous rank is accepted. If the initial configuration is exactly
  * singular, ambiguous ranks of its neighbours are also accepted: they occur because the rows of
  * long members rotate only little between the neighbours.

@@ -20,8 +20,8 @@
  * selected before it, relative to its length, reaches a limit. Limits are tried from MOST down to
  * WORST, and each is STEP times the one before. The first limit at which as many rows are selected
  * as the rank gives the best set. The set counts as well separated if this limit is above LEAST. To
- * change as few rows as possible, the rows kept now are selected if they reach the limit divided by
- * FACTOR. */
+ * change as few rows as possible, the selection is then repeated with this limit divided by FACTOR,
+ * beginning with the rows that are kept now. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;
@@ -291,8 +291,9 @@ static baum_status fail_contradiction(const baum_workspace *w, int row, double p
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
-/* Return the error |J a - r| of an omitted row, where r is the right side of the row. Set *size to
- * the sum of the magnitudes of all terms of this difference. The row of J must be up to date. */
+/* Return the error |J a - r| of an omitted row, where r is the right-hand side of the row. Set
+ * *size to the sum of the magnitudes of all terms of this difference. The row of J must be up to
+ * date. */
 static double find_missed(const baum_workspace *w, int row, double alpha, double beta, double *size)
 {
   const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, row)];

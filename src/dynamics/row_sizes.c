@@ -5,7 +5,7 @@
 
 #include "dynamics/dynamics.h"
 
-/* Set each row to the sum of weight_j J_ij^2 over its columns j. */
+/* Set rows[i] to the sum of weight_j J_ij^2 over all columns j. */
 static void add_squares(const baum_workspace *w, const double *weight, double *rows)
 {
   memset(rows, 0, (size_t)w->mechanism->nc * sizeof *rows);

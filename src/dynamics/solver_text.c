@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Descriptions of the solver of accelerations. */
+/* Texts that describe the solver of accelerations, and why it was chosen. */
 
 #include "dynamics/block_path.h"
 
@@ -39,7 +39,8 @@ baum_i_text baum_i_blocks_reason(const baum_workspace *w)
     return baum_i_text_of("%.150s has %d joints, too many for blocks", label.text,
                           count_joints(m, body));
   case BAUM_I_BLOCKS_FILLED:
-    return (baum_i_text){"the joints form a dense net, so blocks would fill"};
+    return (baum_i_text){
+      "the joints form a dense net, so the block solver would have too much fill"};
   case BAUM_I_BLOCKS_MASSLESS:
     return baum_i_text_of("the mass matrix of %.150s is not positive definite", label.text);
   case BAUM_I_BLOCKS_UNKNOWN:

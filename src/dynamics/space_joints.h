@@ -33,7 +33,7 @@ typedef enum baum_i_space_shape {
   BAUM_I_SHAPES
 } baum_i_space_shape;
 
-/* The place of constants of a joint among its numbers, in body axes. */
+/* Where the constants of a joint begin among its numbers. Vectors are in body axes. */
 enum {
   BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
@@ -58,7 +58,8 @@ typedef struct baum_i_space_joints {
   baum_i_space_frame *frames; /* (body_count), ground first */
 } baum_i_space_joints;
 
-/* The shape of a joint, or BAUM_I_SHAPES if J is needed: a body is planar, or rows are others. */
+/* Return the shape of a joint. Returns BAUM_I_SHAPES if the joint must be evaluated by its J,
+ * because one of its bodies is planar or it has other kinds of rows. */
 baum_i_space_shape baum_i_shape_of(const baum_mechanism *mechanism, const baum_i_joint *joint);
 
 /* Input and output. */

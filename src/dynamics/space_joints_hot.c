@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of bodies in space and geometry of joints between them. With a point's arm d = A s, points
- * x = r + d, e = x_b - x_a and W the angular velocity in ground axes:
+/* Frames of bodies in space and geometry of joints between them. A point s of a body has the arm d
+ * = A s and the position x = r + d. With e = x_b - x_a for the points of a joint, and the upper
+ * sign for k = a and the lower for k = b, the rows and sides are
  *
- *   rows p   Phi = e,      R_k = -+ A_k [s_k]x L_k^-T,                        E = -+ I
+ *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
  *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
  *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
  *
- * gamma = -Phi'' without accelerations. For row d, with z = x' - W_b x x and x' = W_a x x, it is
- * -(W_a x x' + (x' + z) x W_b) . y, and Phi' = z . y.
+ * gamma is -Phi'' computed with zero accelerations. W is the angular velocity in ground axes. For
+ * row d, with z = x' - W_b x x and x' = W_a x x, it is -(W_a x x' + (x' + z) x W_b) . y, and Phi' =
+ * z . y.
  */
 #include <float.h>
 #include <math.h>
@@ -33,7 +35,7 @@ BAUM_I_INLINE void unit(const double *from, double p[4])
   }
 }
 
-/* Writes the columns of A for a unit quaternion, and its rows to the other frame. */
+/* Computes A of a unit quaternion. Writes the columns of A to a, and its rows to `rows`. */
 BAUM_I_INLINE void set_axes(const double p[4], four a[3], double rows[9])
 {
   const double w = p[0], x = p[1], y = p[2], z = p[3];
@@ -170,7 +172,7 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
   return m;
 }
 
-/* All rows of a joint: columns of R and E of both sides, and right sides. */
+/* All rows of a joint: columns of R and E of both sides, and right-hand sides. */
 typedef struct rows {
   column turn[2][3];
   column move[3]; /* E_b = -E_a, only rows s */
@@ -188,7 +190,7 @@ BAUM_I_INLINE void put(column *x, int i, double s)
   }
 }
 
-/* Row i of kind d or s. */
+/* Sets row i, which is of kind d or s. */
 BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                            const double *axes, double keep, bool slides, const marker m[2], int i,
                            rows *out)
@@ -263,7 +265,7 @@ BAUM_I_INLINE void store_rows(double *to, column x, int n)
   }
 }
 
-/* r, J a0 - r, and the joint's rows of the workspace. */
+/* Sets r and J a0 - r of the node, and the joint's rows of Phi, Phi' and gamma in the workspace. */
 BAUM_I_INLINE void set_rights(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                               bool points, bool slides, const rows *row,
                               const baum_i_space_pass *at)
@@ -381,8 +383,8 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   store_pivot(b, joint->node, n, d);
 }
 
-/* A joint of n rows. points: the first three are of kind p; slides: a bit for each row of kind
- * s. */
+/* Sets all numbers of a joint of n rows. points: the first three are of kind p; slides: a bit for
+ * each row of kind s. */
 BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                              bool points, unsigned slides, const baum_i_space_pass *at)
 {

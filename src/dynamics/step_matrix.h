@@ -42,8 +42,8 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
 /* Choose new pivots at the next factorization. */
 void baum_i_step_matrix_forget(baum_i_step_matrix *matrix);
 
-/* On entry, x (nv + nc) is the right side. On return, it contains dq and then x of the equations
- * above. */
+/* On entry, x (nv + nc) is the right-hand side. On return, it contains dq and then x of the
+ * equations above. */
 void baum_i_step_matrix_solve(baum_i_step_matrix *matrix, double *x);
 
 baum_i_sparse_lu_work baum_i_step_matrix_work(const baum_i_step_matrix *matrix);

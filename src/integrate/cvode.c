@@ -37,8 +37,9 @@ typedef struct cvode_run {
 static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
 {
   cvode_run *run = user;
-  /* After such a failure no smaller step can help, but the fixed-point solver of SUNDIALS 6.4 tries
-   * one. The failure is therefore returned again here. */
+  /* `stopped` means that an evaluation has failed and that no smaller step can help. The
+   * fixed-point solver of SUNDIALS 6.4 tries a smaller step nevertheless, so the failure is
+   * returned again here. */
   if (run->sundials.stopped) {
     return -1;
   }

@@ -38,8 +38,8 @@ static void turn(double h, const double w[3], double p[4])
 }
 
 /* Rotate the body about an axis by an angle that is proportional to the momentum along this axis.
- * In slender bodies this momentum is small. If the axis is a coordinate axis of the body, rounding
- * does not change it. */
+ * In slender bodies the momentum along the long axis is small. If the axis is a coordinate axis of
+ * the body, rounding errors do not change this component of the momentum. */
 static void turn_about(const double axis[3], double h, double p[4], double momentum[3])
 {
   double angle = h * baum_i_dot3(axis, momentum);

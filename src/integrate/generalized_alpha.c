@@ -52,8 +52,8 @@ enum { ITERATIONS = 20 };
  * times the scale if that is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* If changes have stopped decreasing, they are treated as rounding errors up to STALLED times this
- * limit. */
+/* Changes that have stopped decreasing are treated as rounding errors up to STALLED times the limit
+ * that ROUNDINGS gives. */
 static const double STALLED = 64.0;
 /* Even larger changes that have stopped decreasing may be rounding errors, because the rounding
  * error of a large coordinate may be large relative to the scale of a small coordinate that is

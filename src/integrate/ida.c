@@ -149,7 +149,8 @@ static double tightest(const ida_run *run, const baum_i_problem *problem)
   return problem->rtol * factor;
 }
 
-/* Return the largest violation as a scaled displacement. Phi' is multiplied by T. */
+/* Return the largest violation as a scaled displacement. Phi' is multiplied by the time T = 1 /
+ * problem->rate. */
 static double violation_of(const ida_run *run, const baum_i_problem *problem)
 {
   int row = -1;

@@ -21,8 +21,8 @@
  * - The order is at most 5, and BDF takes up to three times the steps of Adams methods, which adds
  *   error. With a third of the tolerance, IDA and CVODE's BDF have at most about the error of Adams
  *   methods at the same rtol, in energies, times of events and positions. Without this third, they
- *   have up to six times that error. The third costs IDA 1.2 times the steps and CVODE 1.33 times
- *   (docs/theory/energy.md).
+ *   have up to six times that error. With a third of the tolerance, IDA takes 1.2 times the steps
+ *   and CVODE 1.33 times (docs/theory/energy.md).
  *
  * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
  * steps. */

@@ -53,7 +53,7 @@ typedef struct baum_i_statistics {
   int64_t factorizations;      /* of the method's own matrix */
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t nonlinear_iterations;
-  int64_t forced; /* steps over a singular configuration, accepted with any error estimate */
+  int64_t forced; /* steps over a singular configuration whose error exceeded the tolerance */
 } baum_i_statistics;
 
 struct baum_integrator {
@@ -66,7 +66,8 @@ struct baum_integrator {
   baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   /* BDF: the fraction of the error of a step that the error test measures */
   double seen;
-  /* both Euler methods: steady |Phi'| = (h/2) |gamma|, |Phi| = (alpha/beta^2) h |gamma| */
+  /* true for both Euler methods, whose gains lead to a known steady violation: |Phi'| = (h/2)
+   * |gamma| and |Phi| = (alpha/beta^2) h |gamma| */
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;

@@ -47,7 +47,7 @@ static const double SINGULAR_GAIN = 1e3;
  * above this number. Where branches cross, the share is only about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
-enum { STORED = 4, MOST_PIECES = 10000 /* of short steps inside a step */ };
+enum { STORED = 4, MOST_PIECES = 10000 /* largest number of steps in walk() */ };
 
 typedef struct kinematics_run {
   baum_i_continuation path;

@@ -15,8 +15,9 @@ typedef struct baum_i_rk_table {
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run, and first member of the memory of methods with more. Arrays over (q, v) have
- * `size` entries: nq positions, nv velocities, and zeros up to a multiple of BAUM_I_RK_LANES. */
+/* Memory of a run. Methods that need further memory have this struct as the first member of theirs.
+ * Arrays over (q, v) have `size` entries: nq positions, nv velocities, and zeros up to a multiple
+ * of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
   const baum_i_rk_kernel *kernel;

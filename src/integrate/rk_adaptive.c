@@ -135,8 +135,9 @@ static double estimate(const baum_i_rk_adaptive *run, double h)
 
 /* ---- begin ---- */
 
-/* Choose the length of the first step. If the error constant of the method were one, its local
- * error would equal the tolerance. The step control corrects this length later. */
+/* Choose the length of the first step. If the error constant of the method were one, the local
+ * error of a step of this length would equal the tolerance. The step control corrects this length
+ * later. */
 static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;

@@ -34,8 +34,9 @@ static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
 /* If HELD successive steps or tries near a singular configuration are shorter than TINY radians,
- * the method is stuck. Otherwise each step would be up to six times as long as the last one. With
- * steps of TINY radians, a motion of one radian would take 1e8 steps. */
+ * the method is stuck. A method that is not stuck takes only few steps of this length, because
+ * each step may be six times as long as the last one. With steps of TINY radians, a motion of one
+ * radian would take 1e8 steps. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 

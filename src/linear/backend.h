@@ -22,9 +22,9 @@ typedef struct baum_i_kkt_ops {
   /* BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. The structure outlives the backend. */
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
-  /* Factor the matrix of finite values. `values` and `scale` (see scale.h) do not change until the
-   * last solve. KEEP requires an earlier factorization that succeeded. BAUM_OK, BAUM_ERR_SINGULAR
-   * (no solve may follow) or BAUM_ERR_MEMORY. */
+  /* Factor the matrix, whose values must be finite. `values` and `scale` (see scale.h) do not
+   * change until the last solve. KEEP requires an earlier factorization that succeeded. BAUM_OK,
+   * BAUM_ERR_SINGULAR (no solve may follow) or BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);
 

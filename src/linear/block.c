@@ -11,10 +11,11 @@
 #include "linear/block_builder.h"
 
 /* The result is refined if the pivot D (S = L D L^T) of any node has a determinant below weak_pivot
- * times the product of the diagonal entries of S. The relative error of the multipliers is about
- * the unit rounding divided by this fraction, and the errors of several small pivots multiply. In
- * long ladder-like mechanisms, pivots decrease with the number of nodes although the system is
- * well-conditioned. With more than many_nodes nodes the limit is therefore lower. */
+ * times the product of the diagonal entries of S at this node. The relative error of the
+ * multipliers is about the unit rounding divided by the ratio of determinant and product, and the
+ * errors of several small pivots multiply. In long ladder-like mechanisms, pivots decrease with the
+ * number of nodes although the system is well-conditioned. With more than many_nodes nodes the
+ * limit is therefore lower. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -119,7 +120,7 @@ void baum_i_block_destroy(baum_i_block *block)
 
 /* ---- masses ---- */
 
-/* Values for dense bodies are written here, too, but not used. */
+/* Sets W and M of all bodies. The values written for dense bodies are not used. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
 {
   bool positive = true;

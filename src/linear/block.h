@@ -3,21 +3,23 @@
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * The rows of J are paired into *nodes*. If a node has only one row, its second multiplier is 0,
- * with a unit pivot. The columns of J are grouped into *body blocks* of three. A planar body is one
- * body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has as many body blocks
- * as it needs; its unknowns are y = L^T a, for which W is the identity. Body block 0 is the ground,
- * with W = 0. Arrays such as motion[] have three numbers for each body block: first those in v,
- * then those of the ground, then y of the dense bodies. A particle has only two numbers. The third
- * number of its body block is the first number of the next body block. The particle does not change
- * that number, because its third W is 0. The 2 x 3 block of J of a node and a body block is a
- * *side* of the node. The sides of a pin are
+ * The rows of J are paired into *nodes*. If a node has only one row, S has a second row there with
+ * the diagonal entry 1, whose multiplier is 0. The columns of J are grouped into *body blocks* of
+ * three. A planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L
+ * L^T) has as many body blocks as it needs; its unknowns are y = L^T a, for which W is the
+ * identity. Body block 0 is the ground, with W = 0. Arrays such as motion[] have three numbers for
+ * each body block: first those in v, then those of the ground, then y of the dense bodies. A
+ * particle has only two numbers. The third number of its body block is the first number of the next
+ * body block. The particle does not change that number, because the third diagonal entry of its W
+ * is 0. The 2 x 3 block of J of a node and a body block is a *side* of the node. The sides of a pin
+ * are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
- * so only c, the *arm*, is stored. All other sides are *general*. Two nodes that share a body block
- * are coupled. S is sparse. The order of elimination, the fill and all indices are determined when
- * the solver is created.
+ * where k is the unit normal of the plane, and p_a and p_b point from the origins of the bodies to
+ * the joint. Only c, the *arm*, is stored. All other sides are *general*. Two nodes that share a
+ * body block are coupled. S is sparse. The order of elimination, the fill and all indices are
+ * determined when the solver is created.
  *
  * The arithmetic is in block_sides_hot.c and block_hot.c. */
 #ifndef BAUM_I_LINEAR_BLOCK_H
@@ -26,7 +28,7 @@
 #include "linear/elimination.h"
 #include "linear/kkt.h"
 
-/* Tells whether this row and the next are the rows of a pin, which makes a point of one body
+/* Tells whether a row block consists of the two rows of a pin, which makes a point of one body
  * coincide with a point of another. */
 typedef struct baum_i_block_pin {
   bool is_pin;
@@ -73,20 +75,22 @@ typedef struct baum_i_side_entry {
   int32_t from[2]; /* indices in the values of J; from[1] = -1: the node has one row */
 } baum_i_side_entry;
 
-/* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm` are
- * the numbers of the two arms on this body: first that of the node that is eliminated later. */
+/* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm`
+ * contains the numbers of the two arms on this body: first the arm of the node that is eliminated
+ * later, then that of the other node. */
 typedef struct baum_i_pin_pair {
   int32_t off;
-  int32_t arm[2]; /* of the node with the later place, and of the other */
+  int32_t arm[2];
   int32_t body_block;
 } baum_i_pin_pair;
 
 /* Two nodes that are coupled through one body block and are not both pins, or are pins that share
- * two bodies. `side` are their sides on it: first that of the node that is eliminated later.
- * side[i] >= 0 is the number of a general side, and side[i] < 0 is ~number of the arm of a pin. */
+ * two bodies. `side` contains the numbers of their sides on it: first the side of the node that is
+ * eliminated later, then that of the other node. side[i] >= 0 is the number of a general side, and
+ * side[i] < 0 is ~number of the arm of a pin. */
 typedef struct baum_i_full_pair {
   int32_t off;
-  int32_t side[2]; /* of the node with the later place, and of the other */
+  int32_t side[2];
   int32_t body_block;
 } baum_i_full_pair;
 
@@ -122,8 +126,8 @@ typedef struct baum_i_block {
   int full_count;
   int side_count;
   int entry_count;
-  int alike_count;    /* pairs of pins that share body a of both, or body b of both */
-  int opposite_count; /* pairs of pins that share body a of one and body b of the other */
+  int alike_count;    /* pairs of pins whose shared body is body a of both, or body b of both */
+  int opposite_count; /* pairs of pins whose shared body is body a of one and body b of the other */
   int first_count;
   int full_pair_count;
   int zero_count;
@@ -191,7 +195,8 @@ void baum_i_block_destroy(baum_i_block *block); /* NULL is allowed */
 
 /* Sets W of the bodies whose M is diagonal. Returns false if an M is not positive. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
-/* Factors M of the dense bodies, which may vary. Returns false if an M is not positive definite. */
+/* Factors M of the dense bodies. Call this again whenever an M has changed. Returns false if an M
+ * is not positive definite. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */

@@ -15,8 +15,8 @@ typedef struct baum_i_raw_node {
   bool is_pin;
 } baum_i_raw_node;
 
-/* A side before the place of its node is known. `number` is as in baum_i_full_pair, but arms are
- * counted in the order of rows instead of places. */
+/* A side before the place of its node is known. `number` has the meaning of side[i] in
+ * baum_i_full_pair, but arms are counted in the order of rows instead of places. */
 typedef struct baum_i_raw_side {
   int32_t node;
   int32_t body_block;
@@ -60,8 +60,8 @@ baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
  * with all couplings before it. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
-/* Sets all members of an empty block except the arrays of numbers. Returns the same statuses as
- * baum_i_block_create(). After a failure the caller destroys the block. */
+/* Sets all members of an empty solver except the arrays of numbers. Returns the same statuses as
+ * baum_i_block_create(). After a failure the caller destroys the solver. */
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block);
 
 #endif

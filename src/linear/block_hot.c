@@ -70,7 +70,7 @@ BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 
 /* ---- off the diagonal ---- */
 
-/* Set the blocks of pairs of pins: w_1 n k^T + sign w_0 I. */
+/* Sets the blocks of pairs of pins to w_1 n k^T + sign w_0 I, where n and k are the two arms. */
 static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs, int count,
                              double sign)
 {
@@ -87,8 +87,8 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   }
 }
 
-/* Couples a general side and the side +- [ I c ] of a pin. The rows are those of the general
- * side. */
+/* Couples a general side and the side +- [ I c ] of a pin. The rows of the result belong to the
+ * general side. */
 static inline baum_i_square couple_to_pin(const baum_i_block *b, int32_t side, int32_t arm,
                                           const double *w)
 {
@@ -161,8 +161,8 @@ static inline baum_i_pair solve_pivot(const pivot_step *t)
   return t->inverse * (corners * right - t->d[1] * other);
 }
 
-/* Subtracts the contribution of the coupling at x from the node `to`, the later one of the two
- * coupled nodes, and replaces the coupling by L^T. Returns the coupling. */
+/* Subtracts the contribution of the coupling at x from the later of the two coupled nodes, which is
+ * `to`. Then replaces the coupling by L^T. Returns the coupling as it was before. */
 static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i_node *to)
 {
   baum_i_square s = baum_i_load_square(x);
@@ -332,8 +332,9 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-/* Returns by how much the residuals of two pins exceed rounding level. second: index of the second
- * pin, or 0 for one pin. */
+/* Returns by how much the residuals of two pins exceed rounding level. `second` is the index of the
+ * second pin relative to `pin`: 1, or 0 if there is only one pin left, which is then processed
+ * twice. */
 BAUM_I_INLINE baum_i_four excess_of(const baum_i_block *b, const baum_i_pin_node *pin,
                                     const double *arm, ptrdiff_t second)
 {

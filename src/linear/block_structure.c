@@ -11,9 +11,9 @@
 #include "base/message.h"
 #include "linear/block_builder.h"
 
-/* A body with more sides than MOST_SIDES couples too many nodes with each other, and more couplings
- * than MOST_COUPLINGS per node mean too much fill. Sparse elimination of the whole system is then
- * faster, because it may eliminate bodies or joints first. */
+/* A body with more sides than MOST_SIDES couples too many nodes with each other. More couplings
+ * than MOST_COUPLINGS times (number of nodes + SMALL) mean too much fill. Sparse elimination of the
+ * whole system is then faster, because it may eliminate bodies or joints first. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */
@@ -53,8 +53,8 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Mass block i, if diagonal, becomes body block 1 + i. A planar body thus has the number of its
- * body block. */
+/* Chooses the body blocks of all bodies. Mass block i belongs to body 1 + i. If it is diagonal, its
+ * body block is 1 + i, too, so a planar body and its body block have the same number. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sorts the list by row, and then by column, with a stable sort in linear time. The rows of each
- * column then ascend, and repeated places are adjacent. */
+/* Compresses a list of places. The list is sorted by row, and then by column, with a stable sort in
+ * linear time. The rows of each column then ascend, and repeated places are adjacent. */
 #include "linear/compress.h"
 
 #include <string.h>

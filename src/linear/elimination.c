@@ -226,8 +226,9 @@ static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t
   }
 }
 
-/* Moves every node to just before the nodes that need it, so that its numbers are still in the
- * cache. The fill stays the same, and nodes of the same depth are independent of each other. */
+/* Moves every node to shortly before the nodes that its elimination changes, so that its numbers
+ * are still in the cache then. The fill stays the same, and nodes of the same depth are independent
+ * of each other. */
 static baum_status order_by_depth(search *s)
 {
   baum_i_elimination *out = s->out;

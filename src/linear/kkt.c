@@ -36,7 +36,8 @@ static const double least_rcond = 1e-15;
 /* If rcond is below this, a pivot may be only a rounding error. Pivots of dependent rows are up to
  * 1e-14. */
 static const double rounding_rcond = 1e-13;
-/* Largest contradiction between dependent rows, relative to the right-hand side. */
+/* Largest contradiction between dependent rows that is accepted, relative to the right-hand
+ * side. */
 static const double contradiction = 1e-8;
 
 typedef enum ladder_rung { RUNG_KEEP, RUNG_CHOOSE, RUNG_CAREFUL, RUNG_LAST } ladder_rung;

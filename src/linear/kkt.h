@@ -38,7 +38,8 @@ typedef struct baum_i_kkt_structure {
   const baum_i_mass_block *mass_blocks;
   int row_block_count;
   const baum_i_row_block *row_blocks;
-  /* (nc) 1: of dependent rows, omit this one rather than a row with 0; NULL: all are alike */
+  /* (nc) 1: if rows depend on each other, omit this row rather than one with 0; NULL: no row is
+   * preferred */
   const unsigned char *last_rows;
 } baum_i_kkt_structure;
 
@@ -73,8 +74,8 @@ typedef struct baum_i_kkt baum_i_kkt;
  * a factorization, is left to baum_i_kkt_prepare() or the first factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
-/* Analyse the structure, unless that is done, so that only new pivots allocate memory from here on.
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Analyse the structure, unless this has already been done, so that only new pivots allocate memory
+ * from here on. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
@@ -92,7 +93,7 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
-/* Factors and solves. For values with only one right-hand side. */
+/* Factors and solves. Use this if there is only one right-hand side for these values. */
 baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
                                         const double *f, const double *r, double *a,
                                         double *lambda);
@@ -125,10 +126,10 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 /* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is first multiplied by
  * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
  * its length is at most `tolerance` after orthogonalization against the independent rows before it.
- * independent[i] (nc) receives 1 for the rows of one largest independent set, else 0. Rows with
- * independent[i] != 0 on entry are preferred, then rows with a lower number, but any row is
- * preferred to the structure's last_rows. BAUM_OK,
- * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
+ * independent[i] (nc) receives 1 for the rows of one largest set of independent rows, and 0 for all
+ * other rows. Rows with independent[i] != 0 on entry are preferred, then rows with a lower number,
+ * but any row is preferred to the structure's last_rows. BAUM_OK, BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

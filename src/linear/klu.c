@@ -2,11 +2,11 @@
 /* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
  * Factors with kept pivots may be useless, because pivots that were good at an earlier
- * configuration may have become small. This file checks the ratio of the smallest to the largest
- * pivot, and the front end (kkt.c) checks the residual.
+ * configuration may have become small. This file returns the ratio of the smallest to the largest
+ * pivot. The front end (kkt.c) checks this ratio and the residual.
  *
- * There are two ways to choose pivots. Usually diagonal entries are preferred. Masses, which are 1
- * after scaling, are then the pivots, and they stay good while the mechanism moves. Their
+ * There are two ways to choose pivots. Usually diagonal entries are preferred. Masses, which are
+ * about 1 after scaling, are then the pivots, and they stay good while the mechanism moves. Their
  * elimination leaves J M^-1 J^T, whose smallest eigenvalue is sigma^2 if sigma is the smallest
  * singular value of the scaled J. If accuracy matters most, M is given a small weight w,
  *

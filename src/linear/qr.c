@@ -49,7 +49,7 @@ static int32_t *order_columns(const baum_i_pattern *pattern)
 {
   int statistics[COLAMD_STATS];
   int32_t entries = pattern->columns.start[pattern->n];
-  size_t room = colamd_recommended(entries, pattern->n, pattern->n); /* 0: too many */
+  size_t room = colamd_recommended(entries, pattern->n, pattern->n); /* 0: too many entries */
   int32_t *row = room > 0 ? baum_i_alloc(room, sizeof *row) : NULL;
   int32_t *order = baum_i_copy(pattern->columns.start, (size_t)pattern->n + 1, sizeof *order);
   if (row && order) {

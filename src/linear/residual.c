@@ -8,13 +8,14 @@
  *
  * Each row is compared with itself, so units and masses of very different size do not matter. A row
  * whose denominator consists only of rounding errors of other rows might never pass. After scaling,
- * such rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989). Rows of
- * relative size eps^2, which remain after one refinement, are always compared in this way, and rows
- * of relative size eps only by baum_i_residual_is_noise(). A residual below eps^2 of the largest
- * row always passes, because rows that differ from zero only by rounding, such as those of a guide
- * along an axis of the ground, cannot be solved more accurately. In baum_i_residual_is_noise(),
- * this limit is eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest
- * row, gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2).
+ * such rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989).
+ * baum_i_residual_is_rounding() and baum_i_residual_is_noise() compare rows of relative size eps^2
+ * in this way, because such rows remain after one refinement. Only the second of them also compares
+ * rows of relative size eps in this way. A residual below eps^2 of the largest row always passes.
+ * The reason is that some rows differ from zero only by rounding, such as those of a guide along an
+ * axis of the ground, and cannot be solved more accurately. In baum_i_residual_is_noise(), this
+ * limit is eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest row,
+ * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2).
  */
 #include "linear/residual.h"
 

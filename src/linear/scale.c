@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Fields of a double, and the largest exponent used here, which keeps powers of two normal
- * numbers. */
+/* Fields of a double. EXPONENT_LIMIT is the largest exponent of the scales; with this limit, they
+ * neither overflow nor become subnormal. */
 enum { EXPONENT_BIAS = 1023, EXPONENT_BITS = 52, EXPONENT_MASK = 0x7ff, EXPONENT_LIMIT = 1000 };
 
 /* floor(log2(x)) of a finite x > 0. */

@@ -2,13 +2,14 @@
 /* Symmetric scaling of the saddle-point matrix K to D K D by powers of two, which causes no
  * rounding errors.
  *
- *   d_j = 1 / sqrt(M_jj)          for velocities,   so that the scaled M has a unit diagonal,
- *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that scaled rows of J have entries up to 1,
+ *   d_j = 1 / sqrt(M_jj)          for velocities,   so that M has a diagonal of about 1,
+ *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that rows of J have entries of about 1,
  *
- * all rounded down to a power of two. A change of units multiplies K by a diagonal matrix from both
- * sides. D changes by the inverse, so D K D does not depend on units, except for the rounding to
- * powers of two. The d_j of a velocity without mass is computed from the rows in which it
- * occurs. */
+ * all rounded up to a power of two, so after scaling the diagonal of M is between 1 and 4, and the
+ * largest entry of a scaled row is between 1 and 2. If S_ii is not zero, the maximum in e_i
+ * includes sqrt(S_ii). A change of units multiplies K by a diagonal matrix from both sides. D
+ * changes by the inverse, so D K D does not depend on units, except for the rounding to powers of
+ * two. The d_j of a velocity without mass is computed from the rows in which it occurs. */
 #ifndef BAUM_I_LINEAR_SCALE_H
 #define BAUM_I_LINEAR_SCALE_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Block solver for mechanisms in space: memory, masses, and other right sides. */
+/* Block solver for mechanisms in space: memory, masses, and other right-hand sides. */
 #include "linear/space_block.h"
 
 #include <math.h>
@@ -8,7 +8,8 @@
 #include "base/alloc.h"
 #include "linear/arrays.h"
 
-/* The same limits as in block.c. */
+/* The limits have the same values and the same meaning as in block.c. Here they refer to the two
+ * determinants of each node. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -165,7 +166,7 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass)
   return -1;
 }
 
-/* ---- other right sides ---- */
+/* ---- other right-hand sides ---- */
 
 static void clear(baum_i_space *b)
 {

@@ -6,8 +6,9 @@
  *
  * A *node* is one joint, or up to six of its rows; omitted rows belong to no node. Rotations are
  * *whitened*: with the tensor I = L L^T, the unknowns of a body are the acceleration x of its
- * origin and y = L^T w', for which W is 1 / m and 1. The rows of a node on one body are a *side*
- * [E | R] of n x 3 blocks: E on x, R = (rows on w') L^-T on y. Then
+ * origin, for which W is 1 / m, and y = L^T w', for which W is 1. Here w' is the angular
+ * acceleration. The rows of a node on one body are a *side* [E | R] of n x 3 blocks: E on x, R =
+ * (rows on w') L^-T on y. Then
  *
  *   S_nk = +- sum over shared bodies of E_n E_k^T / m + R_n R_k^T
  *
@@ -17,8 +18,8 @@
  *
  * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
  * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
- * eight numbers. Numbers are loaded in the units in which they were stored, because a load waits
- * for a narrower store before it. */
+ * eight numbers. Numbers are loaded in groups of the same width in which they were stored, because
+ * the processor delays a load that is wider than a recent store to the same memory. */
 #ifndef BAUM_I_LINEAR_SPACE_BLOCK_H
 #define BAUM_I_LINEAR_SPACE_BLOCK_H
 
@@ -38,9 +39,9 @@ typedef enum baum_i_space_kind {
 typedef struct baum_i_space_layout {
   const baum_i_kkt_structure *structure;
   const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
-  /* (row_block_count) number of the body (0: ground) whose E is -I, if the first three rows make
-   * points of two rigid bodies or particles in space coincide and all other rows compare
-   * directions; -1: other rows */
+  /* (row_block_count) -1 unless the first three rows make points of two rigid bodies or particles
+   * in space coincide and all other rows compare directions; then the number of the body whose E is
+   * -I (0: ground) */
   const int *pinned;
   /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
    * that its size is that of the joint */
@@ -88,8 +89,9 @@ typedef struct baum_i_space_coupling {
   int32_t at; /* start of its block in off[] */
 } baum_i_space_coupling;
 
-/* Pivots of a node: determinants of its first block, of up to three rows, and of the second after
- * the elimination of the first. */
+/* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.
+ * `det` contains the determinant of the first block, and that of the second block after the
+ * elimination of the first. */
 typedef struct baum_i_space_measure {
   double det[2];
   double size[2]; /* products of the diagonal entries of S */
@@ -135,10 +137,10 @@ typedef struct baum_i_space {
   int32_t *targets; /* starts in off[] of blocks that receive products of couplings */
 
   double *numbers;                /* memory of all arrays below */
-  double *sides;                  /* constants (structure.c), then E and R of all sides */
+  double *sides;                  /* constants (space_structure.c), then E and R of all sides */
   double *nodes;                  /* lambda, r, and D, later its factors */
   baum_i_space_measure *measures; /* (node_count) */
-  double *off;     /* S below the diagonal, then U = S D^-1 without the last factor of D */
+  double *off;     /* S below the diagonal, later replaced by [ U1 U2 ] of space_factor_hot.c */
   double *free;    /* (body_count x 8) a0 */
   double *motion;  /* a */
   double *force;   /* f, whitened */
@@ -168,7 +170,7 @@ static inline int baum_i_space_pivot(int rows)
   return 2 * baum_i_space_vector(rows);
 }
 
-/* Statuses as baum_i_block_create(). */
+/* Returns the same statuses as baum_i_block_create(). */
 baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, baum_i_space **out);
 void baum_i_space_destroy(baum_i_space *space); /* NULL is allowed */
 
@@ -186,7 +188,8 @@ void baum_i_space_use_force(baum_i_space *space, bool use);
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
 
-/* Sets the determinants of a node's block of S, as in baum_i_space_measure. */
+/* Computes what det[] of baum_i_space_measure would be if no other node had been eliminated before
+ * this one. */
 void baum_i_space_undivided(const baum_i_space *space, int node, double det[2]);
 
 /* Hot functions for right-hand sides and for nodes whose sides come from J. */

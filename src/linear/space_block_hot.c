@@ -53,7 +53,8 @@ BAUM_I_INLINE void scatter(const baum_i_space *b, const baum_i_space_node *node,
   }
 }
 
-/* Subtracts U^T lambda of a later node from the products of n columns. */
+/* Multiplies each of the n columns of U, entry by entry, by lambda of a later node, and adds the
+ * products to sum[c] for column c. The entries of sum[c] add up to entry c of U^T lambda. */
 BAUM_I_INLINE void add_products(int n, const double *u, const double *later, bool tall,
                                 baum_i_four sum[8])
 {
@@ -287,7 +288,7 @@ static double correct(baum_i_space *b)
 
 static bool read_motion(const baum_i_space *b, double *a)
 {
-  double sum = 0.0; /* of 0 x: 0, or NaN if a number is not finite */
+  double sum = 0.0; /* sum of 0 x_i, which is 0, or NaN if a number is not finite */
   for (int t = 1; t < b->body_count; t++) {
     const baum_i_space_body *body = &b->bodies[t];
     const double *x = b->motion + (ptrdiff_t)MOTION * t;

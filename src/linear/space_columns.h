@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Columns of up to six numbers for the solver of mechanisms in space (space_block.h): four, and two
- * more if the matrix is *tall*. `tall` and numbers of columns are constants wherever speed matters,
- * so that the compiler removes what is not needed. */
+/* Columns of up to six numbers for the solver of mechanisms in space (space_block.h). A column
+ * consists of four numbers and, if the matrix is *tall*, of two more. `tall` and the numbers of
+ * columns are compile-time constants wherever speed matters, so that the compiler removes the code
+ * that is not needed. */
 #ifndef BAUM_I_LINEAR_SPACE_COLUMNS_H
 #define BAUM_I_LINEAR_SPACE_COLUMNS_H
 
@@ -44,7 +45,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, d
   return baum_i_four_minus(sum, baum_i_four_times(x, baum_i_four_all(s)));
 }
 
-/* The sums of the numbers of each of four vectors. */
+/* Returns four sums, each over the four numbers of one vector. */
 BAUM_I_INLINE baum_i_four baum_i_four_sums(const baum_i_four x[4])
 {
 #ifdef BAUM_I_WIDE
@@ -70,13 +71,13 @@ BAUM_I_INLINE baum_i_four baum_i_four_set(double x, double y, double z, double u
 #endif
 }
 
-/* One number; i is a constant. */
+/* Returns number i, where i is a compile-time constant. */
 BAUM_I_INLINE double baum_i_four_get(baum_i_four x, int i)
 {
   return i < 2 ? baum_i_four_low(x)[i] : baum_i_four_high(x)[i - 2];
 }
 
-/* Replaces one number; i is a constant. */
+/* Replaces number i, where i is a compile-time constant. */
 BAUM_I_INLINE baum_i_four baum_i_four_put(baum_i_four x, int i, double s)
 {
 #ifdef BAUM_I_WIDE
@@ -110,7 +111,8 @@ BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
 #endif
 }
 
-/* The cross product of vectors of three numbers, and 0 or a rounding error. */
+/* Returns the cross product of the first three numbers. The fourth number of the result is 0 or a
+ * rounding error. */
 BAUM_I_INLINE baum_i_four baum_i_four_cross(baum_i_four x, baum_i_four y)
 {
   baum_i_four first = baum_i_four_times(x, baum_i_four_rotated(y));
@@ -176,7 +178,7 @@ BAUM_I_INLINE baum_i_space_column baum_i_column_times(baum_i_space_column x, dou
   return x;
 }
 
-/* The place of an entry in a matrix with `columns` columns. */
+/* Returns the index of an entry in a matrix with `columns` columns. */
 BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
 {
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;

@@ -7,8 +7,9 @@
  *
  *   D = [ D1  C ; C^T  D2 ],  P = D1^-1,  Y = P C,  Z = (D2 - C^T Y)^-1,
  *
- * and both inverses are adjugates over determinants. A coupling X = [ X1  X2 ] of the node with
- * node i and the right-hand sides b change to
+ * and both inverses are computed as adjugates divided by determinants. The elimination of the node
+ * changes its coupling X = [ X1 X2 ] with a later node i, the right-hand side b and the blocks of
+ * later nodes (S_fe couples node f with node e) to
  *
  *   U1 = X1 P,  X2' = X2 - U1 C,  U2 = X2' Z,     b2' = b2 - Y^T b1
  *   D_i -= U1 X1^T + U2 X2'^T,  b_i -= U1 b1 + U2 b2',  S_fe -= [ X1  X2' ]_f [ U1  U2 ]_e^T
@@ -91,8 +92,8 @@ static void couple(baum_i_space *b)
 
 /* ---- factor ---- */
 
-/* The pivot of the node that is eliminated. Symmetric matrices are their lower triangles, row by
- * row. */
+/* The pivot of the node that is eliminated. Of symmetric matrices only the lower triangles are
+ * stored, row by row. */
 typedef struct pivot {
   double p[6];
   double c[3][3]; /* C, column by column */
@@ -211,8 +212,9 @@ BAUM_I_INLINE void keep_pivot(int n, const pivot *t, double *d, double *b)
   }
 }
 
-/* Subtracts X' U^T of an earlier coupling from a block or, if `pivot`, from D, of which only the
- * upper triangle of the last rows is kept. n: rows of the eliminated node. */
+/* Subtracts X' U^T from a block of off[] or, if `is_pivot`, from D of the later node. Here x is X'
+ * of one coupling, and u is U of an earlier coupling or, for D, of the same one. D is symmetric, so
+ * rows 4 and 5 of D are stored only for columns 4 and 5. n: rows of the eliminated node. */
 BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, const double *u,
                                     int columns, bool is_pivot, double *to)
 {
@@ -321,7 +323,7 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   return target;
 }
 
-/* Returns the smallest ratio of a determinant to the diagonal entries of S. */
+/* Returns the smallest ratio of a determinant to the product of the diagonal entries of S. */
 static double weakest(const baum_i_space *b)
 {
   double least = 1.0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual of the whole system in space in twice the working precision, as block_residual.c has it
- * for the plane. The wide version has the instruction of fma(). */
+/* Residual of the whole system of a mechanism in space, in twice the working precision.
+ * block_residual.c does the same for planar mechanisms. In the version for wide vectors
+ * (base/hot.h), fma() is a single instruction. */
 #include <string.h>
 
 #include "base/hot.h"

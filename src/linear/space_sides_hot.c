@@ -53,7 +53,7 @@ static void take_side(const baum_i_space *b, const baum_i_space_node *node,
   }
 }
 
-/* Returns the right side of one row; also sets Phi'. */
+/* Returns the right-hand side of one row; also sets Phi'. */
 static double right_of(const baum_i_space *b, const baum_i_space_node *node, int i,
                        const baum_i_block_rows *at)
 {

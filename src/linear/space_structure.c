@@ -9,7 +9,7 @@
 #include "linear/space_block.h"
 #include "linear/vector.h"
 
-/* As in block_structure.c. */
+/* Limits on sides and couplings, as in block_structure.c. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* Where the three constant parts of lean sides are in sides[]: E = I, E = -I and E = 0. */
@@ -102,7 +102,8 @@ static baum_status add_sides(builder *u, const baum_i_row_block *rows, baum_i_sp
   return BAUM_OK;
 }
 
-/* Adds a node for each group of up to six rows that are not omitted. */
+/* Adds a node for each group of up to six rows. Omitted rows are skipped, unless the layout marks
+ * the row block as `whole`. */
 static baum_status add_nodes(builder *u, int row_block)
 {
   const baum_i_row_block *rows = &u->layout->structure->row_blocks[row_block];

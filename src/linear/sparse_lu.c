@@ -2,8 +2,9 @@
 /* Sparse LU by KLU of SuiteSparse, 32-bit indices.
  *
  * klu_refactor keeps the pivots and allocates nothing. It may return KLU_OK with a useless result
- * if pivots have become small since they were chosen. klu_rcond, the ratio of the smallest to the
- * largest pivot, then falls. New pivots are accepted whatever their ratio is.
+ * if pivots have become small since they were chosen. In this case klu_rcond, the ratio of the
+ * smallest to the largest pivot, is smaller than it was when the pivots were chosen. Newly chosen
+ * pivots are accepted whatever their ratio is.
  */
 #include "linear/sparse_lu.h"
 

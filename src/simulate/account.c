@@ -14,7 +14,7 @@
  * gains of the stabilization change the multipliers. The power of this change is
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
- *   (5),
+ *   (5).
  *
  * This power is contained in the work of the drivers and in the work of the violation
  * (docs/theory/energy.md).

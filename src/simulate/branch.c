@@ -28,7 +28,8 @@
 
 /* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
  * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
- * Over the longest steps, the error of the polynomials is 0.06. */
+ * Over the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
+ * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, this is unknown. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
 /* A jump that is both above KICK and above SURELY times its estimated error is caused by steps with
@@ -51,8 +52,8 @@ static const double SMALL_TURN = 0.4;
  * the violation may have caused the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-/* Smallest violation that shows a gap, expressed as a displacement. Where branches cross, the
- * violation is 0. */
+/* Violations (as displacements) and smallest pivots up to this do not show a gap. Where branches
+ * cross, both are 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
@@ -130,8 +131,8 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
-/* A small pivot at a state of the run itself shows a gap, unless the violation of the state
- * explains why the pivot is small. */
+/* The last state of the run has the smallest pivot of the crossing. This pivot shows a gap if it is
+ * clearly above 0 and the violation of the state does not explain this. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

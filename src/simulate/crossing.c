@@ -10,9 +10,9 @@
  * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
  *   states, and its slopes could reach zero between them, the least p of the motion through the
  *   three states is searched.
- * - If the least p < SINGULAR, the interval is a crossing, unless J keeps its rank: it is recorded,
- *   its branch is decided (branch.c), and the run warns. Other intervals only have worse pivots
- *   than usual. */
+ * - If the least p < SINGULAR and J loses rank there, the interval is a crossing. The run then
+ *   records it, decides which branch the motion has taken (branch.c), and warns. Other intervals
+ *   only have worse pivots than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Handles changes from outside during a run: new values of inputs, schedules of inputs, and new
- * driver laws. Each of them changes the right side of the equations abruptly (restart.c). */
+ * driver laws. Each of them changes the right-hand side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -69,7 +69,7 @@ static int append_others(const baum_i_schedule *old, int k, double t, int64_t in
 }
 
 /* Merge the new jumps of one input with the jumps of the other inputs, in the order of time. If a
- * new value equals the value before it, it is not a jump and is not copied. */
+ * new value equals the value before it, it is not a jump and is not listed. */
 static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);

@@ -98,8 +98,8 @@ static baum_status fail_creeping(baum_simulation *run)
   const baum_i_state *now = &run->ahead;
   baum_status status =
     baum_i_fail(BAUM_ERR_STEP,
-                "t = %.9g s: %s hardly advances: each of the last %d steps was shorter than 1e-9 "
-                "of the time scale of the motion; the forces may be stiff, which requires "
+                "t = %.9g s: %s hardly advances: the last %d steps were on average shorter than "
+                "1e-9 of the time scale of the motion; the forces may be stiff, which requires "
                 "cvode_bdf or ida, or the configuration may be singular, which rk8 can pass",
                 now->t, run->integrator->name, (int)PACE_STEPS);
   return baum_i_run_explain_failure(run, status, now);

@@ -88,7 +88,8 @@ static void observe_redundant(baum_simulation *run, double t)
 static const double LARGE = 0.01;
 /* The error of the motion is at least as large as the violation. If the run has a tolerance, the
  * violation must not be much larger than the tolerance. KEPT and TOLERANCES_KEPT are limits for
- * formulations that enforce Phi = 0, the others for formulations that let Phi drift. */
+ * formulations that enforce Phi = 0. DRIFTED and TOLERANCES_DRIFTED are limits for formulations
+ * that let Phi drift. */
 static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;

@@ -61,7 +61,8 @@ struct baum_simulation {
   baum_i_problem problem;
   void *self; /* memory of the integrator; may be NULL for a fixed-step method */
 
-  /* (2 nc) own copy of the option, and its products with those of the mechanism; or NULL */
+  /* (2 nc) copy of the option row_gains, followed by its products with row_gains of the mechanism;
+   * NULL: the option is not given */
   double *row_gains;
   baum_i_account *account; /* energy account, see account.h; NULL: none */
   baum_workspace
@@ -91,7 +92,7 @@ struct baum_simulation {
 
   atomic_int cancelled;
   double last_progress; /* [s] */
-  double time_limit;    /* [s] of wall time of a call */
+  double time_limit;    /* [s] largest wall time of a call */
   double deadline;      /* [s] wall time at which the present call stops */
   bool reporting;       /* within progress() */
   double paced_at;      /* [s] time of the last check of the pace of this call */
@@ -313,7 +314,8 @@ baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omit
 /* ---- singular_step.c ---- */
 
 /* Replace run->acceleration at the start of a step by its limit if the configuration is singular.
- * Uses the trial state. The present state is evaluated again; statuses of this evaluation. */
+ * Uses the trial state. The present state is evaluated again. Returns the statuses of this
+ * evaluation. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run);
 
 /* Project the trial state, the end of a step, onto the constraints at t. The projection is skipped

@@ -111,5 +111,5 @@ const char *baum_i_saved_find(const baum_i_saved *list, const unsigned char *fro
     left -= used;
     from += WORD + used;
   }
-  return left == 0 ? NULL : "does not fit: there is something behind it";
+  return left == 0 ? NULL : "does not fit: other data follow it";
 }

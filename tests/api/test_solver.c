@@ -322,8 +322,9 @@ static void joints_in_a_dense_net_are_refused_for_blocks(void **state)
   (void)state;
   baum_mechanism *m = make_net();
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
-  assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
-                 "solver is block|the joints form a dense net, so blocks would fill");
+  assert_refused(
+    m, &o, BAUM_ERR_UNSUPPORTED,
+    "solver is block|the joints form a dense net, so the block solver would have too much fill");
   baum_mechanism_destroy(m);
 }
 

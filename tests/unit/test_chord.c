@@ -113,7 +113,7 @@ static void numbers_that_overflow_are_named(void **state)
     baum_i_chord chord;
     check(baum_i_chord_begin(w, 0.25, from, &chord));
     ASSERT_SAYS(baum_i_chord_change(w, &chord, 0.25, far_off), BAUM_ERR_NOT_FINITE,
-                "t = 0.25 s: the right side of joint 1 \"rod\" is -inf");
+                "t = 0.25 s: the right-hand side of the constraints of joint 1 \"rod\" is -inf");
     baum_workspace_destroy(w);
   }
 }

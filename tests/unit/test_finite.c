@@ -79,7 +79,8 @@ static void gamma_that_overflows_is_refused(void **state)
   ASSERT_SAYS(baum_workspace_gamma(s.workspace, 0.0, s.q, s.v, s.out), BAUM_ERR_NOT_FINITE,
               "the gamma of joint 1 \"rod\" is -inf");
   ASSERT_SAYS(baum_workspace_acceleration(s.workspace, 0.0, s.q, s.v, 0.0, 0.0, s.out, NULL),
-              BAUM_ERR_NOT_FINITE, "the right side of joint 1 \"rod\" is -inf");
+              BAUM_ERR_NOT_FINITE,
+              "the right-hand side of the constraints of joint 1 \"rod\" is -inf");
   close_scene(&s);
 }
 

@@ -79,7 +79,7 @@ static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up
   assert_string_equal(text, again);
   baum_mobility mobility;
   check(baum_mechanism_mobility(m, &mobility, sizeof mobility));
-  assert_non_null(strstr(mobility.text, "before assembly, joint 2 \"A\" is open most"));
+  assert_non_null(strstr(mobility.text, "before assembly, joint 2 \"A\" is violated most"));
   baum_mechanism_destroy(m);
 }
 
