@@ -24,7 +24,7 @@ typedef struct loop {
   double crank[2];     /* [rad] angle and [rad/s] angular velocity */
   double work;         /* [J] done by the motor and (negative) by the brake */
   double longest;      /* [s] longest wall time of an interval */
-  double longest_step; /* [s] longest mean wall time of a step in an interval */
+  double longest_step; /* [s] mean wall time of a step, in the interval where it is longest */
   /* element k counts intervals of 2^k to 2^(k+1) us; the last counts all longer ones */
   long histogram[BINS];
 } loop;

@@ -2,14 +2,15 @@
 /* Functions that the examples share: command line, tables and checks. They are not a part of the
  * library.
  *
- *   example_begin() reads the command line: [--json FILE] [--data FILE] [--page FILE]
- *   example_table() begins a table; its cells follow row by row example_expect() makes a check; the
- *   program fails if a check fails. Checks come after all tables example_end() closes the files and
- *   gives the exit code
+ * - example_begin() reads the command line: [--json FILE] [--data FILE] [--page FILE].
+ * - example_table() begins a table. Its cells follow row by row.
+ * - example_expect() makes a check. If a check fails, the program fails. All checks must come after
+ *   all tables.
+ * - example_end() closes the files and returns the exit code.
  *
- * A table goes to the screen, to the JSON file as  "name": {"columns": {key: title}, "rows": [{key:
- * value}]}, and to the data file as a block that gnuplot finds with  index "name".
- */
+ * A table is printed on the screen and written to two files. The JSON file contains it as
+ * "name": {"columns": {key: title}, "rows": [{key: value}]}. The data file contains it as a block,
+ * which gnuplot finds by its name (index "name"). */
 #ifndef EXAMPLE_UTIL_H
 #define EXAMPLE_UTIL_H
 

@@ -65,7 +65,8 @@ def simulate(spin: float, times: Array) -> tuple[baum.Run, Array]:
 
 
 def vertical_momentum(run: baum.Run) -> Array:
-    """Angular momentum [N m s] about the vertical through the joint. Gravity does not change it."""
+    """Return the angular momentum [N m s] about the vertical through the joint. Gravity does not
+    change it."""
     r, velocity = run["top.pose"][:, :3], run["top.velocity"]  # both in ground axes
     v, w = velocity[:, :3], velocity[:, 3:]
     spin = (w * r).sum(axis=1, keepdims=True) * r / ARM**2

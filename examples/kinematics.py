@@ -60,7 +60,7 @@ def ram_at(t: Array) -> Array:
 
 def turning_times() -> Array:
     """Return the two times [s] at which the ram reverses its direction, where sin(p) = -R / D.
-    Between them it moves back."""
+    Between these times the ram moves back."""
     more = np.arcsin(R / D)
     times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
     return times

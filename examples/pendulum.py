@@ -23,7 +23,8 @@ COLUMNS = {
 
 
 def pendulum() -> baum.Mechanism:
-    """Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod."""
+    """Build the mechanism. The function Phi(q) = x^2 + y^2 - 1 is the only thing that the library
+    needs to know about the rod."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint("rod", [bob], rows=1, phi=lambda t, q: q @ q - 1)

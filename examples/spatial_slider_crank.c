@@ -4,9 +4,9 @@
  *
  *   ground - revolute - crank - spherical - rod - universal - slider - prismatic - ground
  *
- * The crank is released at 20 rad/s. Two facts check the run. If p is the angle of the crank, the
- * slider is at x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2). The energy is
- * conserved. */
+ * The crank is released at 20 rad/s. The program checks the run in two ways. If p is the angle of
+ * the crank, the slider must be at x = R cos p + sqrt(L^2 - (BESIDE - R sin p)^2 - ABOVE^2). The
+ * energy must stay constant. */
 #include <string.h>
 
 #include <baum/baum.h>

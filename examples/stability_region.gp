@@ -26,7 +26,8 @@ do for [k=1:10] {
   name = word(names, k)
   set title word(titles, k) font "Sans,12" offset 0,-0.6
   if (k == 10) { set key at screen 0.5,0.03 center center maxrows 1 samplen 2 width 1 } else { unset key }
-  # A kind without points in one of the plots would be missing in its key.
+  # The key consists of separate keyentry elements. Otherwise a kind of points that does not occur
+  # in the last plot would be missing in the key.
   plot data index name."_points" using ($4 == 0 ? $1 : NaN):2 with points pt 7 ps 0.25 \
          lc rgb "#d9a27a" notitle, \
        data index name."_points" using ($4 == 1 ? $1 : NaN):2 with points pt 7 ps 0.55 \

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study of accuracy and cost. It simulates the slider-crank without a driver, which is released
- * at 150 rad/s, for 0.2 s, with every integrator and every formulation. It recommends settings. The
- * option --page FILE writes all results as a page for a browser. */
+/* A study of accuracy and cost. The mechanism is the slider-crank without a driver, whose crank is
+ * released at 150 rad/s. The study simulates it for 0.2 s with every integrator and every
+ * formulation, and recommends settings. With the option --page FILE, the program writes all results
+ * as a page for a browser. */
 #include "slider_crank_reference.h"
 
 static const char TITLE[] = "Undriven slider-crank, released at 150 rad/s";

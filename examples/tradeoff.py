@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study of accuracy and cost in Python. It simulates the slider-crank, which is released at 150
-rad/s. The program then runs the settings that the study recommends."""
+"""A study of accuracy and cost in Python. The mechanism is the slider-crank without a driver, whose
+crank is released at 150 rad/s. The program then runs the settings that the study recommends."""
 
 import sys
 
