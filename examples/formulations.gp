@@ -4,11 +4,12 @@ set terminal pngcairo size 1300,620 font "Sans,11"
 set output "formulations.png"
 data = "formulations.dat"
 pairs = "euler baumgarte  euler projection  semi_implicit_euler baumgarte  semi_implicit_euler projection \
-rk4 baumgarte  rk4 projection  cvode_adams baumgarte  cvode_bdf baumgarte  ida baumgarte  ida index3"
+rk4 baumgarte  rk4 projection  rk8 baumgarte  rk8 projection  cvode_adams baumgarte  cvode_bdf projection \
+ida ggl  ida baumgarte  ida index3"
 pair_count = words(pairs) / 2
 part(k, i) = word(pairs, 2 * k - 2 + i)
-colour(k) = word("#0b5fa5 #0b5fa5 #2b8a3e #2b8a3e #d1700b #d1700b #862e9c #c2255c #495057 #000000", k)
-mark(k) = int(word("7 6 5 4 9 8 11 13 15 2", k))
+colour(k) = word("#0b5fa5 #0b5fa5 #2b8a3e #2b8a3e #d1700b #d1700b #1098ad #1098ad #862e9c #c2255c #495057 #495057 #000000", k)
+mark(k) = int(word("7 6 5 4 9 8 3 1 11 13 14 15 2", k))
 set datafile missing "NaN"
 set logscale xy
 set format x "10^{%L}"

@@ -188,7 +188,7 @@ int main(int argc, char **argv)
   example_begin(argc, argv, "slider_crank");
   slider_crank s = slider_crank_build(true);
   solve_kinematics(s.mechanism);
-  printf("slider_crank: 3 bodies, 5 joints, no freedom; crank driven at %g rad/s\n"
+  printf("slider_crank: 3 bodies, 5 joints, no degree of freedom; crank driven at %g rad/s\n"
          "integrator    euler, h = %g s, %d steps; formulation baumgarte\n"
          "predicted     by the recursion of (19); steady: by the library, for gains >= 0.1/h\n\n",
          SLIDER_CRANK_SPEED, H, STEPS);

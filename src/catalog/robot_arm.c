@@ -108,7 +108,7 @@ const baum_i_catalog_mechanism baum_i_robot_arm = {
   .title = "robot arm of six revolute joints, all driven",
   .source = "ours",
   .provenance = "closed form",
-  .note = "no freedom left: solved by kinematics, too",
+  .note = "no degree of freedom left: solved by kinematics, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", JOINTS),
   .defaults = (const double[COUNT]){1.0, 2.5, 9.81},
   .end = 2.0,

@@ -133,7 +133,7 @@ static void build_driven(baum_i_parts *parts, const double *p)
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3), \
     BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                               \
     .provenance = "closed form; agrees with extrapolation in 160 bits",                \
-    .note = "no freedom left: solved by kinematics, too. Its formulas need "           \
+    .note = "no degree of freedom left: solved by kinematics, too. Its formulas need " \
             "rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {

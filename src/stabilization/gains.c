@@ -158,7 +158,7 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
 {
   baum_i_print(out->note, sizeof out->note, " (%s%g x %.6g 1/s, %s%s)", capped,
                auto_factor(context), context->rate, context->rate_is,
-               context->driven ? "; no freedom is left" : "");
+               context->driven ? "; no degree of freedom is left" : "");
 }
 
 /* Sets alpha h to the wanted value. The value is limited by AUTO_CAP, and by half of the stability

@@ -3,7 +3,9 @@
  * stored results. It also tests a mechanism with redundant rows, a study with two threads whose
  * files have names beyond ASCII, and messages in a locale with a decimal comma.
  *
- * usage: portable FOLDER Prints results with all digits, for comparison between systems. */
+ * usage: portable FOLDER
+ *
+ * The program prints results with all digits, for comparison between systems. */
 #include <locale.h>
 #include <math.h>
 #include <stdbool.h>

@@ -237,16 +237,16 @@ static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
   context.driven = true;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 24.0 && c.beta == 24.0);
-  has(c.why, "(0.6 x 40 1/s, a rate; no freedom is left); ");
+  has(c.why, "(0.6 x 40 1/s, a rate; no degree of freedom is left); ");
   context.step = (double)NAN;
   c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 80.0 && c.beta == 80.0);
-  has(c.why, "(2 x 40 1/s, a rate; no freedom is left); variable step");
+  has(c.why, "(2 x 40 1/s, a rate; no degree of freedom is left); variable step");
   context = variable_step();
   context.driven = true;
   c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 1600.0 && c.beta == 1600.0);
-  has(c.why, "(40 x 40 1/s, a rate; no freedom is left); variable step");
+  has(c.why, "(40 x 40 1/s, a rate; no degree of freedom is left); variable step");
 }
 
 /* Returns alpha / rate that the rule `auto` chooses for a fixed step. */
