@@ -146,9 +146,9 @@ typedef struct baum_study_grid {
    *  if a user constraint has neither jacobian nor gamma, because finite differences are not more
    *  accurate than this. */
   double finest;
-  /** A smaller grid, which costs about a 25th and gives a first answer. It contains every
-   *  integrator with its default gains, and with its default formulation or the one given above.
-   *  Each has at most 5 settings, and `constants` is ignored. Default: false. */
+  /** A smaller grid for a first answer. It costs about a 25th of the default grid. It contains
+   *  every integrator with its default gains, and with its default formulation or the one given
+   *  above. Each integrator has at most 5 settings, and `constants` is ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -287,48 +287,49 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  struct below, the study file, CSV, JSON and Python are generated from this list. Results marked
  *  DONE are known only if the entry is done. An error is the largest one over all samples; if its
  *  name contains `final`, it is the error at the last sample. An error is never smaller than the
- *  uncertainty of the reference. */
-#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
-  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
-  X(baum_status, status, ALWAYS, "", "status of its run")                                          \
-  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                    \
-  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")        \
-  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")               \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                            \
-  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                     \
-  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                       \
-  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                             \
-  X(double, error_final, DONE, "1", "error at the last sample")                                    \
-  X(double, error_half, DONE, "1", "error over the first half of the samples")                     \
-  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                      \
-  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                     \
-  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")    \
-  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                    \
-  X(double, error_lambda, DONE, "1", "error of multipliers, times the displacement of their rows") \
-  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")              \
-  X(double, energy_error, DONE, "J", "drift of energy against the reference")                      \
-  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                   \
-  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                          \
-  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")     \
-  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
-  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
-  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
-  X(double, projection_work, DONE, "J", "change of energy by projections")                         \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
-  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")           \
-  X(double, cpu, DONE, "s", "least CPU time of a run with its creation, without samples")          \
-  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                        \
-  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                          \
-  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without samples")             \
-  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without samples")             \
-  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                    \
-  X(int64_t, steps, DONE, "1", "accepted steps")                                                   \
-  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
-  X(int64_t, forced_steps, DONE, "1", "steps over singular configurations")                        \
-  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")             \
-  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                  \
-  X(int64_t, branch_warnings, DONE, "1", "intervals after which the branch is in doubt")           \
-  X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
+ *  uncertainty of the reference. For error_lambda, each multiplier is weighted by the displacement
+ *  of its row that results if the coordinates change by their scales. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
+  X(baum_status, status, ALWAYS, "", "status of its run")                                        \
+  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                  \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")      \
+  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")             \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                          \
+  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                   \
+  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                     \
+  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                           \
+  X(double, error_final, DONE, "1", "error at the last sample")                                  \
+  X(double, error_half, DONE, "1", "error over the first half of the samples")                   \
+  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                    \
+  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                   \
+  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")  \
+  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                  \
+  X(double, error_lambda, DONE, "1", "error of weighted multipliers, relative to the largest")   \
+  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")            \
+  X(double, energy_error, DONE, "J", "drift of energy against the reference")                    \
+  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                 \
+  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                        \
+  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")   \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")      \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                 \
+  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")  \
+  X(double, projection_work, DONE, "J", "change of energy by projections")                       \
+  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                 \
+  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")         \
+  X(double, cpu, DONE, "s", "least CPU time to create and run it, without taking samples")       \
+  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                      \
+  X(int32_t, repeats, DONE, "1", "number of runs that measured the CPU time")                    \
+  X(int64_t, evaluations, DONE, "1", "evaluations in the run, without those for samples")        \
+  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without those for samples") \
+  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                  \
+  X(int64_t, steps, DONE, "1", "accepted steps")                                                 \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                    \
+  X(int64_t, forced_steps, DONE, "1", "steps across singularities, see baum_counters")           \
+  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")           \
+  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                \
+  X(int64_t, branch_warnings, DONE, "1", "near-singular intervals with a doubtful branch")       \
+  X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
  *  those of BAUM_STUDY_ENTRY_LIST. A result that is not known is NaN. error_validated is infinite

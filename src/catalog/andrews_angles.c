@@ -196,15 +196,15 @@ static void build(baum_i_parts *parts, const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[1] = {
-  {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_ANY},
+  {"beta", "rad", "angle of the crank K1 at start; K1 starts at rest", BAUM_I_ANY},
 };
 
 const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .name = "andrews_angles",
-  .title = "Andrews' squeezing mechanism in 7 angles by functions of the user",
+  .title = "Andrews' squeezing mechanism in 7 angles, given by user functions",
   .source = ANDREWS_SOURCE,
   .provenance = ANDREWS_PROVENANCE,
-  .note = "rates up to 1500 rad/s within 0.03 s",
+  .note = "angular velocities up to 1500 rad/s within 0.03 s",
   .parameter_count = 1,
   .parameters = PARAMETERS,
   .defaults = (const double[1]){ANDREWS_START},

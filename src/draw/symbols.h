@@ -24,8 +24,8 @@ void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
                            int side, const baum_i_place *to, double radius, double shift);
 
-/* Draw a line or an area. Each of its points is given by two coordinates, x and y, in units: from
- * the point of the place along the directions `along` and `across`. */
+/* Draw a line or an area. Its points are given by coordinates x and y, in units. Their origin is
+ * the point of the place, and their directions are `along` and `across`. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);
