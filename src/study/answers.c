@@ -2,8 +2,8 @@
 /* This file answers three questions about the results of a study: which entries are on the front,
  * what an error costs, and which setting is recommended.
  *
- * Between two entries of a method, error and cost are interpolated linearly over the logarithm of
- * the step or of rtol. A recommendation for the error E requires
+ * Between two entries of a method, the logarithms of error and cost are interpolated linearly over
+ * the logarithm of the step or of rtol. A recommendation for the error E requires
  *
  *   error_validated x margin <= E
  *
@@ -160,7 +160,7 @@ static bool find_error(const baum_i_entry *const *entries, int count, double err
   return false;
 }
 
-/* What a caller asks when asking for the cost at an error. */
+/* A request for the cost at a given error. */
 typedef struct cost_query {
   const baum_study *study;
   double error;

@@ -155,7 +155,7 @@ static void put_front(const baum_i_snapshot *snapshot, int width, baum_i_buffer 
 
 static void put_methods(const baum_i_snapshot *snapshot, int width, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nMethods, with the factors on their cost for one more digit\n");
+  baum_i_put(out, "\nMethods, with the factors by which one more digit increases their cost\n");
   baum_i_put_left(out, "method", width);
   baum_i_put(out, "  settings  usable  least error   slope     work      CPU  growth\n");
   for (int k = 0; k < snapshot->method_count; k++) {

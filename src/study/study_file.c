@@ -41,7 +41,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* the sums of all lines except the first begin with this number */
+  uint64_t seed; /* the digests of all lines except the first begin with this number */
 };
 
 /* ---- lines ---- */
