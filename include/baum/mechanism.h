@@ -715,7 +715,8 @@ typedef struct baum_report {
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
   int32_t constant_rows;  /**< [-] rows that do not depend on time. */
-  int32_t islands;        /**< [-] groups of bodies connected by joints, without fixed bodies. */
+  /** [-] groups of bodies that joints connect with each other. Fixed bodies do not count. */
+  int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;

@@ -237,8 +237,10 @@ typedef struct baum_simulation_options {
    *  BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is tolerance_lambda rtol E
    *  / n_i. Here n_i is the norm of row i of J, with each column j multiplied by the scale s_j of
    *  its coordinate. E is the larger of two numbers: the largest present |lambda_k| n_k, and the
-   *  largest M_jj s_j^2 r^2. r [1/s] is the rate of the motion, which baum_simulation_explain()
-   *  states with the tolerances. Default: infinity, the error of multipliers is not tested. */
+   *  largest M_jj s_j^2 r^2. Here r [1/s] is the rate of the motion at the start, which is the
+   *  largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all coordinates i. In an equilibrium at
+   *  rest, r is sqrt(g/L) instead, or 1 1/s without gravity. baum_simulation_explain() states r
+   *  with the tolerances. Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
   /** Keep the energy account of baum_simulation_energy_account(). Kinematics refuses this option.
    *  Default: false. */
@@ -329,7 +331,7 @@ BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simu
 
 /** Limit the wall time of calls that advance the run. A call that takes longer returns
  *  BAUM_STOP_TIME after the step that it is taking; it takes at least one step. The next call
- *  continues. The motion and the monitors do not depend on such stops.
+ *  continues. Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
  *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the

@@ -54,7 +54,8 @@ class Report(NamedTuple):
     degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
     redundant_rows: [-] rows omitted from every solution.
     constant_rows: [-] rows that do not depend on time.
-    islands: [-] groups of bodies connected by joints, without fixed bodies.
+    islands: [-] groups of bodies that joints connect with each other. Fixed bodies do not
+        count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
     constant_mass: All masses are constant, so they are inverted only once.
