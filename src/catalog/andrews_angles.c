@@ -103,8 +103,8 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Bodies K2, K3, K4 and K6 meet at the point F. This function computes where F is on K2, and
- * subtracts where it is on each of the other three bodies. */
+/* Bodies K2, K3, K4 and K6 meet at the point F. This function computes the position of F as a point
+ * of K2, and subtracts its position as a point of each of the other three bodies. */
 static int phi(double t, const double *q, double *out, void *user)
 {
   (void)t;

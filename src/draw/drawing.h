@@ -228,8 +228,8 @@ baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spati
  * Returns 0 if the body is not a wheel of this gear. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3]);
-/* Return the radius of a wheel's outline, which is slightly larger than its pitch circle in any
- * joint. Returns 0 if the body is not a wheel. */
+/* Return the radius of a wheel's outline, which is slightly larger than the pitch circle of its
+ * gear or rack. Returns 0 if the body is not a wheel. */
 double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3]);
 
 #endif

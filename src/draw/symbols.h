@@ -50,7 +50,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
                        const double along[3], const double across[3]);
 
 /* Draw the foot of a joint on the ground. The foot is below the joint in the direction of gravity.
- * If the other body hangs from the joint, it is above the joint. */
+ * If the other body hangs from the joint, the foot is above the joint. */
 void baum_i_draw_foot(const baum_i_symbol *s);
 
 /* Draw the wall to which a body is welded, on the side opposite to the body. */
@@ -60,7 +60,7 @@ void baum_i_draw_wall(const baum_i_symbol *s);
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
 /* Find the direction from a planar guide on the ground to its free side. This direction is opposite
- * to gravity. If the guide is vertical, it points towards the mechanism. */
+ * to gravity. If the guide is vertical, the direction is towards the mechanism. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */
