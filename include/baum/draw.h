@@ -118,8 +118,8 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 /** Draw a mechanism as an SVG picture. A planar mechanism is shown in the x-y plane. A mechanism
  *  with spatial elements is shown in a parallel projection, seen obliquely from above. Red lines
  *  show where the constraints of a joint are violated. They connect points that should coincide, a
- *  point with the line, plane or curve on which it should be, and the tips of axes that should be
- *  parallel.
+ *  point with the line, plane or curve on which it should be (for a distance joint, with a sphere),
+ *  and the tips of axes that should be parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.

@@ -17,11 +17,11 @@
  *  reference. docs/theory/work-precision.md explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
- *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls user
- *  functions, including those of the mechanism, from each of these threads. The progress function
- *  may cancel the study. If the study uses one thread only, the progress function may also read the
- *  study. Inside the progress function, functions that change the study fail with BAUM_ERR_STATE,
- *  and baum_study_destroy() does nothing.
+ *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
+ *  user functions of the mechanism from each of these threads. The progress function may cancel the
+ *  study. If the study uses one thread only, the progress function may also read the study. Inside
+ *  the progress function, functions that change the study fail with BAUM_ERR_STATE, and
+ *  baum_study_destroy() does nothing.
  *
  *  The study owns all texts that its functions return. They are valid until the next call that
  *  changes the study.
@@ -252,9 +252,10 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *
  *  If the option file is set, the study appends every result to this file as a line of text as soon
  *  as the result is known. When this function returns, all results are on the disk. Another study
- *  can continue with this file if it has the same mechanism, span, samples, error and reference. It
- *  then reads the results of its entries from the file; a last line that is cut off does no harm.
- *  The study does not compare user functions. Only one process at a time may use the file.
+ *  can continue with this file if it has the same mechanism, span, samples, error, reference and
+ *  option energy_account, and runs with the same version of the library. It then reads the results
+ *  of its entries from the file; a last line that is cut off does no harm. The study does not
+ *  compare user functions. Only one process at a time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -507,8 +508,8 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
  *  @param      error   [-] > 0
  *  @param      cost    how cost is measured
  *  @param[out] out     [- or s] the cost
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method does not reach that error; the message
- *           states its smallest error) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method was not measured near that error; the
+ *           message states the range of its errors) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
 
