@@ -21,8 +21,8 @@ extern "C" {
  *  that use past steps restart at the break (counters.restarts counts this). If a break is not on
  *  the grid of a fixed-step method, the method shortens the step before the break
  *  (counters.short_steps counts this) and begins a new grid at the break. Breaks do not change the
- *  times of outputs. If a requested time differs from a break only by rounding, it is moved to the
- *  break.
+ *  times of outputs, with one exception: if a requested time differs from a break only by rounding,
+ *  the output is moved to the time of the break.
  *
  *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
  *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()

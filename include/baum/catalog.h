@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The catalogue: ready mechanisms whose motion is known. They serve as examples, for tests of
- *  integration methods, and for comparisons with other programs. docs/mechanisms.md lists them. The
- *  catalogue is a separate library, baum_catalog, which uses only the public interface of baum.
+ *  The catalogue: a collection of mechanisms. The motion of almost all of them is known. They serve
+ *  as examples, for tests of integration methods, and for comparisons with other programs.
+ *  docs/mechanisms.md lists them. The catalogue is a separate library, baum_catalog, which uses
+ *  only the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);

@@ -104,7 +104,7 @@ BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum
 BAUM_API int32_t baum_mechanism_outline_count(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Read an outline. Its pointers stay valid until the outlines of the body are set again.
- *  @param      mechanism    read only
+ *  @param      mechanism    frozen or not
  *  @param      body         one of the mechanism
  *  @param      k            [-] 0 <= k < baum_mechanism_outline_count()
  *  @param[out] out          receives the outline
@@ -118,8 +118,8 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 /** Draw a mechanism as an SVG picture. A planar mechanism is shown in the x-y plane. A mechanism
  *  with spatial elements is shown in a parallel projection, seen obliquely from above. Red lines
  *  show where the constraints of a joint are violated. They connect points that should coincide, a
- *  point with the line, plane or curve on which it should be, and the tips of axes that should be
- *  parallel.
+ *  point with the line, plane or curve on which it should be (for a distance joint, with a sphere),
+ *  and the tips of axes that should be parallel.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -179,7 +179,8 @@ typedef struct baum_page {
    *  plots the columns from index 9 on. Default: NULL, none. */
   const double *plots;
   int32_t plot_count; /**< [-] >= 0. Default: 0. */
-  /** [-] distance of two rows in `plots`, in numbers. Default: 0, plot_count. */
+  /** [-] how many numbers after the start of a row of `plots` the next row starts. Default: 0,
+   *  plot_count. */
   int32_t plot_stride;
   /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
    *  the same unit are drawn in the same plot. Default: NULL. */

@@ -235,13 +235,14 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
 /** Assemble the mechanism: change q until Phi(q, t) = 0, and compute the velocities that are not
  *  given. Newton's method computes the change of q, and each of its steps is the smallest possible
  *  one in the mass-weighted norm. The sum of the steps is therefore close to the smallest possible
- *  change, unless J changes much during the move. If J does and the bodies move more than you want,
- *  list the bodies that must not move in `held`.
+ *  change, unless J changes much during the move. If J changes much and bodies move more than you
+ *  want, list the bodies that must not move in `held`.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
  *  @param[in,out] v            (nv) velocities. Finite entries are kept exactly. Entries that are
- *                              NaN are computed from the constraints; if the constraints do not
- *                              determine them, they are those of least norm. Unchanged on failure.
+ *                              NaN are computed from the constraints. If the constraints do not
+ *                              determine these entries, the function chooses those of least norm.
+ *                              Unchanged on failure.
  *  @param[in]     held         (held_count) bodies that keep their positions, in addition to those
  *                              whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0

@@ -4,11 +4,11 @@
  *  passes a value.
  *
  *  Detection: after every step, the run evaluates its event functions at the end of the step and at
- *  the quarters of the step. It also evaluates them at outputs. If the sign of a function has
- *  changed, the run searches for the time of the event. The search needs states inside the step.
- *  They are computed as for outputs: variable-step methods interpolate the step, and fixed-step
- *  methods take shorter steps from its start. If a function passes zero twice between two
- *  evaluations, the event is not detected. In this case, reduce max_step or the step.
+ *  the quarters of the step. It also evaluates them at the times of outputs. If the sign of a
+ *  function has changed, the run searches for the time of the event. The search needs states inside
+ *  the step. They are computed as for outputs: variable-step methods interpolate the step, and
+ *  fixed-step methods take shorter steps from its start. If a function passes zero twice between
+ *  two evaluations, the event is not detected. In this case, reduce max_step or the step.
  *
  *  Zero at the start: an event function may be zero where a run starts, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. It is not an event

@@ -125,7 +125,7 @@ typedef int baum_force_fn(double t, const double *q, const double *v, const doub
  *  derivative to s[1] and its second to s[2]. s[1] and s[2] must be the exact derivatives of s[0];
  *  baum_mechanism_check_derivatives() compares them with finite differences. The library also calls
  *  the law at times outside the run, in order to check the derivatives and to find redundant rows
- *  in configurations near the start. The function returns the same numbers as baum_q_fn. */
+ *  in configurations near the start. The return value has the same meaning as that of baum_q_fn. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
@@ -136,11 +136,11 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
 /** Moves q for the time h with the constant velocity v, and overwrites q with the result. The
- *  result must be accurate to second order in h or better. If h is 1, v is a displacement
- *  (size). */
+ *  result must be accurate to second order in h or better. With h = 1, the function moves q by the
+ *  displacement v. A displacement has `size` numbers, as a velocity has. */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** Computes the displacement dx (size) from one configuration to another: the function of type
+/** Computes the displacement dx (size) from one configuration to another. The function of type
  *  baum_move_fn, called with h = 1 and v = dx, moves `from` to `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
@@ -154,10 +154,10 @@ typedef void baum_normalize_fn(double *q, void *user);
  *
  *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
  *  quaternion, set position_scale and the fields below it; the time derivative of q is then N(q) v.
- *  In this case every function except `rate` receives a normalized q. Derivatives with respect to q
- *  are then derivatives along displacements (size). This also applies to constraints on these
- *  coordinates: their Jacobian is Phi_q N, not Phi_q. The functions rate, move, difference and
- *  normalize report a failure by writing NaN. */
+ *  In this case every function except `rate` receives a normalized q. Derivatives with respect to
+ *  q, such as force_q, are then derivatives along the `size` components of a displacement. This
+ *  also applies to constraints on these coordinates: their Jacobian is Phi_q N, not Phi_q. The
+ *  functions rate, move, difference and normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
@@ -188,7 +188,7 @@ typedef struct baum_coordinates_def {
   baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
   baum_move_fn *move;             /**< Default: NULL; must be set if `rate` is set. */
   baum_difference_fn *difference; /**< Default: NULL; must be set if `rate` is set. */
-  baum_normalize_fn *normalize;   /**< Default: NULL, if every q is on the manifold. */
+  baum_normalize_fn *normalize;   /**< Not needed if every q is on the manifold. Default: NULL. */
   int32_t position_count;         /**< [-] number of positions. Default: 0, the same as `size`. */
 } baum_coordinates_def;
 
@@ -245,10 +245,11 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  functions of yours. The only function that is required is phi. In the comments of the fields, nv
  *  is the total number of velocities of the listed bodies.
  *
- *  With velocity_level = true they are constraints J(q, t) v = nu(q, t) on velocities that are not
- *  derivatives of a Phi (non-holonomic constraints, such as a wheel that does not slip). Then
- *  jacobian is required, phi must be NULL, and the right side of (4) becomes gamma - alpha (J v -
- *  nu).
+ *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
+ *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
+ *  those of a wheel that does not slip. In this case jacobian is required and phi must be NULL.
+ *  With Baumgarte's gains (stabilization.h), their equation of accelerations is J a = gamma - alpha
+ *  (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
  *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
@@ -267,7 +268,9 @@ typedef struct baum_user_constraint_def {
   baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
   baum_qv_fn *gamma;   /**< out (row_count), gamma in (4). Default: NULL, differences of phi. */
   void *user;          /**< Passed to the functions. Not owned. Default: NULL. */
-  bool velocity_level; /**< J v = nu without Phi; nu NULL: 0. Default: false. */
+  /** True for constraints J v = nu on velocities, without a Phi. If the function nu is NULL, these
+   *  constraints have nu = 0. Default: false. */
+  bool velocity_level;
 } baum_user_constraint_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -365,7 +368,7 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
  *  with one exception: an angle of a spatial joint is between -pi and pi if a workspace calls the
  *  function. Methods that need the third derivative compute it by differences of f[2]. When the
  *  library checks the derivatives, it also calls the law at values of x that the motion does not
- *  reach. The function returns the same numbers as baum_q_fn. */
+ *  reach. The return value has the same meaning as that of baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
@@ -523,9 +526,10 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
 /* ---- inputs ---------------------------------------------------------------------------------- */
 
 /** Add an input. An input is a number that your program sets during a run, such as the torque of a
- *  motor. A load whose definition names an input is multiplied by its value (planar.h), and all
- *  force functions receive the values of all inputs. Runs and workspaces begin with the initial
- *  value and keep it until baum_simulation_set_input() or baum_workspace_set_input() changes it.
+ *  motor. If the definition of a load names an input, the load is multiplied by the value of this
+ *  input (planar.h). All force functions receive the values of all inputs. Runs and workspaces
+ *  begin with the initial value and keep it until baum_simulation_set_input() or
+ *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
  *  @param[in]  name       label in messages. Copied. NULL: "input<k>".
  *  @param      initial    finite, in the unit of your choice
@@ -711,7 +715,8 @@ typedef struct baum_report {
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
   int32_t constant_rows;  /**< [-] rows that do not depend on time. */
-  int32_t islands;        /**< [-] groups of bodies connected by joints, without fixed bodies. */
+  /** [-] groups of bodies that joints connect with each other. Fixed bodies do not count. */
+  int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;
@@ -745,12 +750,14 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
  *  baum_simulation_create() makes this check, too.
  *
  *  The check evaluates the functions in the design configuration at t = 0, and in three
- *  configurations near it at t = 0, 0.37 and 1.3. It rejects an entry of a derivative if its error
- *  exceeds 1e-6 of the entry plus 1e-9 of the size of its row. It also checks mass(): the matrix
- *  must be symmetric, its diagonal must not contain negative numbers in the design configuration,
- *  and it must be constant if constant_mass is true. Kinks of a function are allowed. The check
- *  skips configurations and times at which a function fails. If a function fails in all
- *  configurations, the check returns this failure; laws of drivers are an exception.
+ *  configurations near it at t = 0, 0.37 and 1.3. It rejects an entry of a derivative if the error
+ *  of the entry exceeds the sum of 1e-6 times the entry and 1e-9 times the largest entry of the
+ *  row. Before the entries of a row are compared, each is multiplied by the scale of its
+ *  coordinate. It also checks mass(): the matrix must be symmetric, its diagonal must not contain
+ *  negative numbers in the design configuration, and it must be constant if constant_mass is true.
+ *  Kinks of a function are allowed. The check skips configurations and times at which a function
+ *  fails. If a function fails in all configurations, the check returns this failure. Laws of
+ *  drivers are an exception: they may fail in all of them.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

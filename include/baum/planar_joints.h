@@ -118,8 +118,8 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  and both wheels rotate in the same direction. The motion depends only on the ratio of the radii,
  *  so you may give numbers of teeth instead of radii. Other joints, such as pins, must keep the
  *  wheels on the carrier. A planetary gear consists of two of these joints, one between sun and
- *  planet and one between planet and ring. The carrier of both is the arm. If the ring is fixed, it
- *  is BAUM_GROUND. All bodies must have an angle.
+ *  planet and one between planet and ring. The carrier of both joints is the arm of the planets. If
+ *  the ring does not move, it is BAUM_GROUND. All bodies must have an angle.
  *
  *  The reaction of a gear pair is the generalized force -J^T lambda that belongs to the velocities
  *  of body_a, body_b and the carrier; ground is omitted. It contains only torques: its force
@@ -219,17 +219,19 @@ BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, 
 
 /* ---- knife edge ------------------------------------------------------------------------------ */
 
-/** A point of body_a moves only along a blade that is fixed in body_a, relative to body_b: a skate,
- *  or a wheel seen from above. One row of velocity level [m/s]: the velocity of the point across
- *  the blade, positive to the left of `axis`. Such a row does not restrict positions: with it a
- *  mechanism has more degrees of freedom of position than of velocity (see baum_mobility).
+/** A blade that is fixed in body_a slides on body_b, but not sideways. Examples are a skate, and a
+ *  wheel seen from above. The blade touches body_b at one point, which moves relative to body_b
+ *  only in the direction of the blade. The joint has one row of velocity level [m/s], the velocity
+ *  of this point across the blade, positive to the left of `axis`. This row does not restrict
+ *  positions. A mechanism with such a row therefore has more degrees of freedom of position than of
+ *  velocity (see baum_mobility).
  *
- *  body_b is the surface on which the blade slides. Both bodies must have an angle. Reaction: force
- *  and moment on body_b at the blade's point. */
+ *  Both bodies must have an angle. The reaction of the joint is the force and the moment on body_b
+ *  at the point of the blade. */
 typedef struct baum_planar_knife_edge_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Bears the blade. Default: none, must be set. */
+  baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
   baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */

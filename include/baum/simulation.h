@@ -237,8 +237,10 @@ typedef struct baum_simulation_options {
    *  BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is tolerance_lambda rtol E
    *  / n_i. Here n_i is the norm of row i of J, with each column j multiplied by the scale s_j of
    *  its coordinate. E is the larger of two numbers: the largest present |lambda_k| n_k, and the
-   *  largest M_jj s_j^2 r^2. r [1/s] is the rate of the motion, which baum_simulation_explain()
-   *  states with the tolerances. Default: infinity, the error of multipliers is not tested. */
+   *  largest M_jj s_j^2 r^2. Here r [1/s] is the rate of the motion at the start, which is the
+   *  largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all coordinates i. In an equilibrium at
+   *  rest, r is sqrt(g/L) instead, or 1 1/s without gravity. baum_simulation_explain() states r
+   *  with the tolerances. Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
   /** Keep the energy account of baum_simulation_energy_account(). Kinematics refuses this option.
    *  Default: false. */
@@ -318,20 +320,22 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
-/** Change the option progress_interval. The progress function may call this function, too: with an
- *  interval of 0 it is called after every step from then on.
+/** Change the option progress_interval. The progress function may call this function, too. With an
+ *  interval of 0, the progress function is called after every step from then on.
  *  @param simulation  the run
  *  @param interval    [s] of wall time, >= 0, finite
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
+ *           progress function) */
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
 
 /** Limit the wall time of calls that advance the run. A call that takes longer returns
  *  BAUM_STOP_TIME after the step that it is taking; it takes at least one step. The next call
- *  continues. The motion and the monitors do not depend on such stops.
+ *  continues. Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
- *  @param limit       [s] of wall time, > 0; INFINITY, as at the start of a run: none
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (inside another function of the user) */
+ *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
+ *           progress function) */
 BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
 
 /** Replace the time and the state of a run. Multistep methods restart. If the new state does not
@@ -393,8 +397,8 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  - With PROJECTION the state jumps at the end of the next step, and with GGL and INDEX3 during
  *    the next step.
  *  - With INDEX2 the velocity jumps, but the difference in s remains.
- *  - With BAUMGARTE the gains let the difference decay. If s jumps and the gains are about 1/h,
- *    this causes velocities of about s/h.
+ *  - With BAUMGARTE the gains let the difference decay. If the gains are about 1/h, a jump of s
+ *    causes velocities of about the jump divided by h.
  *  - With UNSTABILIZED the difference remains.
  *  - Kinematics moves to the nearest configuration on its branch, and fails if there is none
  *    nearby.
@@ -472,8 +476,8 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 /* ---- what comes out -------------------------------------------------------------------------- */
 
 /** What a channel records. The number of its columns is in parentheses. Units are m, rad, N, N m
- *  and s. For user coordinates and user constraints, they follow from the units of these. The unit
- *  of a multiplier is J per unit of its row.
+ *  and s. The units of user coordinates and user constraints are your choice. The unit of a
+ *  multiplier is J per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of (5) at the present
  *  state, which contains no stabilization terms. The run computes this solution only if a channel
@@ -492,9 +496,9 @@ typedef enum baum_quantity {
   /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of `point` and angular
    *  velocity, both in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
-  /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. For user constraints,
-   *  gears and couplings: the generalized force -J^T lambda that belongs to the velocities of their
-   *  bodies. */
+  /** Force and moment on body_b (3 for planar joints, 6 for spatial joints), see planar.h and
+   *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda that
+   *  belongs to the velocities of their bodies. */
   BAUM_JOINT_REACTION = 10,
   /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
@@ -755,18 +759,18 @@ typedef enum baum_branch {
 } baum_branch;
 
 /** A near-singular interval: an interval of time in which a run was near a singular configuration.
- *  To detect it, a run monitors the smallest pivot of the equations of motion, relative to the
- *  largest such value of the run so far. Close to a singular configuration, this number is
- *  proportional to the square of the distance from it. The interval is where the number is below
- *  0.02; it may lie inside one step. When the run has left the interval, it adds the interval to
- *  its list if the number has fallen below 1e-3, or if only the constraint violation has prevented
- *  this. */
+ *  To detect it, a run monitors p, the smallest pivot of the equations of motion divided by the
+ *  largest value that this pivot has had in the run so far. Close to a singular configuration, p is
+ *  proportional to the square of the distance from this configuration. The interval consists of the
+ *  times at which p is below 0.02, and may lie inside one step. When the run has left the interval,
+ *  it adds the interval to its list if p has fallen below 1e-3, or if p would have done so without
+ *  the constraint violation. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest pivot in the interval, relative to the largest of the run so far. */
+  /** [-] the smallest p in the interval, see above. */
   double pivot;
   /** [-] by how much the velocity after the interval differs from a smooth continuation of the
    *  motion before the interval, relative to the size of the velocity. NaN: unknown. */

@@ -124,7 +124,8 @@ typedef struct baum_spatial_spring_def {
   /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law for the tension [N], which replaces the three numbers above. Default: NULL. */
+  /** A law that replaces the three fields above; the spring then has no potential energy.
+   *  Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */

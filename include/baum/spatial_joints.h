@@ -62,9 +62,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
 /* ---- revolute joint -------------------------------------------------------------------------- */
 
 /** A hinge (revolute joint): body_b rotates about an axis of body_a. The joint has five rows: three
- *  let the points of both bodies coincide [m], and two make their axes parallel [-]. The coordinate
- *  of the joint is the angle of body_b relative to body_a about the axis [rad]. It is 0 in the
- *  design configuration. */
+ *  make the points of both bodies coincide [m], and two make the axes of both bodies parallel [-].
+ *  The coordinate of the joint is the angle of body_b relative to body_a about the axis [rad]. It
+ *  is 0 in the design configuration. */
 typedef struct baum_spatial_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -107,12 +107,13 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
 
 /* ---- universal joint ------------------------------------------------------------------------- */
 
-/** A universal joint (Hooke's joint): a cross connects the bodies; it rotates about `axis` on
- *  body_a, and body_b rotates relative to it about `axis_b`. The joint has four rows: three let the
- *  points of both bodies coincide [m], and one keeps the two axes perpendicular [-]. The axes must
- *  not be parallel in the design configuration. The coordinates of the joint are two angles [rad],
- *  which are both 0 in the design configuration: ANGLE is the angle of the cross relative to body_a
- *  about `axis`, and ANGLE_B is the angle of body_b relative to the cross about `axis_b`. */
+/** A universal joint (Hooke's joint): a cross connects the bodies. The cross rotates relative to
+ *  body_a about `axis`, and body_b rotates relative to the cross about `axis_b`. The joint has four
+ *  rows: three make the points of both bodies coincide [m], and one keeps the two axes
+ *  perpendicular [-]. The axes must not be parallel in the design configuration. The coordinates of
+ *  the joint are two angles [rad], which are both 0 in the design configuration: ANGLE is the angle
+ *  of the cross relative to body_a about `axis`, and ANGLE_B is the angle of body_b relative to the
+ *  cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -270,9 +271,9 @@ typedef struct baum_spatial_planar_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
    *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
-  /** [-] direction of x; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: NaN, along the ground x axis in the design configuration, or along the ground y axis
-   *  if the normal is along x. */
+  /** [-] direction of x, projected onto the plane; in ground axes if `point` is given, otherwise in
+   *  the axes of body_a. Default: NaN, the direction of the ground x axis in the design
+   *  configuration, or of the ground y axis if the normal is along x. */
   double x_axis[3];
 } baum_spatial_planar_def;
 
@@ -457,22 +458,23 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 
 /* ---- rolling disc ---------------------------------------------------------------------------- */
 
-/** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. Three rows: the
- *  height of the disc over the plane [m], a row of positions, and two rows of velocity level [m/s]:
- *  the velocities of the contact point in two directions of the plane. Such rows do not restrict
- *  positions: with them a mechanism has more degrees of freedom of position than of velocity (see
- *  baum_mobility).
+/** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. The joint has
+ *  three rows. The first is a constraint on positions: the height of the disc over the plane [m].
+ *  The other two are rows of velocity level [m/s]: the velocities of the contact point in two
+ *  directions of the plane. Rows of velocity level do not restrict positions. A mechanism with such
+ *  rows therefore has more degrees of freedom of position than of velocity (see baum_mobility).
  *
- *  The rim has a circular cross-section with the radius rim_radius: 0 is a thin disc, radius is a
- *  sphere. Contact is permanent: the normal force may also pull. A disc that is not a sphere must
- *  not lie flat on the plane. Both bodies must have an orientation. Reaction: force and moment on
- *  body_b at the contact point. The multipliers are the forces [N] on body_b, with the opposite
- *  sign, along the normal and the two directions. */
+ *  The rim has a circular cross-section with the radius rim_radius. If rim_radius is 0, the disc is
+ *  thin; if it is equal to radius, the disc is a sphere. Contact is permanent: the normal force may
+ *  also pull. A disc that is not a sphere must not lie flat on the plane. Both bodies must have an
+ *  orientation. The reaction of the joint is the force and the moment on body_b at the contact
+ *  point. The multipliers are the forces [N] on body_b along the normal and along the two
+ *  directions, with the opposite sign. */
 typedef struct baum_spatial_rolling_disc_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Bears the plane; must differ from body_b. Default: BAUM_GROUND. */
-  baum_body_id body_b; /**< Bears the disc. Default: none, must be set. */
+  baum_body_id body_a; /**< The body with the plane; not body_b. Default: BAUM_GROUND. */
+  baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
   double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
   /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
   double normal[3];

@@ -17,11 +17,11 @@
  *  reference. docs/theory/work-precision.md explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
- *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls user
- *  functions, including those of the mechanism, from each of these threads. The progress function
- *  may cancel the study. If the study uses one thread only, the progress function may also read the
- *  study. Inside the progress function, functions that change the study fail with BAUM_ERR_STATE,
- *  and baum_study_destroy() does nothing.
+ *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
+ *  user functions of the mechanism from each of these threads. The progress function may cancel the
+ *  study. If the study uses one thread only, the progress function may also read the study. Inside
+ *  the progress function, functions that change the study fail with BAUM_ERR_STATE, and
+ *  baum_study_destroy() does nothing.
  *
  *  The study owns all texts that its functions return. They are valid until the next call that
  *  changes the study.
@@ -139,16 +139,17 @@ typedef struct baum_study_grid {
    *  integrator's default rule and to automatic gains. The first is the angular velocity of the
    *  motion; each further one is ten times larger. Default: 2. */
   int32_t constants;
-  /** [s] > 0, longest step of methods of order 2 and above. Default: NaN, from the time scale of
-   *  the motion. */
+  /** [s] > 0, longest step of methods of the orders 3 to 5. The longest steps of methods of the
+   *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, from the time scale of the
+   *  motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13, or 1e-11
    *  if a user constraint has neither jacobian nor gamma, because finite differences are not more
    *  accurate than this. */
   double finest;
-  /** A smaller grid, which costs about a 25th and gives a first answer. It contains every
-   *  integrator with its default gains, and with its default formulation or the one given above.
-   *  Each has at most 5 settings, and `constants` is ignored. Default: false. */
+  /** A smaller grid for a first answer. It costs about a 25th of the default grid. It contains
+   *  every integrator with its default gains, and with its default formulation or the one given
+   *  above. Each integrator has at most 5 settings, and `constants` is ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -189,10 +190,10 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
 
 /* ---- what error means ------------------------------------------------------------------------ */
 
-/** Define what the study reports as error. After this call, it is the largest |difference from the
- *  reference| / unit of all columns of the given channels. Without this call, it is the largest
- *  error of all positions, with lengths relative to the characteristic length and angles in
- *  radians. Call this function before the first baum_study_run().
+/** Define what the study reports as error. After this call, the error is the largest |difference
+ *  from the reference| / unit of all columns of the given channels. Without this call, the error is
+ *  the largest error of all positions, with lengths relative to the characteristic length and
+ *  angles in radians. Call this function before the first baum_study_run().
  *  @param     study     unchanged on failure
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
@@ -251,9 +252,10 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *
  *  If the option file is set, the study appends every result to this file as a line of text as soon
  *  as the result is known. When this function returns, all results are on the disk. Another study
- *  can continue with this file if it has the same mechanism, span, samples, error and reference. It
- *  then reads the results of its entries from the file; a last line that is cut off does no harm.
- *  The study does not compare user functions. Only one process at a time may use the file.
+ *  can continue with this file if it has the same mechanism, span, samples, error, reference and
+ *  option energy_account, and runs with the same version of the library. It then reads the results
+ *  of its entries from the file; a last line that is cut off does no harm. The study does not
+ *  compare user functions. Only one process at a time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -262,8 +264,8 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *           the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop. It then discards the results of entries that are not finished. If
- *  a call is adding entries at this time, it stops, too, and adds none. This function may be called
+/** Ask baum_study_run() to stop. It then discards the results of entries that are not finished. A
+ *  call that is adding entries at this time stops, too, and adds none. This function may be called
  *  from any thread and from signal handlers.
  *  @param study  may be NULL */
 BAUM_API void baum_study_cancel(baum_study *study);
@@ -287,48 +289,49 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  struct below, the study file, CSV, JSON and Python are generated from this list. Results marked
  *  DONE are known only if the entry is done. An error is the largest one over all samples; if its
  *  name contains `final`, it is the error at the last sample. An error is never smaller than the
- *  uncertainty of the reference. */
-#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
-  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
-  X(baum_status, status, ALWAYS, "", "status of its run")                                          \
-  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                    \
-  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")        \
-  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")               \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                            \
-  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                     \
-  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                       \
-  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                             \
-  X(double, error_final, DONE, "1", "error at the last sample")                                    \
-  X(double, error_half, DONE, "1", "error over the first half of the samples")                     \
-  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                      \
-  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                     \
-  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")    \
-  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                    \
-  X(double, error_lambda, DONE, "1", "error of multipliers, times the displacement of their rows") \
-  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")              \
-  X(double, energy_error, DONE, "J", "drift of energy against the reference")                      \
-  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                   \
-  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                          \
-  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")     \
-  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
-  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
-  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
-  X(double, projection_work, DONE, "J", "change of energy by projections")                         \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
-  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")           \
-  X(double, cpu, DONE, "s", "least CPU time of a run with its creation, without samples")          \
-  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                        \
-  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                          \
-  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without samples")             \
-  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without samples")             \
-  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                    \
-  X(int64_t, steps, DONE, "1", "accepted steps")                                                   \
-  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
-  X(int64_t, forced_steps, DONE, "1", "steps over singular configurations")                        \
-  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")             \
-  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                  \
-  X(int64_t, branch_warnings, DONE, "1", "intervals after which the branch is in doubt")           \
-  X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
+ *  uncertainty of the reference. For error_lambda, each multiplier is weighted by the displacement
+ *  of its row that results if the coordinates change by their scales. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
+  X(baum_status, status, ALWAYS, "", "status of its run")                                        \
+  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                  \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")      \
+  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")             \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                          \
+  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                   \
+  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                     \
+  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                           \
+  X(double, error_final, DONE, "1", "error at the last sample")                                  \
+  X(double, error_half, DONE, "1", "error over the first half of the samples")                   \
+  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                    \
+  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                   \
+  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")  \
+  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                  \
+  X(double, error_lambda, DONE, "1", "error of weighted multipliers, relative to the largest")   \
+  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")            \
+  X(double, energy_error, DONE, "J", "drift of energy against the reference")                    \
+  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                 \
+  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                        \
+  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")   \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")      \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                 \
+  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")  \
+  X(double, projection_work, DONE, "J", "change of energy by projections")                       \
+  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                 \
+  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")         \
+  X(double, cpu, DONE, "s", "least CPU time to create and run it, without taking samples")       \
+  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                      \
+  X(int32_t, repeats, DONE, "1", "number of runs that measured the CPU time")                    \
+  X(int64_t, evaluations, DONE, "1", "evaluations in the run, without those for samples")        \
+  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without those for samples") \
+  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                  \
+  X(int64_t, steps, DONE, "1", "accepted steps")                                                 \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                    \
+  X(int64_t, forced_steps, DONE, "1", "steps across singularities, see baum_counters")           \
+  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")           \
+  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                \
+  X(int64_t, branch_warnings, DONE, "1", "near-singular intervals with a doubtful branch")       \
+  X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
  *  those of BAUM_STUDY_ENTRY_LIST. A result that is not known is NaN. error_validated is infinite
@@ -434,8 +437,8 @@ BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, do
 
 /** State in words how the error is defined.
  *  @param study  may be NULL
- *  @return  such as "largest error of all positions, lengths by 0.51 m, angles in rad"; NULL for
- *           NULL */
+ *  @return  such as "largest error of all positions over all samples, lengths divided by 0.51 m,
+ *           angles in rad"; NULL for NULL */
 BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
@@ -505,8 +508,8 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
  *  @param      error   [-] > 0
  *  @param      cost    how cost is measured
  *  @param[out] out     [- or s] the cost
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method does not reach that error; the message
- *           states its smallest error) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method was not measured near that error; the
+ *           message states the range of its errors) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
 

@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 #define BAUM_VERSION_MAJOR 0       /**< Changes of the interface that break callers. */
-#define BAUM_VERSION_MINOR 1       /**< Additions; before 1.0 also changes. */
+#define BAUM_VERSION_MINOR 1       /**< Additions; before 1.0 also changes that break callers. */
 #define BAUM_VERSION_PATCH 0       /**< Corrections. */
 #define BAUM_VERSION       "0.1.0" /**< The three as text. */
 

@@ -103,8 +103,8 @@ static int potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Bodies K2, K3, K4 and K6 meet at the point F. This function computes where F is on K2, and
- * subtracts where it is on each of the other three bodies. */
+/* Bodies K2, K3, K4 and K6 meet at the point F. This function computes the position of F as a point
+ * of K2, and subtracts its position as a point of each of the other three bodies. */
 static int phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -196,15 +196,15 @@ static void build(baum_i_parts *parts, const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[1] = {
-  {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_ANY},
+  {"beta", "rad", "angle of the crank K1 at start; K1 starts at rest", BAUM_I_ANY},
 };
 
 const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .name = "andrews_angles",
-  .title = "Andrews' squeezing mechanism in 7 angles by functions of the user",
+  .title = "Andrews' squeezing mechanism in 7 angles, given by user functions",
   .source = ANDREWS_SOURCE,
   .provenance = ANDREWS_PROVENANCE,
-  .note = "rates up to 1500 rad/s within 0.03 s",
+  .note = "angular velocities up to 1500 rad/s within 0.03 s",
   .parameter_count = 1,
   .parameters = PARAMETERS,
   .defaults = (const double[1]){ANDREWS_START},

@@ -134,7 +134,7 @@ static void build(baum_i_parts *parts, const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [BETA] = {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_ANY},
+  [BETA] = {"beta", "rad", "angle of the crank K1 at start; K1 starts at rest", BAUM_I_ANY},
   [MOMENT] = {"moment", "N m", "of the motor on K1", BAUM_I_ANY},
   [STIFFNESS] = {"stiffness", "N/m", "of the spring on K3", BAUM_I_POSITIVE},
   [FREE_LENGTH] = {"free_length", "m", "of the spring", BAUM_I_POSITIVE},
@@ -157,10 +157,10 @@ const baum_i_catalog_mechanism baum_i_andrews_bodies = {
 const baum_i_catalog_mechanism baum_i_andrews_a03 = {
   BODIES,
   .name = "andrews_a03",
-  .title = "Andrews' mechanism from beta = -0.062 rad, twice as long, as 7 rigid bodies",
+  .title = "Andrews' mechanism as 7 rigid bodies, started at beta = -0.062 rad and run for 0.05 s",
   .source = "IFToMM and A Coruna library of benchmarks, A03, with the data of the Bari test set",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 15.5 digits",
-  .note = "published as a plot only",
+  .provenance = "extrapolation in 160-bit arithmetic; two tolerances agree to 15.5 digits",
+  .note = "the published result is only a plot",
   .defaults = (const double[COUNT]){-0.062, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
   .end = 0.05,
   BAUM_I_CATALOG_STORED(ANDREWS_A03, 14),

@@ -20,14 +20,15 @@ enum { RODS = 5 };
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [LENGTH] = {"length", "m", "of each rod", BAUM_I_POSITIVE},
   [MASS] = {"mass", "kg", "of each rod", BAUM_I_POSITIVE},
-  [AXIAL] = {"axial", "-", "inertia of the rods about themselves to that across", BAUM_I_ANY},
+  [AXIAL] = {"axial", "-", "axial inertia of a rod divided by its transverse inertia", BAUM_I_ANY},
   [GRAVITY] = {"gravity", "m/s^2", "along -y", BAUM_I_ANY},
   [ANGLE] = {"angle", "rad", "of the first rod at start, about y; 0 to pi", BAUM_I_ANY},
   [SPEED] = {"speed", "rad/s", "of the first rod at start", BAUM_I_ANY},
 };
 
-/* For each rod its direction, and for each joint the number of its axis (0: x, 1: y, 2: z), in the
- * axes of the rods. When all angles are 0, the axes of the rods are parallel to the ground axes. */
+/* EDGE is the direction of each rod, and AXIS the number of the axis of each joint (0: x, 1: y, 2:
+ * z). Both refer to the axes of the rods, which are parallel to the ground axes when all angles are
+ * 0. */
 static const double EDGE[RODS][3] = {
   {1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 static const int AXIS[RODS + 1] = {1, 2, 0, 1, 2, 0};
@@ -89,9 +90,10 @@ const baum_i_catalog_mechanism baum_i_bricard = {
   .name = "bricard",
   .title = "Bricard's mechanism of slender rods, released from rest",
   .source = "IFToMM and A Coruna library of benchmarks, A04",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 17.1 digits, another model in "
-                "double precision to 9; the library raises the inertia 0 of the rods about "
-                "themselves to 1e-10 of that across",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 17.1 digits; another model in "
+    "double precision agrees to 9 digits; the library raises the axial inertia of the rods "
+    "from 0 to 1e-10 of the transverse inertia",
   .note = "one redundant row",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", RODS),
   .defaults = (const double[COUNT]){1.0, 1.0, 0.0, 9.81, 0.0, 0.0},

@@ -20,8 +20,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [STIFFNESS] = {"stiffness", "N/m", "of each spring", BAUM_I_POSITIVE},
   [DAMPING] = {"damping", "N s/m", "of each damper", BAUM_I_POSITIVE},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
-  [BELOW] = {"below", "rad", "of the arms below the horizontal at start", BAUM_I_ANY},
-  [SPEED] = {"speed", "rad/s", "of all bodies about z at start", BAUM_I_ANY},
+  [BELOW] = {"below", "rad", "angle of the arms below the horizontal at start", BAUM_I_ANY},
+  [SPEED] = {"speed", "rad/s", "angular velocity of all bodies about z at start", BAUM_I_ANY},
 };
 
 static const double PIN = 0.05; /* [m] distance from the axis of the shaft */
@@ -109,8 +109,9 @@ const baum_i_catalog_mechanism baum_i_flyball = {
   .title = "flyball governor with soft springs",
   .source = "IFToMM and A Coruna library of benchmarks, A05, with the stiffness, damping and speed "
             "of the example of EXUDYN",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 16.2 digits, another model in "
-                "double precision to 12.5",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 16.2 digits; another model in "
+    "double precision agrees to 12.5 digits",
   .defaults =
     (const double[COUNT]){5.0, 4000.0, 200.0, 9.81, 0.5235987755982989, 1.0053096491487339},
   BAUM_I_CATALOG_STORED(FLYBALL, 14),
@@ -121,8 +122,8 @@ const baum_i_catalog_mechanism baum_i_flyball_stiff = {
   .name = "flyball_stiff",
   .title = "flyball governor with stiff springs and dampers",
   .source = "IFToMM and A Coruna library of benchmarks, A05",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 14.5 digits",
-  .note = "the dampers have a rate of 8100 1/s: explicit methods need short steps",
+  .provenance = "extrapolation in 160-bit arithmetic; two tolerances agree to 14.5 digits",
+  .note = "the dampers cause a decay rate of 8100 1/s: explicit methods need short steps",
   .defaults = (const double[COUNT]){5.0, 8e5, 4e4, 9.81, 0.5235987755982989, 6.283185307179586},
   BAUM_I_CATALOG_STORED(FLYBALL_STIFF, 12),
 };

@@ -80,8 +80,9 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .name = "four_bar",
   .title = "four-bar, a crank-rocker of uniform rods under gravity (Grashof)",
   .source = "ours",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 17 digits, another model in "
-                "double precision to 12.4",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 17 digits; another model in "
+    "double precision agrees to 12.4 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 3),
   .defaults = (const double[COUNT]){1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0},
   .end = 5.0,

@@ -22,8 +22,9 @@
 enum { WINDOWS, ANGLE, RATE, LENGTH, CRANK_MASS, COUPLER_MASS, GRAVITY, COUNT };
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [WINDOWS] = {"windows", "-", "N, of two cranks and a coupler each", BAUM_I_WHOLE},
-  [ANGLE] = {"angle", "rad", "of all cranks at start; flat, which is singular, at 0", BAUM_I_ANY},
+  [WINDOWS] = {"windows", "-", "N; a window consists of two cranks and a coupler", BAUM_I_WHOLE},
+  [ANGLE] = {"angle", "rad", "of all cranks at start; the configuration at 0 is flat and singular",
+             BAUM_I_ANY},
   [RATE] = {"rate", "rad/s", "of all cranks at start", BAUM_I_ANY},
   [LENGTH] = {"length", "m", "of all rods", BAUM_I_POSITIVE},
   [CRANK_MASS] = {"crank_mass", "kg", "of each crank", BAUM_I_POSITIVE},
@@ -86,12 +87,12 @@ static void build(baum_i_parts *parts, const double *p)
 
 const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .name = "n_four_bar",
-  .title = "N-four-bar of uniform rods, which pass flat positions, where motions branch",
-  .source = "IFToMM and A Coruna library of benchmarks, A02; its table is that of N = 40",
-  .provenance =
-    "the equation of parallel cranks, which is that of a pendulum, by its Taylor series; "
-    "agrees to 13 digits with extrapolation in 160 bits for N = 1, 2, 40",
-  .note = "J loses N rows twice a turn; the reference is the branch of parallel cranks",
+  .title = "N-four-bar of uniform rods; it passes flat configurations, where motions branch",
+  .source = "IFToMM and A Coruna library of benchmarks, A02; the published table is for N = 40",
+  .provenance = "Taylor series of the equation of parallel cranks, which is that of a pendulum; "
+                "agrees to 13 digits with extrapolation in 160-bit arithmetic for N = 1, 2, 40",
+  .note = "twice per revolution, the rank of J falls by N; the reference is the branch of "
+          "parallel cranks",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT]){2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81},

@@ -18,7 +18,7 @@ enum { GRAVITY, ANGLE, SPEED, MASS, COUNT_ON_CIRCLE, LENGTH = COUNT_ON_CIRCLE, C
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
-  [ANGLE] = {"angle", "rad", "of the rod at start, from below", BAUM_I_ANY},
+  [ANGLE] = {"angle", "rad", "of the rod at start, from the downward vertical", BAUM_I_ANY},
   [SPEED] = {"speed", "m/s", "of the point at start, counterclockwise", BAUM_I_ANY},
   [MASS] = {"mass", "kg", "of the point", BAUM_I_POSITIVE},
   [LENGTH] = {"length", "m", "of the rod", BAUM_I_POSITIVE},
@@ -123,8 +123,8 @@ static void build_on_circle(baum_i_parts *parts, const double *p)
 /* ---- entries ---- */
 
 #define BY_SERIES                                                                    \
-  "the pendulum equation by its Taylor series, any parameters; agrees to 13 digits " \
-  "with extrapolation in 160 bits"
+  "Taylor series of the pendulum equation, for any parameters; agrees to 13 digits " \
+  "with extrapolation in 160-bit arithmetic"
 
 #define ON_ROD(SAMPLES)                                               \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_on_rod, rod_state, "mm", 1), \
@@ -133,7 +133,7 @@ static void build_on_circle(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_pendulum_a01 = {
   ON_ROD(21),
   .name = "pendulum",
-  .title = "simple pendulum, from level at the left",
+  .title = "simple pendulum, released from the horizontal on the left",
   .source = "IFToMM and A Coruna library of benchmarks, A01",
   .defaults = (const double[COUNT]){9.81, -LEVEL, 0.0, 1.0, 1.0},
   .end = 10.0,
@@ -142,7 +142,8 @@ const baum_i_catalog_mechanism baum_i_pendulum_a01 = {
 const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
   ON_ROD(41), /* one sample every 0.75 s, so that not all samples are at the ends of the swing */
   .name = "pendulum_sundials",
-  .title = "simple pendulum with a period of exactly 2 s, from level at the right",
+  .title =
+    "simple pendulum with a period of exactly 2 s, released from the horizontal on the right",
   .source = "LLNL/sundials, examples/cvode/serial/cvPendulum_dns.c",
   .defaults = (const double[COUNT]){13.750371636040745, LEVEL, 0.0, 1.0, 1.0},
   .end = 30.0,
@@ -150,7 +151,7 @@ const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
 
 const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {
   .name = "pendulum_mebdf",
-  .title = "simple pendulum of 1 m by functions of the user: test problem of the MEBDF codes",
+  .title = "simple pendulum of 1 m, given by user functions: test problem of the MEBDF codes",
   .source = "J. Cash, MEBDFDAE, pendul3.f (as kept in fons/JavaOdeInt)",
   .provenance = BY_SERIES ". The published values at 1 s have 10 digits",
   .parameter_count = COUNT_ON_CIRCLE,

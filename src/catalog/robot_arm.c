@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A robot arm with six revolute joints, about z, y, y, x, y and x. When all angles are 0, it is
- * stretched along x.
- * 0. A driver sets the angle of joint k to A_k sin w_k t. */
+/* A robot arm with six revolute joints, about z, y, y, x, y and x. When all angles are 0, the first
+ * link points up, and the others are stretched along x. A driver sets the angle of joint k to
+ * A_k sin w_k t. */
 #include <float.h>
 #include <math.h>
 
@@ -108,7 +108,7 @@ const baum_i_catalog_mechanism baum_i_robot_arm = {
   .title = "robot arm of six revolute joints, all driven",
   .source = "ours",
   .provenance = "closed form",
-  .note = "no degree of freedom left: solved by kinematics, too",
+  .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", JOINTS),
   .defaults = (const double[COUNT]){1.0, 2.5, 9.81},
   .end = 2.0,

@@ -34,7 +34,8 @@ static const baum_i_catalog_parameter PARAMETERS[BAUM_I_SLIDER_CRANK_COUNT] = {
                         BAUM_I_POSITIVE},
   AT(GRAVITY) = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
   AT(ANGLE) = {"angle", "rad", "of the crank at start", BAUM_I_ANY},
-  AT(SPEED) = {"speed", "rad/s", "of the crank: at start, or for ever if driven", BAUM_I_ANY},
+  AT(SPEED) = {"speed", "rad/s", "of the crank; at start only, or constant if the crank is driven",
+               BAUM_I_ANY},
 };
 
 const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {
@@ -132,18 +133,19 @@ static void build_driven(baum_i_parts *parts, const double *p)
 #define DRIVEN                                                                         \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3), \
     BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                               \
-    .provenance = "closed form; agrees with extrapolation in 160 bits",                \
-    .note = "no degree of freedom left: solved by kinematics, too. Its formulas need " \
-            "rod > crank + |eccentricity|"
+    .provenance = "closed form; agrees with extrapolation in 160-bit arithmetic",      \
+    .note = "no degrees of freedom; baum_kinematics() can simulate it, too. The "      \
+            "reference requires rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
   FREE,
   BAUM_I_CATALOG_SERIES(SLIDER_CRANK, 15, 14),
   .name = "slider_crank",
-  .title = "slider-crank, centric, the crank free from 150 rad/s",
+  .title = "centric slider-crank; the crank starts at 150 rad/s and is not driven",
   .source = FLORES,
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 18 digits, another model "
-                "in double precision to 12.8",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 18 digits; another model "
+    "in double precision agrees to 12.8 digits",
   .defaults = CENTRIC,
 };
 
@@ -151,17 +153,18 @@ const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
   FREE,
   BAUM_I_CATALOG_SERIES(SLIDER_CRANK_ECCENTRIC, 15, 14),
   .name = "slider_crank_eccentric",
-  .title = "slider-crank, eccentric, the crank free from 150 rad/s",
+  .title = "eccentric slider-crank; the crank starts at 150 rad/s and is not driven",
   .source = FLORES "; the eccentricity is our choice",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 17 digits, another model "
-                "in double precision to 12.8",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 17 digits; another model "
+    "in double precision agrees to 12.8 digits",
   .defaults = baum_i_slider_crank_data,
 };
 
 const baum_i_catalog_mechanism baum_i_slider_crank_driven = {
   DRIVEN,
   .name = "slider_crank_driven",
-  .title = "slider-crank, eccentric, the crank driven at 150 rad/s",
+  .title = "eccentric slider-crank; the crank is driven at 150 rad/s",
   .source = FLORES "; the eccentricity is our choice",
   .defaults = baum_i_slider_crank_data,
   .end = 0.2,
@@ -170,7 +173,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_driven = {
 const baum_i_catalog_mechanism baum_i_slider_crank_simeon = {
   DRIVEN,
   .name = "slider_crank_simeon",
-  .title = "slider-crank, the rigid parts of the flexible one of the Bari test set, driven",
+  .title =
+    "slider-crank of the Bari test set, with a rigid rod instead of the flexible one; driven",
   .source =
     "B. Simeon, Bari test set, crank.f, with a rigid rod; inertias about the centres of mass",
   .defaults = SIMEON,

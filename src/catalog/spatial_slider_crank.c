@@ -41,12 +41,12 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SLIDER_MASS] = {"slider_mass", "kg", "of the slider", BAUM_I_POSITIVE},
   [CRANK_INERTIA] = {"crank_inertia", "kg m^2", "of the crank about each axis through its centre",
                      BAUM_I_POSITIVE},
-  [ROD_AXIAL] = {"rod_axial", "kg m^2", "inertia of the rod about itself", BAUM_I_POSITIVE},
-  [ROD_ACROSS] = {"rod_across", "kg m^2", "inertia of the rod about axes across", BAUM_I_POSITIVE},
+  [ROD_AXIAL] = {"rod_axial", "kg m^2", "axial inertia of the rod", BAUM_I_POSITIVE},
+  [ROD_ACROSS] = {"rod_across", "kg m^2", "transverse inertia of the rod", BAUM_I_POSITIVE},
   [SLIDER_INERTIA] = {"slider_inertia", "kg m^2", "of the slider, which does not turn",
                       BAUM_I_POSITIVE},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
-  [ANGLE] = {"angle", "rad", "of the crank at start, about x from z", BAUM_I_ANY},
+  [ANGLE] = {"angle", "rad", "of the crank at start, about x, measured from z", BAUM_I_ANY},
   [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_ANY},
 };
 
@@ -108,8 +108,9 @@ const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
   .source = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems (1989), "
             "12.2; IFToMM library of benchmarks; the inertia of the slider, which does not "
             "rotate, was chosen here",
-  .provenance = "extrapolation in 160 bits, two tolerances agree to 16.3 digits, another model in "
-                "double precision to 13.3",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; two tolerances agree to 16.3 digits; another model in "
+    "double precision agrees to 13.3 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.08, 0.3, 0.1, 0.12, 0.12, 0.5, 2.0, 1e-4, 4e-4, 4e-3, 1e-3,
                                     9.81, 0.0, 6.0},

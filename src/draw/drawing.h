@@ -17,10 +17,11 @@ typedef enum baum_i_form {
   BAUM_I_AREA,     /* a closed line through all points, filled */
   BAUM_I_DISC,     /* points: the centre; the normal vector */
   BAUM_I_BALL,     /* point: the centre */
-  BAUM_I_BOX,      /* points: the centre; half of each edge, along the axes of the body */
+  BAUM_I_BOX,      /* points: the centre; half the lengths of the edges */
   BAUM_I_CYLINDER, /* points: the centres of both ends */
   BAUM_I_MESH,     /* points: the vertices */
-  /* From a point on `body` to a point on `other`; y of a third point moves it to the left. */
+  /* From a point on `body` to a point on `other`. If there is a third point, its y [m] is how far
+   * the connection is shifted to the left. */
   BAUM_I_BETWEEN,
   BAUM_I_ARROW, /* from a point on `body`, along a vector in the axes of `other` */
   /* The next three forms connect a point on `body` with the nearest point of something on
@@ -202,7 +203,8 @@ int baum_i_page_positions(const baum_mechanism *m, const baum_page *page);
 bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c);
 /* ---- gaps.c ---- */
 
-/* Draw the lines that show where a joint is open. They are described in docs/drawings.md. */
+/* Draw the lines that show where the constraints of a joint are violated. docs/drawings.md
+ * describes these lines. */
 void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place);
 
 /* Draw the gap between the point on body_b and a line whose corners are points on body_a. */
@@ -226,8 +228,8 @@ baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spati
  * Returns 0 if the body is not a wheel of this gear. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3]);
-/* Return the radius of a wheel's outline, which is slightly larger than its pitch circle in any
- * joint. Returns 0 if the body is not a wheel. */
+/* Return the radius of a wheel's outline, which is slightly larger than the pitch circle of its
+ * gear or rack. Returns 0 if the body is not a wheel. */
 double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3]);
 
 #endif

@@ -236,7 +236,7 @@ static void put_arrow(const figure *f, const double ends[2][3], int tips, const 
 }
 
 /* Draws a planar moment as an arc about its point. The arc is counter-clockwise if the moment is
- * positive. The largest moment would be almost a whole revolution. */
+ * positive. The arc of the largest moment is almost a whole revolution. */
 static void put_arc(const figure *f, const double centre[3], double share)
 {
   const double radius = 2.0 * f->picture.drawing->unit, whole = 0.95 * BAUM_I_REVOLUTION * share;

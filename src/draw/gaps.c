@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Red lines that show where a joint is open. They connect points that should coincide, or a point
- * with the line, plane or sphere on which it should be. They also connect the tips of axes that
- * should be parallel. Pictures do not show lines that are too short to be seen. Joints that relate
- * coordinates (gears, racks, couplings and drivers) have no such lines.
+/* Red lines that show where the constraints of a joint are violated. They connect points that
+ * should coincide, or a point with the line, plane or sphere on which it should be. They also
+ * connect the tips of axes that should be parallel. Pictures do not show lines that are too short
+ * to be seen. Joints that relate coordinates (gears, racks, couplings and drivers) have no such
+ * lines.
  */
 #include <string.h>
 

@@ -6,7 +6,7 @@
 
 #include "draw/symbols.h"
 
-/* Half the length of a guide if there are no samples of a motion. */
+/* Half the length of a guide, in units, if there are no samples of a motion. */
 static const double REACH = 11.0;
 
 /* A guide on body_a. Its place is the middle of the path along which the point of body_b moves.
@@ -86,8 +86,9 @@ void baum_i_draw_slot(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.5);
 }
 
-/* Draws a rack. Its pitch line is y units from the place, and the rack lies on the side of the
- * pitch line that the sign of `side` tells. */
+/* Draws a rack. The distance of its pitch line from the place is y units, in the direction of
+ * `left`. The rack is on the left of the pitch line if `side` is 1, and on the right if it is
+ * -1. */
 static void draw_teeth(const guide *g, double y, double side, const double left[3])
 {
   enum { TEETH = 28 };
@@ -161,7 +162,8 @@ static bool find_on_curve(const baum_planar_curve_def *def, double xy[2], double
   return true;
 }
 
-/* Largest numbers of steps, each one unit long, in both directions. */
+/* Largest number of steps along a curve, in one direction: first for a closed curve, then for an
+ * open one. Each step is one unit long. */
 enum { CURVE_STEPS = 240, TRACK_STEPS = 60 };
 
 typedef struct path {

@@ -49,8 +49,8 @@ static void add_point(outline *o, const double point[3])
 }
 
 /* Tells whether the point of a joint belongs to the outline of a body. For a sliding joint, the
- * point on body_a does not. It may be anywhere on the axis, so it would make the outline too
- * long. */
+ * point on body_a does not belong to it. This point may be anywhere on the axis and would make the
+ * outline too long. */
 static bool is_point_on(const baum_i_place *place, int side)
 {
   return side == 1 || !baum_i_has_field(place->element, "axis") ||
@@ -236,7 +236,7 @@ static void draw_cylinder(const outline *o, int axis)
   ends[0][axis] = -ends[1][axis];
   const double radius = fmin(fmax(sqrt(2.0 * about), least), most);
   draw(o, BAUM_I_BODY, BAUM_I_CYLINDER, radius, 2, (const double(*)[3])ends);
-  /* A line across both ends and along the side, which shows the rotation. */
+  /* A line across both ends and along the side shows the rotation. */
   double mark[4][3] = {{0.0}};
   for (int k = 0; k < 4; k++) {
     mark[k][axis] = ends[k / 2][axis];

@@ -20,8 +20,8 @@
 #include "simulate/run.h"
 
 enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
-/* Marks in the template: the page has its data in place of the first one, and the script that draws
- * solids in place of the second one. */
+/* Marks in the template. In a page, the data replace the first mark, and the script that draws
+ * solids replaces the second one. */
 static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
 
 /* The files as bytes, in C code that cmake/Embed.cmake generates. */
@@ -61,7 +61,8 @@ static baum_status check_traces(const baum_mechanism *m, const baum_page *page, 
     const baum_channel trace = baum_i_channel(page->traces, k);
     if (trace.quantity != BAUM_BODY_POSE ||
         baum_i_frame_of(m->bodies[baum_i_body_index(m, trace.body)]) == BAUM_I_FRAME_NONE) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: traces[%d] is not the pose of a body with a place",
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s: traces[%d] must be the pose of a body, but not of user coordinates",
                          call, k);
     }
   }
@@ -103,15 +104,15 @@ static baum_status check_marks(const baum_page *page, const char *call)
 static baum_status check_given(const baum_page *page, const char *call)
 {
   BAUM_I_TRY(
-    check_list(call, "times and rows for its count > 0", page->count, 1, page->times, page->rows));
-  BAUM_I_TRY(check_list(call, "channels for its channel_count > 0", page->channel_count, 1,
+    check_list(call, "count > 0, times and rows", page->count, 1, page->times, page->rows));
+  BAUM_I_TRY(check_list(call, "channel_count > 0 and channels", page->channel_count, 1,
                         page->channels, page->channels));
-  BAUM_I_TRY(check_list(call, "traces for its trace_count >= 0", page->trace_count, 0, page->traces,
-                        page->traces));
-  BAUM_I_TRY(check_list(call, "plots and plot_labels for its plot_count >= 0", page->plot_count, 0,
-                        page->plots, page->plot_labels));
-  BAUM_I_TRY(check_list(call, "mark_times and mark_texts for its mark_count >= 0", page->mark_count,
-                        0, page->mark_times, page->mark_texts));
+  BAUM_I_TRY(check_list(call, "trace_count >= 0, and traces if it is > 0", page->trace_count, 0,
+                        page->traces, page->traces));
+  BAUM_I_TRY(check_list(call, "plot_count >= 0, and plots and plot_labels if it is > 0",
+                        page->plot_count, 0, page->plots, page->plot_labels));
+  BAUM_I_TRY(check_list(call, "mark_count >= 0, and mark_times and mark_texts if it is > 0",
+                        page->mark_count, 0, page->mark_times, page->mark_texts));
   return check_marks(page, call);
 }
 

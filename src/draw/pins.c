@@ -56,7 +56,8 @@ void baum_i_draw_ball(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, s->place->body[0] == 0 ? 0 : 1, 1.2);
 }
 
-/* Draws the axis of each body. The two axes coincide if the joint is closed. */
+/* Draws the axis of each body. The two axes coincide if the constraints of the joint are
+ * satisfied. */
 static void draw_axes(const baum_i_symbol *s, double reach)
 {
   baum_i_symbol_axis(s, BAUM_I_PITCH, 0, 0.0, reach);

@@ -86,7 +86,7 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
   }
   baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
   given = find_field(place->element, "angle", &size);
-  if (given && !isnan(*given)) { /* guide in the plane whose relative orientation is given */
+  if (given && !isnan(*given)) { /* planar guide with a given relative orientation */
     axis_b[0] = cos(*given) * axis[0] + sin(*given) * axis[1];
     axis_b[1] = cos(*given) * axis[1] - sin(*given) * axis[0];
   }
@@ -178,7 +178,8 @@ static void list_ends(baum_i_drawing *drawing)
     first[k + 1] += first[k];
   }
   const int total = first[m->body_count + 1];
-  /* Copies each end to its place, and turns first[] into starts. */
+  /* Copies each end into the list. Afterwards first[k + 1] is the index of the first end on body
+   * k. */
   for (int k = 2 * drawing->place_count - 1; k >= 0; k--) {
     const baum_i_place *place = &drawing->places[k / 2];
     if (place->element) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the solids of spatial mechanisms with WebGL. Only the pages of such mechanisms contain this part of page.html.
-// There are meshes of unit size, which are drawn many times, each time with other axes. The picture is copied into the stage.
+// A mesh has unit size. It is drawn once for each instance, with the axes of this instance. The picture is then copied into the stage.
 
 // ---- shaders: a vertex is at centre + p.x x + p.y y + p.z z + p.w along, so `along` stretches a capsule ----
 
@@ -226,7 +226,7 @@ function setView({gl, uniforms, canvas}) {
   gl.uniform3fv(uniforms.middle, centre);
   gl.uniform4f(uniforms.bottom, ...UP, floor.height);
   gl.uniform4f(uniforms.window, 2 * scale / wide, 2 * scale / high, 2 * shift[0] / wide, -2 * shift[1] / high);
-  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // because a later motion may need more space
+  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // a large range, because a later motion may need more space
   gl.uniform3fv(uniforms.shadow, rgb(colours.shadow));
 }
 function drawSolids(frames) {

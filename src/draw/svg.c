@@ -120,8 +120,9 @@ static bool has_places(const baum_i_shape *shape)
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-/* Returns how near a shape is to the eye. For a bar this is the distance of its farther end, so
- * that the joints at both ends cover the bar. For other shapes it is the mean over their points. */
+/* Returns a number that is larger if a shape is nearer to the eye. For a bar it is the number of
+ * its farther end, so that the joints at both ends cover the bar. For other shapes it is the mean
+ * over their points. */
 static double depth_of(const picture *p, const baum_i_shape *shape)
 {
   bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
@@ -307,10 +308,10 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
   baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
 }
 
-/* Draws a line along the connection between two ends, for example a coil. Of each point, x is the
- * position along the connection as a fraction of its length, and y is the distance to the side, in
- * radii. If the shape has a third point, its y moves all points to the left, except the two
- * ends. */
+/* Draws a line along the connection between two ends, for example a coil. Each row of xy is a point
+ * of this line: x is its position along the connection, as a fraction of the length of the
+ * connection, and y is its distance from the connection, in radii. If the shape has a third point,
+ * its y moves all points to the left, except the two ends. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
@@ -434,8 +435,8 @@ static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 /* ---- the picture ---- */
 
 /* Tells when a shape, or one triangle of a mesh, is drawn. In the plane, the layer is the number of
- * the shape. In space, outlines of the ground are in a layer behind all others, because the depth
- * of a large floor means little. Symbols of forces are in the front layer. */
+ * the shape. In space, outlines of the ground are in a layer behind all others, because a large
+ * floor has no single depth. Symbols of forces are in the front layer. */
 typedef struct order {
   int layer;
   double depth;

@@ -23,8 +23,8 @@ void baum_i_shade(const char color[8], double factor, char out[8])
  *
  * In a parallel projection, the silhouette of a cylinder consists of half of each end circle and of
  * two lines between them. The vector x lies in the plane of an end and is orthogonal to the axis
- * and to the direction towards the eye e. The two lines therefore begin at x and -x. The vector y
- * is the cross product of the axis and x.
+ * and to the direction towards the eye. The two lines therefore begin at x and -x. The vector y is
+ * the cross product of the axis and x.
  */
 
 /* Sets points on a part of a circle, beginning at the angle `first`. */

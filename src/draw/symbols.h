@@ -24,8 +24,8 @@ void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
                            int side, const baum_i_place *to, double radius, double shift);
 
-/* Draw a line or an area. Each of its points is given by two coordinates, x and y, in units: from
- * the point of the place along the directions `along` and `across`. */
+/* Draw a line or an area. Its points are given by coordinates x and y, in units. Their origin is
+ * the point of the place, and their directions are `along` and `across`. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);
@@ -50,7 +50,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
                        const double along[3], const double across[3]);
 
 /* Draw the foot of a joint on the ground. The foot is below the joint in the direction of gravity.
- * If the other body hangs from the joint, it is above the joint. */
+ * If the other body hangs from the joint, the foot is above the joint. */
 void baum_i_draw_foot(const baum_i_symbol *s);
 
 /* Draw the wall to which a body is welded, on the side opposite to the body. */
@@ -60,7 +60,7 @@ void baum_i_draw_wall(const baum_i_symbol *s);
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
 /* Find the direction from a planar guide on the ground to its free side. This direction is opposite
- * to gravity. If the guide is vertical, it points towards the mechanism. */
+ * to gravity. If the guide is vertical, the direction is towards the mechanism. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Outlines that users give to bodies: checks of them, and their shapes. */
+/* Checks the outlines that users give to bodies, and draws them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,8 +71,8 @@ static baum_status check_polygon(const subject *s)
     const double z = o->points[3 * (size_t)k + 2];
     if (z != o->points[2]) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: outlines[%d]: z of point %d of a polygon is %g m, must be %g m as "
-                         "that of point 0",
+                         "%s: outlines[%d]: z of point %d of a polygon is %g m, must be %g m "
+                         "like z of point 0",
                          s->call, s->k, k, z, o->points[2]);
     }
   }
@@ -185,7 +185,7 @@ baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum_body_id 
   baum_i_body *owner = mechanism->bodies[baum_i_body_index(mechanism, body)];
   if (baum_i_frame_of(owner) == BAUM_I_FRAME_NONE) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: \"%s\" are user coordinates, which have no place for an outline", call,
+                       "%s: \"%s\" are user coordinates, which cannot have outlines", call,
                        owner->element.name);
   }
   if (count < 0 || (count > 0 && !outlines)) {

@@ -27,7 +27,8 @@ static baum_status fail(const parser *p, const char *what)
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: %s", p->label, p->line, what);
 }
 
-/* The next character, or 0 at the end. A zero in the text is no character of JSON either. */
+/* Return the next character, or 0 at the end of the text. A zero inside the text needs no special
+ * treatment, because JSON does not allow this character. */
 static char peek(const parser *p)
 {
   return p->at < p->end ? *p->at : '\0';
@@ -115,7 +116,7 @@ static int hex_value(char c)
   return found ? (int)(found - digits) % 16 : -1;
 }
 
-/* Read the four digits after \u. Returns -1 if there are none. */
+/* Read the four digits after \u. Returns -1 if there are fewer. */
 static int32_t take_unit(parser *p)
 {
   int32_t unit = 0;
@@ -130,7 +131,8 @@ static int32_t take_unit(parser *p)
   return unit;
 }
 
-/* Read one character after \u, which may consist of two UTF-16 units. Returns -1 if it is none. */
+/* Read the character whose code follows \u. The code may consist of two UTF-16 units. Returns -1 if
+ * the code is not valid. */
 static int32_t take_code(parser *p)
 {
   int32_t code = take_unit(p);
@@ -293,10 +295,11 @@ baum_status baum_i_json_parse(const char *text, size_t size, const char *label, 
   BAUM_I_TRY(baum_i_check_memory(out->texts));
   parser p = {text, text + size, 1, 0, label, out, out->texts};
   int32_t whole = 0;
-  baum_status status = size < INT32_MAX ? parse_value(&p, NULL, &whole) : fail(&p, "too long");
+  baum_status status =
+    size < INT32_MAX ? parse_value(&p, NULL, &whole) : fail(&p, "the text is too long");
   skip_blanks(&p);
   if (status == BAUM_OK && p.at < p.end) {
-    status = fail(&p, "this is not JSON: the text goes on after its end");
+    status = fail(&p, "this is not JSON: there is more text after the end of the first value");
   }
   if (status != BAUM_OK) {
     baum_i_json_release(out);

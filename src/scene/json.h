@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads JSON (RFC 8259) into a tree of nodes. Texts that JSON does not allow are refused, and so
- * are objects with two equal keys and nesting deeper than BAUM_I_JSON_DEPTH. */
+/* Reads JSON (RFC 8259) into a tree of nodes. Texts that are not valid JSON are refused. Objects
+ * with two equal keys or with more than BAUM_I_JSON_KEYS keys are refused, too, and so is nesting
+ * deeper than BAUM_I_JSON_DEPTH. */
 #ifndef BAUM_I_SCENE_JSON_H
 #define BAUM_I_SCENE_JSON_H
 
@@ -33,26 +34,27 @@ typedef struct baum_i_json_node {
 } baum_i_json_node;
 
 typedef struct baum_i_json {
-  baum_i_json_node *nodes; /* (count); the first is the whole text */
+  baum_i_json_node *nodes; /* (count); the first node is the whole text */
   int32_t count;
   char *texts; /* memory of all keys and texts */
 } baum_i_json;
 
 /* Parse a text, which need not end with a zero. Returns BAUM_OK, BAUM_ERR_ARGUMENT or
- * BAUM_ERR_MEMORY and sets its message; `label` begins it. After a failure nothing needs to be
- * released. */
+ * BAUM_ERR_MEMORY. The message of a failure begins with `label`. After a failure nothing needs to
+ * be released. */
 baum_status baum_i_json_parse(const char *text, size_t size, const char *label, baum_i_json *out);
 void baum_i_json_release(baum_i_json *json);
 
-/* Return the first node in a list or object, and the node after a node. NULL: there is none. */
+/* The first function returns the first node in a list or object, and the second returns the node
+ * that follows a node. Both return NULL if there is no such node. */
 const baum_i_json_node *baum_i_json_first(const baum_i_json *json, const baum_i_json_node *node);
 const baum_i_json_node *baum_i_json_next(const baum_i_json *json, const baum_i_json_node *node);
 
-/* Find the node with that key in an object, or NULL. */
+/* Find the node with this key in an object. Returns NULL if there is none. */
 const baum_i_json_node *baum_i_json_find(const baum_i_json *json, const baum_i_json_node *object,
                                          const char *key);
 
-/* What a node is, for messages: "a number", "a text", ... */
+/* Return what a node is, for messages, such as "a number" or "a text". */
 const char *baum_i_json_name(const baum_i_json_node *node);
 
 #endif

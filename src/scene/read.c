@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads a scene: builds a mechanism by the same calls as a program. */
+/* Reads a scene. The mechanism is built by the calls that a program uses, too. */
 #include <string.h>
 
 #include <baum/breaks.h>
@@ -26,8 +26,8 @@ static baum_status fill_array(const baum_i_scene_reader *r, const baum_i_def_fie
   return BAUM_OK;
 }
 
-/* Read an array into memory that `free_arrays` frees. Its length must be its count; a count that
- * the scene does not give is set. */
+/* Read an array into memory that free_arrays() frees. The length of the array must be equal to its
+ * count. If the scene does not give the count, set the count to this length. */
 static baum_status read_array(const baum_i_scene_reader *r, const baum_i_definition *definition,
                               const baum_i_def_field *f, const baum_i_json_node *list, void *def)
 {

@@ -84,7 +84,8 @@ baum_status baum_i_scene_read_text(const baum_i_scene_reader *r, const baum_i_js
   return node->kind == BAUM_I_JSON_TEXT ? BAUM_OK : baum_i_scene_fail_kind(r, node, "a text");
 }
 
-/* Read a number of an element of a list with `count` elements so far. */
+/* Read the number of an element, counted from 0. `count` is the number of elements of this kind
+ * that have been read so far. */
 static baum_status read_place(const baum_i_scene_reader *r, const baum_i_json_node *node, int count,
                               const char *what, int32_t *out)
 {

@@ -9,14 +9,14 @@
 
 typedef struct baum_i_scene_reader {
   const baum_i_json *json;
-  const char *label; /* begins messages */
+  const char *label; /* text with which messages begin */
   const baum_hook *hooks;
   int hook_count;
-  baum_mechanism *mechanism; /* with the elements that have been read */
-  baum_i_scene_names names;  /* of bodies, when all have been read */
+  baum_mechanism *mechanism; /* contains the elements that have been read */
+  baum_i_scene_names names;  /* of bodies; set when all bodies have been read */
 } baum_i_scene_reader;
 
-/* Fail because a node is not `wanted`, such as "a number". */
+/* Fail with the message that a node must be `wanted`, which is a text such as "a number". */
 baum_status baum_i_scene_fail_kind(const baum_i_scene_reader *reader, const baum_i_json_node *node,
                                    const char *wanted);
 
@@ -24,8 +24,8 @@ baum_status baum_i_scene_fail_kind(const baum_i_scene_reader *reader, const baum
 baum_status baum_i_scene_add_line(const baum_i_scene_reader *reader, const baum_i_json_node *node,
                                   baum_status status);
 
-/* Read values, or fail: `count` numbers, of which null is NaN; a whole number; a text, which stays
- * in the memory of the tree. */
+/* Read `count` numbers, a whole number, or a text. null is read as the number NaN. The text stays
+ * in the memory of the tree. The functions fail if a value has another kind. */
 baum_status baum_i_scene_read_numbers(const baum_i_scene_reader *reader,
                                       const baum_i_json_node *list, int count, double *out);
 baum_status baum_i_scene_read_integer(const baum_i_scene_reader *reader,
@@ -41,8 +41,8 @@ baum_status baum_i_scene_read_field(const baum_i_scene_reader *reader,
                                     const baum_i_def_field *field, const baum_i_json_node *node,
                                     void *at);
 
-/* Read a list of outlines. Colors stay in the memory of the tree, the rest must be freed. After a
- * failure nothing needs to be freed. */
+/* Read a list of outlines. Colors stay in the memory of the tree; the other members must be freed.
+ * After a failure nothing needs to be freed. */
 baum_status baum_i_scene_read_outlines(const baum_i_scene_reader *reader,
                                        const baum_i_json_node *list, baum_outline **out);
 void baum_i_scene_free_outlines(baum_outline *outlines, int count);

@@ -20,7 +20,7 @@ typedef struct writer {
   bool addresses; /* write addresses of functions in place of names */
   baum_i_scene_names names;
   baum_i_buffer *out;
-  const baum_i_element *element; /* that is being written */
+  const baum_i_element *element; /* the element that is being written */
 } writer;
 
 /* ---- values ---- */
@@ -37,7 +37,8 @@ static void put_key(writer *w, const char *key)
   baum_i_putf(w->out, ", \"%s\": ", key);
 }
 
-/* Write the name of an element or input. Other bytes than UTF-8 would be changed. */
+/* Write the name of an element or input. The function fails if the name is not UTF-8, because
+ * put_text() would change such a name. */
 static baum_status put_name(writer *w, const char *family, int number, const char *name)
 {
   put_text(w, name);
@@ -64,7 +65,8 @@ static void put_numbers(writer *w, const double *x, int count, int width)
   baum_i_put(w->out, "]");
 }
 
-/* Write a reference to a body: its name, or its number from 0 if the name is not clear. */
+/* Write a reference to a body: its name, or its number (from 0) if the name does not identify
+ * it. */
 static void put_body(writer *w, baum_body_id id)
 {
   int index = baum_i_body_index(w->mechanism, id);
@@ -383,7 +385,7 @@ static baum_status put_mechanism(writer *w)
   return w->out->failed ? baum_i_fail_memory() : BAUM_OK;
 }
 
-/* Write the whole scene into a zeroed buffer, which is empty after a failure. */
+/* Write the whole scene into a zeroed buffer. After a failure the buffer is empty. */
 static baum_status print(writer *w, baum_i_buffer *out)
 {
   w->out = out;

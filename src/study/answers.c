@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* This file answers three questions about the results of a study: which entries are on the front,
- * what an error costs, and which setting is recommended.
+/* This file answers three questions about the results of a study: which entries are on the Pareto
+ * front, what an error costs, and which setting is recommended.
  *
- * Between two entries of a method, error and cost are interpolated linearly over the logarithm of
- * the step or of rtol. A recommendation for the error E requires
+ * Between two entries of a method, the logarithms of error and cost are interpolated linearly over
+ * the logarithm of the step or of rtol. A recommendation for the error E requires
  *
  *   error_validated x margin <= E
  *
@@ -160,7 +160,7 @@ static bool find_error(const baum_i_entry *const *entries, int count, double err
   return false;
 }
 
-/* What a caller asks when asking for the cost at an error. */
+/* A request for the cost at a given error. */
 typedef struct cost_query {
   const baum_study *study;
   double error;
@@ -476,7 +476,7 @@ static bool beats(const setting *p, const setting *other)
   return e[0] < e[1] || (e[0] == e[1] && c[0] < c[1]);
 }
 
-/* Finds the most accurate setting of a method that stays within the time budget. */
+/* Finds the most accurate setting of a method that takes at most the given CPU time. */
 static void find_affordable(const baum_i_entry *const *entries, int count, double seconds,
                             setting *best)
 {
@@ -495,8 +495,8 @@ static void find_affordable(const baum_i_entry *const *entries, int count, doubl
   }
 }
 
-/* Finds the most accurate setting of all methods that stays within the time budget. Returns the
- * shortest time of all entries. */
+/* Finds the most accurate setting of all methods that takes at most the given CPU time. Returns the
+ * shortest CPU time among the coarsest entries of the methods. */
 static double find_most_exact(const baum_study *study, double seconds, setting *best)
 {
   double quickest = (double)INFINITY;

@@ -37,8 +37,8 @@ const baum_i_field baum_i_entry_fields[] = {
   GIVEN("rtol", "1", "", NUMBER, entry.rtol),
   BAUM_STUDY_ENTRY_LIST(FOUND)
   GIVEN("on_front_work", "", "no entry is both cheaper by work and more exact", FLAG, front[0]),
-  GIVEN("on_front_cpu", "", "likewise by CPU time", FLAG, front[1]),
-  GIVEN("message", "", "why it is refused or failed, or its first warning", TEXT, entry.message),
+  GIVEN("on_front_cpu", "", "no entry is both cheaper by CPU and more exact", FLAG, front[1]),
+  GIVEN("message", "", "why it was refused or failed, else its first warning", TEXT, entry.message),
   END
 };
 

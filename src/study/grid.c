@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The standard grid of settings that a study can add.
  *
- * Steps decrease from h0 by a constant factor. They are rounded to (t1 - t0) / N with a whole
- * number N. Tolerances decrease by equal ratios from 1e-2 to the finest one, and are rounded to one
- * digit:
+ * Tolerances decrease by equal ratios from 1e-2 to the finest one, and are rounded to one digit.
+ * Steps begin with h0. Each step is the previous one divided by a constant factor. They are rounded
+ * to (t1 - t0) / N with a whole number N. The product of h0 and the rate of the motion
+ * (baum_i_study_rate()) and the factor depend on the order of the method:
  *
- *   order      1      2      3 to 5   8
- *   h0 rate    0.1    0.3    0.5      0.8       rate: baum_i_study_rate()
- *   factor     3      3      2        1.5
+ *   order        1      2      3 to 5   8
+ *   h0 x rate    0.1    0.3    0.5      0.8
+ *   factor       3      3      2        1.5
  *
  * The quick grid has the first five of these steps, and five tolerances in the same range. */
 #include <math.h>

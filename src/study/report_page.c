@@ -14,7 +14,7 @@
 
 enum { POINTS = 4000, LEVELS = 3 };
 static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
-/* The page has the picture in place of this mark in the template. */
+/* In the page, the picture replaces this mark of the template. */
 static const char PICTURE[] = "<!-- PICTURE -->";
 static const char DATA[] = "\"DATA\"";
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a study as text: the recommendations, the front, the cost of accuracy, all entries, and
- * messages. */
+/* Writes a study as text: the recommendations, the Pareto front, the cost of accuracy, all entries,
+ * and messages. */
 #include <math.h>
 #include <string.h>
 
@@ -146,7 +146,7 @@ static void put_entry(const baum_i_report_entry *entry, int width, baum_i_buffer
 
 static void put_front(const baum_i_snapshot *snapshot, int width, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nThe front by work, from cheap to exact\n");
+  baum_i_put(out, "\nThe Pareto front by work, from cheap to exact\n");
   put_titles(width, out);
   for (int k = 0; k < snapshot->front_count[BAUM_STUDY_WORK]; k++) {
     put_entry(&snapshot->entries[snapshot->front[BAUM_STUDY_WORK][k]], width, out);
@@ -155,7 +155,7 @@ static void put_front(const baum_i_snapshot *snapshot, int width, baum_i_buffer 
 
 static void put_methods(const baum_i_snapshot *snapshot, int width, baum_i_buffer *out)
 {
-  baum_i_put(out, "\nMethods, with the factors on their cost for one more digit\n");
+  baum_i_put(out, "\nMethods, with the factors by which one more digit increases their cost\n");
   baum_i_put_left(out, "method", width);
   baum_i_put(out, "  settings  usable  least error   slope     work      CPU  growth\n");
   for (int k = 0; k < snapshot->method_count; k++) {
@@ -199,7 +199,7 @@ void baum_i_report_text(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   }
   put_messages(snapshot, out);
   baum_i_put(
-    out, "\nfront: no setting is both cheaper and more exact.  floor: at the uncertainty of the "
-         "reference.\noff: another motion, an error above 0.1 of the scale or another branch.  "
-         "unstable: its gains do not damp with this step.\n");
+    out, "\nfront: no setting is both cheaper and more exact.  floor: its error is at the "
+         "uncertainty of the reference.\noff: it followed another motion, with an error above 0.1 "
+         "of the scale or on another branch.  unstable: its gains do not damp with this step.\n");
 }

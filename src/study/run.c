@@ -27,7 +27,7 @@ typedef struct workers {
   int count;
   int next;
   /* Progress. Each entry counts 1 when it is measured, and 1 more when it is timed or needs no
-   * time. */
+   * timing. */
   int done;
   baum_status status;
   baum_i_kept_message message; /* the message that belongs to `status` */

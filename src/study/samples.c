@@ -7,7 +7,7 @@
  *   lambda  |dlambda_i| n_i / E      n_i: displacement of row i for changes of q by s
  *                                   E: largest |lambda_j| n_j over all samples [J]
  *   energy  |d(T + U)|
- *   user    |dx_i| / unit, or as q
+ *   user    |dx_i| / unit        without channels of the user, the error is that of q
  *
  * Numbers that are missing in the reference are not compared. If a number is missing in a run but
  * not in the reference, the error of the run is infinite. */

@@ -26,7 +26,8 @@ static void describe_error(baum_study *study)
   size_t size = sizeof study->error_text;
   if (study->channel_count == 0) {
     baum_i_print(text, size,
-                 "largest error of all positions over all samples, lengths by %.4g, angles in rad",
+                 "largest error of all positions over all samples, "
+                 "lengths divided by %.4g m, angles in rad",
                  study->mechanism->length);
     return;
   }
@@ -38,7 +39,7 @@ static void describe_error(baum_study *study)
   if (study->channel_count > NAMED) {
     baum_i_append(text, size, " and %d more", study->channel_count - NAMED);
   }
-  baum_i_append(text, size, " over all samples, by %g", study->unit);
+  baum_i_append(text, size, " over all samples, divided by %g", study->unit);
 }
 
 baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double t1,

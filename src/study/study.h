@@ -117,7 +117,7 @@ struct baum_study {
   baum_i_study_method *methods; /* (method_count) */
   int method_count;
 
-  /* Whether entries have been run; settings that all entries share then cannot change. */
+  /* Whether entries have been run. If so, settings that all entries share cannot change. */
   bool begun;
   /* Set inside baum_study_run(), where the progress callback must not change the study. */
   bool running;
@@ -140,9 +140,9 @@ baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only
 
 /* ---- grid.c ---- */
 
-/* Finds the rate of the motion [1/s]. This is the rate at the start, or the mean scaled velocity of
- * a rough run if that is larger. If the rough run fails, the motion up to the failure is used.
- * Returns a status of baum_simulation_create(), or BAUM_STOP_CANCELLED. */
+/* Finds the rate of the motion [1/s]. This is the larger of two numbers: the rate at the start, and
+ * the mean scaled velocity of a rough run. If the rough run fails, the motion up to the failure is
+ * used. Returns a status of baum_simulation_create(), or BAUM_STOP_CANCELLED. */
 baum_status baum_i_study_rate(baum_study *study, double *rate);
 
 /* ---- names.c ---- */
@@ -175,8 +175,9 @@ void baum_i_study_clear_samples(baum_i_samples *samples);
  */
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 
-/* Computes the weights with which differences are measured from the samples of the reference. The
- * reference must be known. Returns BAUM_ERR_MEMORY, or the status of a failed evaluation. */
+/* Computes the weights with which differences are multiplied. They follow from the samples of the
+ * reference. The reference must be known. Returns BAUM_ERR_MEMORY, or the status of a failed
+ * evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
 /* Compares `values`, the samples of a run, with the samples of a known motion. The weights of the

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The study file consists of lines of text. Each line is written as soon as its result is known.
  *
- *   baum-study 3 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX
- *   reference HEX #SUM
+ *   baum-study 3 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX
+ *   library HEX #SUM
  *   reference DIGITS ... | TEXT #SUM
  *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
@@ -41,7 +41,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* the sums of all lines except the first begin with this number */
+  uint64_t seed; /* the digests of all lines except the first begin with this number */
 };
 
 /* ---- lines ---- */

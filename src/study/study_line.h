@@ -12,7 +12,7 @@ void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
                                const baum_i_field *fields);
 
 /* Reads fields from a line and stores their values in an object. Returns the end of the fields, or
- * NULL if one is missing or invalid. In the second case, some members of the object may have
+ * NULL if a field is missing or invalid. If it returns NULL, some members of the object may have
  * changed. */
 const char *baum_i_study_read_fields(const char *text, void *object, const baum_i_field *fields);
 

@@ -107,8 +107,8 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Tells whether an entry is near the front. An entry is not near the front if another entry, which
- * may be recommended, is at least as accurate and costs less than 1 / NEAR as much. */
+/* Tells whether an entry is near the Pareto front. An entry is not near the front if another entry,
+ * which may be recommended, is at least as accurate and costs less than 1 / NEAR as much. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

@@ -366,7 +366,7 @@ static void files_hold_scenes(void **state)
 
 static const char *const WRONG[][2] = {
   {"", "line 1: this is not JSON"},
-  {"{\"baum_scene\": 1}}", "goes on after its end"},
+  {"{\"baum_scene\": 1}}", "there is more text after the end"},
   {"[1]", "not a scene"},
   {"{}", "\"baum_scene\" is missing"},
   {"{\"baum_scene\": 2}", "version 2, but this library reads 1"},

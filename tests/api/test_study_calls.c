@@ -268,14 +268,14 @@ static void the_definition_of_error_is_described_with_names(void **state)
   const baum_channel channels[5] = {pose, entry, baum_channel_of(BAUM_ENERGY), pose, entry};
   assert_string_equal(
     baum_study_error_text(study),
-    "largest error of all positions over all samples, lengths by 1, angles in rad");
+    "largest error of all positions over all samples, lengths divided by 1 m, angles in rad");
   assert_int_equal(baum_study_set_error(study, channels, 2, 1e-3), BAUM_OK);
   assert_string_equal(baum_study_error_text(study),
                       "largest error of pose of body 1 \"bob\", violation of joint 1 \"rod\" over "
-                      "all samples, by 0.001");
+                      "all samples, divided by 0.001");
   assert_int_equal(baum_study_set_error(study, channels, 5, 2.0), BAUM_OK);
   assert_non_null(
-    strstr(baum_study_error_text(study), ", energy and 2 more over all samples, by 2"));
+    strstr(baum_study_error_text(study), ", energy and 2 more over all samples, divided by 2"));
   baum_study_destroy(study);
 }
 

@@ -113,7 +113,7 @@ static void errors_of(const model *m, const baum_channel *channel, double unit, 
     check(baum_study_set_error(study, channel, 1, unit));
     const char *text = baum_study_error_text(study);
     assert_non_null(strstr(text, "largest error of "));
-    assert_non_null(strstr(text, " over all samples, by "));
+    assert_non_null(strstr(text, " over all samples, divided by "));
   }
   for (int k = 0; k < 2; k++) {
     const baum_simulation_options o = baumgarte(baum_gains_fixed(5.0, 5.0), k == 0 ? 0.05 : 0.025);

@@ -54,7 +54,8 @@ class Report(NamedTuple):
     degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
     redundant_rows: [-] rows omitted from every solution.
     constant_rows: [-] rows that do not depend on time.
-    islands: [-] groups of bodies connected by joints, without fixed bodies.
+    islands: [-] groups of bodies that joints connect with each other. Fixed bodies do not
+        count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
     constant_mass: All masses are constant, so they are inverted only once.
@@ -229,7 +230,7 @@ class NearSingular(NamedTuple):
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] the smallest pivot in the interval, relative to the largest of the run so far.
+    pivot: [-] the smallest p in the interval, see above.
     jump: [-] by how much the velocity after the interval differs from a smooth continuation of
         the motion before the interval, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
@@ -274,7 +275,7 @@ class StudyEntry(NamedTuple):
     error_q_final: [-] error of positions at the last sample
     error_v: [-] error of velocities, relative to scales and largest velocity
     error_v_final: [-] error of velocities at the last sample
-    error_lambda: [-] error of multipliers, times the displacement of their rows
+    error_lambda: [-] error of weighted multipliers, relative to the largest
     error_lambda_final: [-] error of multipliers at the last sample
     energy_error: [J] drift of energy against the reference
     energy_error_final: [J] drift of energy at the last sample
@@ -286,19 +287,19 @@ class StudyEntry(NamedTuple):
     projection_work: [J] change of energy by projections
     gains_work: [J] work of the gains, see energy_account
     work: [evaluations] see "work"; the same on every machine
-    cpu: [s] least CPU time of a run with its creation, without samples
+    cpu: [s] least CPU time to create and run it, without taking samples
     cpu_spread: [s] second least CPU time minus the least
-    repeats: [-] runs for the CPU time
-    evaluations: [-] right-hand sides or residuals, without samples
-    factorizations: [-] factorizations of matrices, without samples
+    repeats: [-] number of runs that measured the CPU time
+    evaluations: [-] evaluations in the run, without those for samples
+    factorizations: [-] factorizations of matrices, without those for samples
     nonlinear_iterations: [-] iterations of implicit methods
     steps: [-] accepted steps
     rejected: [-] steps that were repeated
-    forced_steps: [-] steps over singular configurations
+    forced_steps: [-] steps across singularities, see counters
     near_singular_intervals: [-] near-singular intervals of its run
     warnings: [-] kinds of warnings of its run
-    branch_warnings: [-] intervals after which the branch is in doubt
-    doubts: [-] kinds of warnings that doubt the motion
+    branch_warnings: [-] near-singular intervals with a doubtful branch
+    doubts: [-] kinds of warnings that put the motion in doubt
     """
 
     name: str
