@@ -211,7 +211,8 @@ class Handle:
         self._what = what
         self._users: dict[str, object] = {}
         self._destroy = weakref.finalize(self, destroy, address)
-        # Not destroyed at exit: a call that still runs in another thread may use the object.
+        # The object is not destroyed when the interpreter exits, because a call that still runs in
+        # another thread may use it.
         self._destroy.atexit = False
 
     def __reduce__(self) -> NoReturn:
@@ -238,10 +239,10 @@ class Handle:
         return self._address is None
 
     def call(self, function: Call, *arguments: Any) -> errors.Status:
-        """Call a function with this object as its first argument. In all else this is like
+        """Call a function with this object as its first argument. Everything else is as in
         make()."""
-        # dict.setdefault() is atomic. Unlike the acquisition of a lock it can be undone safely if
-        # Ctrl-C interrupts it.
+        # dict.setdefault() marks the object as used, and is atomic. If Ctrl-C interrupts this code,
+        # the mark can be removed safely, whereas a lock that was being acquired could not.
         me = object()
         try:
             while self._users.setdefault("now", me) is not me:

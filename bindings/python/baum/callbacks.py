@@ -142,8 +142,8 @@ def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
-        # The view ends with the last input that the function needs: a copy of the mechanism may
-        # have more inputs.
+        # The view ends with the last input that the function needs. Its length must not be the
+        # present number of inputs, because a copy of the mechanism may have more inputs.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
         def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
@@ -283,7 +283,8 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_normalize_fn: _shell_normalize,
 }
 
-# ctypes gives functions with the same C types one type; the field tells them apart.
+# ctypes has only one type for all functions with the same signature. For these functions, the name
+# of the field selects the shell.
 SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 

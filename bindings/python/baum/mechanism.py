@@ -109,9 +109,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     The place of a joint is given by `point` in ground axes, in the design configuration, or by
     `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
-    `axis_b`. m["A"] is the handle of the element with the name "A". Functions of yours receive the
-    time t, the positions q and some of them the velocities v of the bodies that belong to their
-    element, and return their result.
+    `axis_b`. m["A"] is the handle of the element with the name "A". Your functions receive the time
+    t and the positions q of the bodies on which their element acts. Some functions also receive the
+    velocities v of these bodies. All of them return their result.
     """
 
     def __init__(
@@ -290,7 +290,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """All inputs, in the order of adding."""
         return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
-    # ---- the whole -------------------------------------------------------------------------------
+    # ---- properties of the whole mechanism -------------------------------------------------------
 
     @property
     def gravity(self) -> tuple[float, float, float]:

@@ -42,12 +42,12 @@ class _ByName:
 
 
 class Counters(_ByName, _records.Counters):
-    __doc__ = f"{_records.Counters.__doc__}"  # help() does not show that of a base class
+    __doc__ = f"{_records.Counters.__doc__}"  # help() shows no docstring of a base class
     __slots__ = ()
 
 
 class NearSingular(_ByName, _records.NearSingular):
-    __doc__ = f"{_records.NearSingular.__doc__}"  # help() does not show that of a base class
+    __doc__ = f"{_records.NearSingular.__doc__}"  # help() shows no docstring of a base class
     __slots__ = ()
 
 
