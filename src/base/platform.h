@@ -36,8 +36,8 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 /* What exists at a path. */
 typedef enum baum_i_path_kind {
   BAUM_I_PATH_FREE, /* nothing */
-  /* A regular file of this user that has no other name. Replacing a file gives the new one to this
-   * user, and leaves the old one under its other names. */
+  /* A regular file that belongs to this user and has no other name. Other files are not replaced:
+   * the new file would belong to this user, and the old one would remain under its other names. */
   BAUM_I_PATH_REPLACEABLE,
   BAUM_I_PATH_OTHER /* for example a device, a pipe or a link */
 } baum_i_path_kind;

@@ -200,8 +200,9 @@ static baum_status make_arrays(baum_mechanism *mechanism)
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* Mark the rows of velocity level. Their equation is J a = gamma - alpha (J v - nu), with alpha
- * where rows of positions have 2 alpha. */
+/* Mark the rows of velocity level. Their stabilized equation is J a = gamma - alpha (J v - nu).
+ * Rows of positions have 2 alpha instead of alpha, so `row_gains` is 1/2 for rows of velocity
+ * level. */
 static baum_status mark_velocity_rows(baum_mechanism *m)
 {
   m->velocity_row_count = 0;

@@ -142,7 +142,7 @@ typedef struct baum_i_spatial_frame {
   double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
 } baum_i_spatial_frame;
 
-/* Where the coordinates of a body are from which its frame is computed. */
+/* The coordinates from which the frame of a body is computed: their indices in q and v. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
   int32_t v;    /* first velocity */

@@ -109,7 +109,8 @@ static const char *const class_text[] = {
   [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
 };
 
-static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
+static const char UNDAMPED[] =
+  "warning: with alpha = 0, only the error of the method damps violations";
 
 /* Returns the damping p per step of the slower mode of (6), as defined above. */
 static double promised_damping(const baum_i_gain_draft *gains)
@@ -153,7 +154,7 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
   baum_i_text remark = {""};
   if (near_edge) {
     remark = baum_i_text_of("; warning: near the edge of the region, a step leaves %s of a "
-                            "violation and not %.3g",
+                            "violation instead of %.3g",
                             radius.text, exp(-promised_damping(gains)));
   } else if (undamped) {
     remark = baum_i_text_of("; %s", UNDAMPED);
@@ -181,14 +182,14 @@ static clause variable_step_clause(const baum_i_gain_context *context,
     return (clause){baum_i_text_of("variable step; %s", UNDAMPED), true};
   }
   if (isfinite(max_step)) {
-    return (clause){baum_i_text_of("variable step, at most %.4g s, for beyond is where violations "
-                                   "would grow",
+    return (clause){baum_i_text_of("variable step, at most %.4g s, because violations would grow "
+                                   "with longer steps",
                                    max_step),
                     false};
   }
   if (family == BAUM_I_FAMILY_BDF && gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
     return (clause){baum_i_text_of("variable step; warning: alpha / beta = %.3g < %g, where BDF "
-                                   "may not damp",
+                                   "may not damp violations",
                                    gains->alpha / gains->beta, BDF_DAMPING_RATIO),
                     true};
   }

@@ -158,7 +158,7 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
 {
   baum_i_print(out->note, sizeof out->note, " (%s%g x %.6g 1/s, %s%s)", capped,
                auto_factor(context), context->rate, context->rate_is,
-               context->driven ? "; no freedom is left" : "");
+               context->driven ? "; no degree of freedom is left" : "");
 }
 
 /* Sets alpha h to the wanted value. The value is limited by AUTO_CAP, and by half of the stability
@@ -185,7 +185,7 @@ static double auto_without_step(const baum_i_gain_context *context, double wante
     print_note(out, context, "");
     return wanted;
   }
-  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: 1 1/s for want of a rate)");
+  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: no rate, 1 1/s is used)");
   return 1.0;
 }
 

@@ -27,8 +27,8 @@ typedef struct baum_i_gain_choice {
   double alpha;        /* [1/s] */
   double beta;         /* [1/s] */
   baum_gain_rule rule; /* the rule that was applied */
-  /* at the point (alpha h, beta^2 h^2); of the rows of positions or of velocity level, of those
-   * whose violations decay more slowly */
+  /* The amplification at the point (alpha h, beta^2 h^2). If there are rows of positions and of
+   * velocity level, it is that of the rows whose violations decay more slowly. */
   baum_amplification amplification;
   /* [s] The largest stable step of an explicit method with variable steps. It is infinite for other
    * methods. */

@@ -105,7 +105,7 @@ static void inertias_of_no_body_are_refused(void **state)
   (void)state;
   static const char positive[] =
     "inertia has the principal moments | kg m^2; two must be > 0, and none < 0";
-  static const char triangle[] = "kg m^2; of a body none is above the sum of the other two";
+  static const char triangle[] = "kg m^2; none may be larger than the sum of the other two";
   static const struct {
     double inertia[6]; /* xx, yy, zz, xy, xz, yz */
     const char *message;
@@ -117,7 +117,7 @@ static void inertias_of_no_body_are_refused(void **state)
     {{1.0, 1.0, 1.0, 0.0, 0.0, -1.5}, positive},
     {{1.0, 1.0, 2.001, 0.0, 0.0, 0.0}, triangle},
     {{1.0, 3.0, 1.0, 0.0, 0.0, 0.0}, triangle},
-    {{1.0, 1.0, 1.0, 0.9, 0.0, 0.0}, "principal moments 0.1, 1 and 1.9 kg m^2; of a body none"},
+    {{1.0, 1.0, 1.0, 0.9, 0.0, 0.0}, "principal moments 0.1, 1 and 1.9 kg m^2; none may"},
   };
   every_element parts = open_parts();
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -273,7 +273,8 @@ static void points_are_given_in_one_way_only(void **state)
   const element_kind *strut = kind_of("spatial_distance");
   const element_kind *coil = kind_of("spatial_spring");
   const element_kind *socket = kind_of("spatial_spherical");
-  const char *length = "point is given and leaves no length; give point_a and point_b instead";
+  const char *length =
+    "point is given, but the length would be zero; give point_a and point_b instead";
   const char *off_ball = "point_b is (0, 0, 0.25) m, must be (0, 0, 0) on the particle body ";
   assert_true(refuses(&parts, strut, "point", off, length));
   assert_true(refuses(&parts, coil, "point", off, length));

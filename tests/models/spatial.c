@@ -35,7 +35,8 @@ static baum_status build_slider_crank(model *out)
   return from_catalog("spatial_slider_crank", settings, 1, out);
 }
 
-/* axial: moment of inertia of the rods about themselves, relative to that about transverse axes */
+/* axial: moment of inertia of the rods about their own axes, relative to that about transverse
+ * axes */
 static baum_status build_bricard(double axial, model *out)
 {
   const baum_catalog_setting settings[] = {{"axial", axial}, {"angle", 0.3}, {"speed", 2.0}};
@@ -180,8 +181,8 @@ static double irregular(int k, int which)
 }
 
 /* Adds a chain along the x axes of its links. The links of a spherical chain have independent
- * orientations. Those of a revolute chain rotate against the link before them about an axis across
- * both. */
+ * orientations. Each link of a revolute chain rotates relative to the link before it about an axis
+ * that is perpendicular to both links. */
 static baum_status build_chain(bool revolute, int links, model *out)
 {
   baum_i_parts parts = baum_i_parts_begin();

@@ -14,11 +14,12 @@
  * tube in a sleeve, with a cap clamped to it; a ball on a wire of the yoke and on a strut of the
  * cap; coil (spring), push (load), winding (joint spring of the sleeve).
  *
- * Last, a sled in the plane on a blade (knife edge), and a coin that rolls.
+ * The last elements are a sled in the plane on a blade (knife edge), and a coin that rolls (rolling
+ * disc).
  *
- * It has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The planar
- * part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4 degrees of
- * freedom. The design configuration satisfies all rows except the row of `cam`.
+ * The mechanism has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The
+ * planar part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4
+ * degrees of freedom. The design configuration satisfies all rows except the row of `cam`.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H

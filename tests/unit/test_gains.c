@@ -209,7 +209,7 @@ static void gains_that_do_not_damp_are_warned_of(void **state)
   baum_i_gain_choice c = chosen(baum_gains_fixed(0.0, 100.0), fixed_step(RK4));
   assert_int_equal(c.amplification.stability, BAUM_STABLE);
   assert_true(c.doubtful);
-  has(c.why, "warning: alpha = 0 damps nothing but by the error of the method");
+  has(c.why, "warning: with alpha = 0, only the error of the method damps violations");
 }
 
 /* ---- Auto ----------------------------------------------------------------- */
@@ -237,16 +237,16 @@ static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
   context.driven = true;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 24.0 && c.beta == 24.0);
-  has(c.why, "(0.6 x 40 1/s, a rate; no freedom is left); ");
+  has(c.why, "(0.6 x 40 1/s, a rate; no degree of freedom is left); ");
   context.step = (double)NAN;
   c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 80.0 && c.beta == 80.0);
-  has(c.why, "(2 x 40 1/s, a rate; no freedom is left); variable step");
+  has(c.why, "(2 x 40 1/s, a rate; no degree of freedom is left); variable step");
   context = variable_step();
   context.driven = true;
   c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 1600.0 && c.beta == 1600.0);
-  has(c.why, "(40 x 40 1/s, a rate; no freedom is left); variable step");
+  has(c.why, "(40 x 40 1/s, a rate; no degree of freedom is left); variable step");
 }
 
 /* Returns alpha / rate that the rule `auto` chooses for a fixed step. */
@@ -303,7 +303,7 @@ static void auto_falls_back_when_nothing_moves(void **state)
   context.rate = 0.0;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 1.0 && c.beta == 1.0);
-  has(c.why, "(nothing moves at start: 1 1/s for want of a rate); variable step");
+  has(c.why, "(nothing moves at start: no rate, 1 1/s is used); variable step");
 }
 
 static void auto_refuses_a_rate_that_is_no_number(void **state)
@@ -377,7 +377,7 @@ static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
   assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), variable_step()).max_step));
   assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), fixed_step(RK4)).max_step));
   has(chosen(baum_gains_fixed(100.0, 100.0), rk4).why,
-      "variable step, at most 0.02507 s, for beyond is where violations would grow");
+      "variable step, at most 0.02507 s, because violations would grow with longer steps");
 }
 
 /* ---- Variable steps --------------------------------------------------------- */

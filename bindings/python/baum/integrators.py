@@ -108,8 +108,8 @@ def stability(
 ) -> Amplification:
     """Compute the amplification of a violation with the gains alpha h [-] and (beta h)^2 [-].
 
-    Without beta2_h2 the result applies to rows of velocity level, which have no beta. A violation of
-    such a row has only one mode, so the second root is NaN.
+    Without beta2_h2 the result applies to rows of velocity level, which have no beta. A violation
+    of such a row has only one mode, so the second root is NaN.
     """
     out = _abi.baum_amplification()
     gains = [number(alpha_h, "alpha_h")]

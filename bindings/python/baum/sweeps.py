@@ -271,8 +271,8 @@ def sweep(
     frozen = mechanism if mechanism.frozen else mechanism.copy().freeze()
     listed = tuple(record) if isinstance(record, (list, tuple)) else (record,)
     task = _Task(frozen, tuple(columns), first, method, listed, reduce, options)
-    # Raise exceptions for wrong names now. Values that the library refuses are ignored here, because
-    # they only make their own run fail.
+    # Wrong names raise their exceptions here. Values that the library refuses are ignored here,
+    # because they only make their own run fail.
     with contextlib.suppress(Error):
         frozen.copy(**_changes(task.names, rows[0] if rows else ()))
     kept = _File(file, task, rows) if file is not None else None

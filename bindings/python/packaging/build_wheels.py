@@ -73,7 +73,7 @@ TARGETS = {
     "macos-arm64": Target("aarch64-macos.11.0", "Darwin", "arm64", "macosx_11_0_arm64"),
     "macos-x86_64": Target("x86_64-macos.11.0", "Darwin", "x86_64", "macosx_11_0_x86_64"),
     "windows-x86_64": Target("x86_64-windows-gnu", "Windows", "AMD64", "win_amd64"),
-    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # CMake must take it for a system with pthreads
+    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # CMake must assume pthreads
 }
 
 
@@ -98,7 +98,7 @@ def make_tools() -> Path:
 
 
 def fetch(source: Source) -> Path:
-    """Return the archive of a source. If it is missing, download it from the mirror that apt uses."""
+    """Return the archive of a source. If it is missing, get it from the mirror that apt uses."""
     file = WORK / "sources" / Path(source.path).name
     if not file.exists():
         targets = run("apt-get", "indextargets", "--format", "$(REPO_URI)", "Label: Debian")
@@ -156,7 +156,7 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_INSTALL_NAME_DIR": "@loader_path",
         "CMAKE_C_FLAGS": "-g0 -DBAUM_I_CPUID",  # see src/base/hot.c
         "CMAKE_SHARED_LINKER_FLAGS": "-s",
-        "CMAKE_C_STANDARD_LIBRARIES": "",  # CMake would add libraries of Windows, which baum does not need
+        "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
     }
 

@@ -68,8 +68,8 @@ static baum_status check_inertia(const baum_spatial_body_def *def, const char *l
   }
   if (!(m[2] - m[1] <= m[0] + ROUNDING * m[2])) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: inertia has the principal moments %g, %g and %g kg m^2; of a body none "
-                       "is above the sum of the other two",
+                       "%s: inertia has the principal moments %g, %g and %g kg m^2; none may be "
+                       "larger than the sum of the other two",
                        label, m[0], m[1], m[2]);
   }
   return BAUM_OK;
