@@ -65,7 +65,7 @@ baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_
   return baum_i_fail(BAUM_ERR_UNSTABLE,
                      "gains alpha = %.6g 1/s, beta = %.6g 1/s with %s and h = %.6g s: "
                      "(alpha h, beta^2 h^2) = (%.6g, %.6g) has spectral radius %s > 1, violations "
-                     "grow; stable with this integrator is %s; nearest good pair: (%.4g, %.4g), "
+                     "grow; this integrator is stable for %s; nearest good pair: (%.4g, %.4g), "
                      "that is alpha = %.4g 1/s, beta = %.4g 1/s",
                      gains->alpha, gains->beta, context->integrator, h, gains->alpha_h,
                      gains->beta2_h2, radius_text(radius).text,
@@ -81,7 +81,7 @@ baum_status baum_i_gain_refuse_velocities(const baum_i_gain_context *context,
   return baum_i_fail(BAUM_ERR_UNSTABLE,
                      "gains alpha = %.6g 1/s with %s and h = %.6g s: for rows of velocity level "
                      "alpha h = %.6g has spectral radius %s > 1, violations of velocities grow; "
-                     "stable with this integrator is alpha h < %.6g, that is alpha < %.4g 1/s",
+                     "this integrator is stable for alpha h < %.6g, that is alpha < %.4g 1/s",
                      gains->alpha, context->integrator, context->step, gains->alpha_h,
                      radius_text(velocities->spectral_radius).text, limit, limit / context->step);
 }

@@ -253,8 +253,8 @@ static baum_status check_needs(const rule_type *rule, const baum_i_gain_context 
 {
   if (rule->needs_step && !has_step(context)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "gains %s: the rule needs a fixed step, and %s chooses its own; use fixed, "
-                       "frequency or auto",
+                       "gains %s: the rule needs a fixed step, and %s chooses its own steps; use "
+                       "fixed, frequency or auto",
                        rule->name, context->integrator);
   }
   if (rule->apply == apply_auto && !(context->rate >= 0.0 && isfinite(context->rate))) {

@@ -84,11 +84,11 @@ static void orientations_that_are_no_unit_quaternion_are_refused(void **state)
     double p[4];
     const char *message;
   } bad[] = {
-    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 to 1e-6: a unit quaternion"},
-    {{2.0, 0.0, 0.0, 0.0}, "orientation has the length 2, must be 1 to 1e-6"},
-    {{0.0, 1.0 + 2e-6, 0.0, 0.0}, "orientation has the length 1.000002, must be 1 to 1e-6"},
-    {{0.0, 0.0, 0.0, 1.0 - 2e-6}, "orientation has the length 0.999998, must be 1 to 1e-6"},
-    {{1e300, 1e300, 0.0, 0.0}, "orientation has the length inf, must be 1 to 1e-6"},
+    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 within 1e-6: a unit quatern"},
+    {{2.0, 0.0, 0.0, 0.0}, "orientation has the length 2, must be 1 within 1e-6"},
+    {{0.0, 1.0 + 2e-6, 0.0, 0.0}, "orientation has the length 1.000002, must be 1 within 1e-6"},
+    {{0.0, 0.0, 0.0, 1.0 - 2e-6}, "orientation has the length 0.999998, must be 1 within 1e-6"},
+    {{1e300, 1e300, 0.0, 0.0}, "orientation has the length inf, must be 1 within 1e-6"},
   };
   every_element parts = open_parts();
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -402,7 +402,7 @@ static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
   memcpy(def.x_axis, z, sizeof z);
   check(baum_mechanism_set_spatial_planar(mechanism, id, &def));
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
-              "\"mount\": x_axis is along axis, must not be");
+              "\"mount\": x_axis is parallel to axis, must not be");
   baum_mechanism_destroy(mechanism);
 }
 

@@ -400,8 +400,7 @@ typedef struct call {
   const char *name;
   stage stage;
   baum_status (*make)(scene *s);
-  /* The call makes the run evaluate the mechanism. This changes the counters of the run even if the
-   * call fails. */
+  /* The call makes the run evaluate. This changes its counters even if the call fails. */
   bool works;
 } call;
 

@@ -498,7 +498,7 @@ static void unstable_gains_are_refused_with_numbers_and_a_remedy(void **state)
   refused(baum_gains_taylor(), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
           "gains alpha = 1000 1/s, beta = 1414.21 1/s with semi_implicit_euler and h = 0.001 s: "
           "(alpha h, beta^2 h^2) = (1, 2) has spectral radius 2.41421 > 1, violations grow; "
-          "stable with this integrator is 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h; "
+          "this integrator is stable for 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h; "
           "nearest good pair: (",
           "), that is alpha = ");
   refused(baum_gains_fixed(2100.0, 2100.0), fixed_step(EULER), BAUM_ERR_UNSTABLE,
@@ -508,11 +508,11 @@ static void unstable_gains_are_refused_with_numbers_and_a_remedy(void **state)
   refused(baum_gains_taylor(), fixed_step(AB2), BAUM_ERR_UNSTABLE,
           "gains alpha = 1000 1/s, beta = 1414.21 1/s with ab2 and h = 0.001 s: (alpha h, beta^2 "
           "h^2) = (1, 2) has spectral radius ",
-          "stable with this integrator is alpha = beta up to alpha h = 1 and alpha = 0.7071 beta "
+          "this integrator is stable for alpha = beta up to alpha h = 1 and alpha = 0.7071 beta "
           "up to alpha h = ");
   refused(baum_gains_taylor(), fixed_step(AB3), BAUM_ERR_UNSTABLE,
           "with ab3 and h = 0.001 s: (alpha h, beta^2 h^2) = (1, 2) has spectral radius ",
-          "is alpha = beta up to alpha h = 0.545455 and ");
+          "for alpha = beta up to alpha h = 0.545455 and ");
   refused(baum_gains_fixed(1.0 / H, 1.0 / H), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
           "(alpha h, beta^2 h^2) = (1, 1) has spectral radius 1.61803 > 1, violations grow; stable "
           "with this integrator is 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h",

@@ -220,12 +220,13 @@ class Simulation(_calls.Closing):
         one number for each row of the joint.
     allow_unstable: True accepts gains that are known to be unstable.
     tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
-        and multipliers [-], positive. tolerance_lambda may be finite only for "ida" with
-        "baumgarte" or "unstabilized".
+        and multipliers [-], positive. By default tolerance_lambda is infinite, so the error of
+        multipliers is not tested. It may be finite only for "ida" with "baumgarte" or
+        "unstabilized".
     start_time: [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts it and does not assemble.
-    solver: "auto", "klu", "qr" or "block".
+    solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
     check_derivatives: True first compares the derivatives of your functions with differences.
     max_steps: number of steps after which a call fails.
     energy_account: True integrates the work of all forces, which the property and the channel

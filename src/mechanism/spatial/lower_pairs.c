@@ -247,7 +247,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   }
   if (!(given ? put_axes(&a, z, x, axes)
               : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is along axis, must not be",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is parallel to axis, must not be",
                        baum_i_label(&joint->element).text);
   }
   return lower_axes_b(mechanism, joint, parameters);

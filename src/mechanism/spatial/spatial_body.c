@@ -82,8 +82,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   double length = baum_i_quaternion_length(def->orientation);
   if (!(fabs(length - 1.0) <= NEAR_UNIT)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: orientation has the length %.9g, must be 1 to 1e-6: a unit quaternion "
-                       "w, x, y, z",
+                       "%s: orientation has the length %.9g, must be 1 within 1e-6: a unit "
+                       "quaternion w, x, y, z",
                        label, length);
   }
   return check_inertia(def, label);
