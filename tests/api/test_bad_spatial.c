@@ -84,7 +84,7 @@ static void orientations_that_are_no_unit_quaternion_are_refused(void **state)
     double p[4];
     const char *message;
   } bad[] = {
-    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 within 1e-6: a unit quatern"},
+    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 within 1e-6: a unit"},
     {{2.0, 0.0, 0.0, 0.0}, "orientation has the length 2, must be 1 within 1e-6"},
     {{0.0, 1.0 + 2e-6, 0.0, 0.0}, "orientation has the length 1.000002, must be 1 within 1e-6"},
     {{0.0, 0.0, 0.0, 1.0 - 2e-6}, "orientation has the length 0.999998, must be 1 within 1e-6"},
