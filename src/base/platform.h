@@ -60,8 +60,7 @@ FILE *baum_i_file_create(const char *path, unsigned permissions);
 /* Sets the permissions of a file. Returns 0, or errno on failure. */
 int baum_i_file_permit(FILE *file, unsigned permissions);
 
-/* Writes the data that fflush() has passed to the system to the disk. Returns 0, or errno on
- * failure. */
+/* Writes to the disk what fflush() has passed to the system. Returns 0, or errno on failure. */
 int baum_i_file_sync(FILE *file);
 
 /* Renames the file `part` to `path`. If there is already a file at `path`, it is replaced in one

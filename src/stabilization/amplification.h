@@ -38,8 +38,8 @@ typedef struct baum_i_method {
   double best[2];
 } baum_i_method;
 
-/* Returns a constant text that says what gains do with a method. `chooses_step` tells whether the
- * method chooses its steps itself. */
+/* Returns a constant text that says with which gains violations decay. `chooses_step` tells whether
+ * the method chooses its steps itself. */
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
                                     bool chooses_step);
 

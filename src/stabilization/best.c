@@ -179,7 +179,7 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
-  /* This point is often the best one. */
+  /* The best point with critical damping is often the best point of all. */
   try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0));
   close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];

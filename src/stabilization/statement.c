@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts that say what gains do with a method.
+/* Texts that say with which gains violations decay, for each kind of method.
  *
  * Explicit methods with variable steps: outside of the region of stability, violations grow until
  * the error test reduces the step (Hairer, Wanner 1996, IV.2). For this reason gains.c limits the
@@ -7,9 +7,9 @@
  * Their orders 1 and 2 are A-stable. Orders 3, 4, 5 and 6 are stable on the real axis down to
  * mu = -6, -3, -90/49 and -45/38, where z = -1. Beyond these limits the error test has to lower the
  * order or the step, as it does for explicit methods. BDF of order k is A(a_k)-stable, with
- * a_5 = 51.84 degrees (Hairer, Wanner 1996, V.2). The limit for the gains follows from cos
- * 51.84 = 0.618, because alpha / beta is the cosine of the angle between the roots of (17) and the
- * negative real axis. */
+ * a_5 = 51.84 degrees (Hairer, Wanner 1996, V.2). The ratio alpha / beta is the cosine of the angle
+ * between the roots of (17) and the negative real axis. The limit for this ratio is therefore cos
+ * 51.84 degrees = 0.618. */
 #include "stabilization/amplification.h"
 
 static const char *of_variable_step(baum_i_method_family family)

@@ -106,8 +106,9 @@ static baum_status build_stewart(model *out)
 
 /* ---- quadruped ---- */
 
-/* A link on a revolute joint, in the axes of the body that carries it: the joint is at `point`, its
- * axis is axis number `axis`, and the centre of mass is at `centre` from the joint. */
+/* A link on a revolute joint. The fields refer to the axes of the body that carries the link. The
+ * joint is at `point`, its axis is axis number `axis`, and the vector from the joint to the centre
+ * of mass of the link is `centre`. */
 typedef struct link {
   double point[3]; /* [m] */
   double centre[3];
@@ -118,7 +119,8 @@ typedef struct link {
   double inertia[3];
 } link;
 
-/* Adds a link to the body `on`, whose axes are `at`. Moves both to the link. */
+/* Adds a link to the body `on`, whose axes are `at`. Afterwards, `on` and `at` are those of the
+ * link. */
 static void add_link(baum_i_parts *parts, const link *l, baum_body_id *on, baum_i_axes *at)
 {
   double axis[3];

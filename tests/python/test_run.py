@@ -16,7 +16,7 @@ from mechanisms import slider_crank
 
 
 def near_singular():
-    """Run a slider-crank whose links are equal through its singular configuration."""
+    """Run a slider-crank with links of equal length. It passes a singular configuration."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return slider_crank(l=0.153, e=0.0).simulate(

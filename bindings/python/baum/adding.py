@@ -345,8 +345,8 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. The joint has one
         row.
 
-        Choose F such that its gradient is about 1 near the curve. F is then about the distance from
-        the curve. Give either `point`, or both point_a and point_b.
+        Choose F such that the length of its gradient is about 1 near the curve. F is then about the
+        distance from the curve. Give either `point`, or both point_a and point_b.
 
         curve(xy): the numbers F [m], F_x, F_y, F_xx, F_xy, F_yy at the point xy [m]. The
             coordinates xy are in the axes of body_a, with body_a's point as origin.

@@ -5,8 +5,9 @@ A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a poin
 result. This module wraps such a function in another one, called the shell, which has the signature
 that the library calls. The shell passes q and v as read-only arrays, which are valid only during
 the call. It checks the returned value and writes it to the memory of the library. If the function
-raises an exception, the shell keeps the exception until the call of the library that it stopped has
-returned. A force function that names inputs receives their present values after v, as floats.
+raises an exception, the shell keeps the exception and stops the present call of the library. The
+exception is raised when this call has returned. A force function that names inputs receives their
+present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
     function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The

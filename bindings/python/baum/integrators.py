@@ -209,8 +209,8 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """Describe in words what gains do with a method. Methods without a region of stability have
-    such a text, too."""
+    """Describe in words with which gains violations decay. Integrators without a region of
+    stability have such a text, too."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 

@@ -90,7 +90,7 @@ class Live:
         return bool(self.function(t))
 
     def is_silent(self, seconds: float) -> bool:
-        """Whether the library does not call call() within this time."""
+        """Whether the library will not call call() within this time [s]."""
         return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:

@@ -364,8 +364,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         it may also move the body that you changed; to avoid this, give a position and an angle that
         fit, or held=True.
 
-        If you also change the `point`, `point_a` or `point_b` of a joint or a force, it is placed
-        in the new design configuration. Angles of spatial joints are 0 in the new design
+        If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
+        is placed in the new design configuration. Angles of spatial joints are 0 in the new design
         configuration. Therefore some changes raise ValueError: those that alter the angle of a
         spatial joint that a driver, a coupling or a spring uses, and those that alter the relative
         orientation of a spatial weld or prismatic joint.
@@ -466,8 +466,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         return values
 
     def check_derivatives(self) -> None:
-        """Compare the derivatives that your functions return with differences. Raises baum.Error if
-        a derivative is wrong; the message names the wrong entry."""
+        """Check the derivatives that your functions return, by finite differences. Raises
+        baum.Error if a derivative is wrong; the message names the wrong entry."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:

@@ -233,7 +233,7 @@ class Run:
     @property
     def columns(self) -> dict[str, str]:
         """The unit of each column of to_dict(), by the name of the column. It is "-" for pure
-        numbers, and "" if the unit depends on functions of yours."""
+        numbers, and "" if the unit depends on your functions."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))

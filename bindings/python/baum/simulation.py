@@ -319,7 +319,7 @@ class Simulation(_calls.Closing):
     def advance_to(self, t: Scalar, progress: Progress = None) -> Status:
         """Advance to the time t [s], forward or backward.
 
-        progress: as the option, for this call only.
+        progress: like the option `progress`, but for this call only.
 
         Returns the Status: OK, WARNED, STOP_EVENT or STOP_CANCELLED. Raises baum.Error if the run
             fails. The run then stays at the end of its last successful step.
@@ -567,8 +567,8 @@ class Simulation(_calls.Closing):
         end: float | None = None,
     ) -> Status:
         """Call a function that advances the run. `end` is the time at which it will end, if that is
-        known. arguments() returns the arguments for everything that has not been done yet. at_once
-        is True if the call is known to be short."""
+        known. arguments() returns the arguments for the work that has not been done yet. at_once is
+        True if the call is known to be short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from .mechanism import Mechanism
 
-CHUNKS = 64  # a sweep is divided into at most so many parts per worker
+CHUNKS = 64  # a sweep is divided into at most this many parts per worker
 Reduce = Callable[[Run], Any]
 
 

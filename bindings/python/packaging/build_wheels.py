@@ -6,8 +6,8 @@ that contain the parts of SuiteSparse and SUNDIALS they need, from Debian's sour
 usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS, and sdist)
 
 Writes into build/wheels/out. Needs cmake and ninja, and apt or the two archives of SOURCES in
-build/wheels/sources. For wasm32-wasi it makes an archive of static libraries and headers instead,
-for sdist the source archive of the Python package.
+build/wheels/sources. For the target wasm32-wasi, the program makes an archive of static libraries
+and headers instead. For sdist, it makes the source archive of the Python package.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ typedef struct baum_i_outer {
  * number place[0] and place[1] of the row. */
 void baum_i_composed_place(baum_i_inner *inner, int width, int row_width, const int place[2]);
 
-/* Copy the columns that belong to a coordinate from the columns of the row. */
+/* From the columns of the row, copy those that belong to a coordinate. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double *own);
 
 /* Add J of the row to `gradient`, which has the columns of the row. */

@@ -159,8 +159,8 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element).text);
 }
 
-/* Finds x_b by the smallest rotation that takes z_a to z_b, applied to x_a. The angle of the joint
- * is therefore 0 in the design configuration. */
+/* Finds x_b. It is x_a after the smallest rotation that takes z_a to z_b. The angle of the joint is
+ * therefore 0 in the design configuration. */
 static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. With the unit
- * normal k of the plane, the unit axis n of the disc, c = k . n, s = sqrt(1 - c^2), the radius R
- * and the radius t of the rim's cross-section (0: a sharp edge, R: a sphere), the contact point is
- * at
+/* A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. Let k be the unit
+ * normal of the plane, n the unit axis of the disc, c = k . n, and s = sqrt(1 - c^2). Let R be the
+ * radius of the disc, and t the radius of the rim's cross-section (0: a sharp edge, R: a sphere).
+ * The contact point is at
  *
  *   rho = -(R - t) u - t k,   u = (k - c n) / s                            from the centre,
  *
