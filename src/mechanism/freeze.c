@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Freezing turns definitions into the constant structure of a mechanism.
  *
- * Freezing numbers columns and rows in the order in which elements were added, collects elements
- * of one type in groups, and writes all numbers to the parameter array. If freezing fails,
- * everything is undone, and the mechanism can still be changed.
+ * The columns and rows get indices in the order in which elements were added. Elements of one type
+ * are collected in a group. All masses, lengths and other numbers are written to the parameter
+ * array. If freezing fails, everything is undone, and the mechanism can still be changed.
  */
 #include <limits.h>
 #include <math.h>

@@ -286,8 +286,8 @@ class Handle:
 
     def _in_use(self) -> str:
         instead = (
-            "; its functions can use their arguments t, q and v, and for multipliers "
-            "acceleration(t, q, v) of a baum.Workspace"
+            "; its functions must use their arguments t, q and v instead, and "
+            "acceleration(t, q, v) of a baum.Workspace for multipliers"
         )
         return f"this {self._what} is in use by another call" + instead * (
             self._what == "simulation"

@@ -580,8 +580,8 @@ class Adding:
     ) -> Force:
         """Add a spring and a damper on a coordinate of a joint, in the plane or in space.
 
-        coordinate: which coordinate of the joint, as in driver(). A run counts the revolutions of
-            angles.
+        coordinate: which coordinate of the joint, as in driver(). During a run, angles are
+            continuous over several revolutions.
         stiffness: [N m/rad] or [N/m].
         damping: [N m s/rad] or [N s/m].
         free_value: value without force [rad] or [m], by default that of the design configuration.

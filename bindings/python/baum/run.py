@@ -432,7 +432,7 @@ def _axes(count: int, given: Any) -> list[Axes]:
     if given is not None:
         found = list(np.ravel(given))
         if len(found) != count:
-            raise ValueError(f"axes: one for each unit is wanted, {count}, not {len(found)}")
+            raise ValueError(f"axes: {count} are wanted, one for each unit, not {len(found)}")
         return found
     try:
         import matplotlib.pyplot as plt

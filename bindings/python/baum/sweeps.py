@@ -121,7 +121,7 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
     """Draw rows from a sampler, such as scipy.stats.qmc.Sobol, between the bounds of each
     parameter."""
     if count is None:
-        raise ValueError("count is missing: how many samples are drawn")
+        raise ValueError("count is missing, the number of samples to draw")
     for name, values in columns.items():
         if values.shape != (2,):
             raise ValueError(f"{name}: lower and upper bound are wanted, not {values.tolist()}")

@@ -134,7 +134,7 @@ def unpack() -> Path:
 
 
 def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> dict[str, object]:
-    """Variables of CMake for a target, whose tools become commands in a folder."""
+    """Return CMake variables for a target. The tools of the target become commands in `folder`."""
     zig = Path(run(python, "-c", "import ziglang; print(ziglang.__path__[0])").strip()) / "zig"
     folder.mkdir(parents=True, exist_ok=True)
     for name, words in {"cc": f"cc -target {target.zig}", "ar": "ar", "ranlib": "ranlib"}.items():

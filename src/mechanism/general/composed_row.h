@@ -19,7 +19,7 @@ enum {
 /* One of the two coordinates c_0 and c_1. */
 typedef struct baum_i_inner {
   baum_i_coordinate c;
-  baum_i_coordinate_blocks blocks; /* derivatives for lambda = 1; set only for second derivatives */
+  baum_i_coordinate_blocks blocks; /* for lambda = 1; set only if second derivatives are needed */
   int columns;                     /* number of columns of the coordinate's two bodies */
   /* For each of these columns, its index among the columns of the row. */
   int at[BAUM_I_PAIR_COLUMNS];
