@@ -90,7 +90,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_magnitude(baum_i_four x)
   return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
 }
 
-/* Return the larger numbers, or those of y where x is NaN. */
+/* Return the larger numbers of x and y. Where x is NaN, return the numbers of y. */
 BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
 {
   return _mm256_max_pd(x, y);

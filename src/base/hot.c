@@ -16,7 +16,7 @@ bool baum_i_hot_is_wide(void)
   return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
 }
 
-#else /* in the runtime of zig, the table of __builtin_cpu_supports() remains empty */
+#else /* for zig, whose runtime never fills the table that __builtin_cpu_supports() reads */
 
 #include <cpuid.h>
 

@@ -36,8 +36,8 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 /* What exists at a path. */
 typedef enum baum_i_path_kind {
   BAUM_I_PATH_FREE, /* nothing */
-  /* A regular file of this user that has no other name. Replacing a file gives the new one to this
-   * user, and leaves the old one under its other names. */
+  /* A regular file that belongs to this user and has no other name. Other files are not replaced:
+   * the new file would belong to this user, and the old one would remain under its other names. */
   BAUM_I_PATH_REPLACEABLE,
   BAUM_I_PATH_OTHER /* for example a device, a pipe or a link */
 } baum_i_path_kind;
@@ -60,8 +60,7 @@ FILE *baum_i_file_create(const char *path, unsigned permissions);
 /* Sets the permissions of a file. Returns 0, or errno on failure. */
 int baum_i_file_permit(FILE *file, unsigned permissions);
 
-/* Writes the data that fflush() has passed to the system to the disk. Returns 0, or errno on
- * failure. */
+/* Writes to the disk what fflush() has passed to the system. Returns 0, or errno on failure. */
 int baum_i_file_sync(FILE *file);
 
 /* Renames the file `part` to `path`. If there is already a file at `path`, it is replaced in one

@@ -22,10 +22,10 @@ baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *
  * stored. */
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call);
 
-/* Check `size`, the struct_size of a caller's struct. It must be `present`, the size in this
- * version, or the size in an older version, which is a multiple of sizeof(size_t) with room for at
- * least two fields. Messages name the struct by `of`, which is " of the options" or "". They name
- * the call that sets the defaults by `start`. */
+/* Check `size`, the struct_size of a caller's struct. It must be `present`, which is the size in
+ * this version, or a possible size in an older version. Sizes in older versions are multiples of
+ * sizeof(size_t) and have room for at least two fields. Messages name the struct by the text `of`,
+ * which is " of the options" or "", and the call that sets the defaults by the text `start`. */
 baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
                                      const char *start);
 

@@ -6,8 +6,8 @@
 
 #include "mechanism/identify.h"
 
-/* The id of element K of a family, where K counts from 0. If there is no such element, the empty
- * id. */
+/* Expands to the id of element K of a family, where K counts from 0. If there is no such element,
+ * expands to the empty id. */
 #define ID_AT(FAMILY, MECHANISM, K)                             \
   ((K) >= 0 && (K) < baum_mechanism_##FAMILY##_count(MECHANISM) \
      ? (baum_##FAMILY##_id){(K) + 1, (MECHANISM)->tag}          \

@@ -147,10 +147,10 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* ---- energy ----
  *
- * A user function returns the potential of a force, but not the gradient of the potential. The
- * power of this part of the force is therefore unknown. For such elements, power() returns the
- * power of the whole force. The change of the energy stored in the potential is known exactly, as a
- * difference of two values.
+ * A user function returns the potential of a force, but not the gradient of the potential. It is
+ * therefore unknown which part of the power belongs to the potential. For forces with such a user
+ * function, power() returns the power of the whole force. The change of the energy stored in the
+ * potential is known exactly, as a difference of two values.
  */
 
 /* Some types compute their power from the whole force, including the part that has a potential. If

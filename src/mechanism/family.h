@@ -6,7 +6,7 @@
 
 #include "mechanism/model.h"
 
-/* Sums that freeze forms while it numbers the elements of a family. */
+/* Sums over the elements of a family. The freeze computes them while it numbers these elements. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies or rows of joints; not used for forces */
@@ -27,7 +27,7 @@ typedef struct baum_i_family {
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
   /* set the type and the sizes that the definition determines */
   void (*prepare)(baum_i_element *element);
-  /* Freeze calls these three functions. rows() returns the number of rows or velocities of an
+  /* The freeze calls these three functions. rows() returns the number of rows or velocities of an
    * element, place() stores where the blocks of an element begin, and close() stores the sizes of
    * the mechanism. */
   int (*rows)(const baum_i_element *element);

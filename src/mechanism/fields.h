@@ -131,8 +131,8 @@ typedef struct baum_i_definition {
    * own no memory. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free the memory that own() has allocated */
-  /* Compare the derivatives that user functions of an element return with finite differences. NULL
-   * if the element has no such functions. */
+  /* Check the derivatives that user functions of an element return. Finite differences give the
+   * values for comparison. NULL if the element has no such functions. */
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Freezing turns definitions into the constant structure of a mechanism.
  *
- * Freezing numbers columns and rows in the order in which elements were added, collects elements
- * of one type in groups, and writes all numbers to the parameter array. If freezing fails,
- * everything is undone, and the mechanism can still be changed.
+ * The columns and rows get indices in the order in which elements were added. Elements of one type
+ * are collected in a group. All masses, lengths and other numbers are written to the parameter
+ * array. If freezing fails, everything is undone, and the mechanism can still be changed.
  */
 #include <limits.h>
 #include <math.h>
@@ -200,8 +200,9 @@ static baum_status make_arrays(baum_mechanism *mechanism)
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* Mark the rows of velocity level. Their equation is J a = gamma - alpha (J v - nu), with alpha
- * where rows of positions have 2 alpha. */
+/* Mark the rows of velocity level. Their stabilized equation is J a = gamma - alpha (J v - nu).
+ * Rows of positions have 2 alpha instead of alpha, so `row_gains` is 1/2 for rows of velocity
+ * level. */
 static baum_status mark_velocity_rows(baum_mechanism *m)
 {
   m->velocity_row_count = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions for ids, for the owners of rows and columns, and for labels in messages. Others check
- * ids, and whether a mechanism is frozen. */
+/* Functions that find elements by their ids, find the owners of rows and columns, and make labels
+ * for messages. Other functions check ids, and whether a mechanism is frozen. */
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 

@@ -85,9 +85,9 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
   }
 }
 
-/* The next three functions write their result to `room` and return `room`. If the mechanism is
- * flat, the result equals the last argument before `room`. They then return this argument and write
- * nothing. */
+/* The next three functions return a pointer to their result. If the mechanism is flat, the result
+ * equals the last argument before `room`, and the functions return this argument without writing
+ * anything. Otherwise they write the result to `room` and return `room`. */
 
 /* Return N(q) v (nq). `room` has nq entries. */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,

@@ -142,7 +142,7 @@ typedef struct baum_i_spatial_frame {
   double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
 } baum_i_spatial_frame;
 
-/* Where the coordinates of a body are from which its frame is computed. */
+/* The coordinates from which the frame of a body is computed: their indices in q and v. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
   int32_t v;    /* first velocity */
@@ -229,8 +229,8 @@ typedef struct baum_i_box {
 void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
 /* Results of the evaluation of all constraint rows. Members that are NULL are not evaluated.
- * Scleronomic joints, whose Phi does not depend on t, do not set their rows of nu. These rows must
- * be zeroed before. */
+ * Scleronomic joints, whose Phi does not depend on t, do not set their rows of nu. The caller must
+ * set these rows to zero before. */
 typedef struct baum_i_rows {
   double *phi;      /* (nc) */
   double *jacobian; /* (jacobian_size) */
@@ -434,8 +434,8 @@ struct baum_i_joint_type {
   double (*noise)(const void *def);
 };
 
-/* Evaluates one joint after the other. The function `evaluate` of all types that have a function
- * evaluate_one(). */
+/* Evaluates one joint after the other. All types that have a function evaluate_one() use this
+ * function as their `evaluate`. */
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 

@@ -14,8 +14,8 @@
  * Semi-implicit Euler:  v+ = v + h a(x, v),  x+ = x + h v+  has
  *                       z^2 + (B + 2 A - 2) z + (1 - 2 A) = 0,
  *                       with w = z - 1:  w^2 + 2 (A + B/2) w + B = 0,
- *                       which is explicit Euler at (A + B/2, B): its region of stability, a
- *                       triangle, is sheared.
+ *                       which is explicit Euler at (A + B/2, B). The region of stability is
+ *                       therefore the triangle of explicit Euler, sheared.
  * Adams-Bashforth:      z^k = z^(k-1) + mu sum_j b_j z^(k-1-j) for each mu: k roots, one of which
  *                       is close to exp(mu) and the others to 0. The test of Schur and Cohn tells
  *                       whether all are inside a circle. Bisection gives the largest |z|, and

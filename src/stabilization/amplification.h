@@ -14,7 +14,7 @@ typedef enum baum_i_method_kind {
   BAUM_I_METHOD_VARIABLE_STEP = 0, /* has no fixed region of stability; see baum_i_method_family */
   BAUM_I_METHOD_ONE_STEP,          /* z = R(mu) with R(mu) = sum coefficients[k] mu^k */
   BAUM_I_METHOD_SEMI_IMPLICIT,     /* z is a root of z^2 + (B + 2 A - 2) z + (1 - 2 A) */
-  /* Z is a root of z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), with k = degree. */
+  /* z is a root of z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), with k = degree. */
   BAUM_I_METHOD_ADAMS_BASHFORTH,
   /* A fixed-step method that enforces the constraints without gains. */
   BAUM_I_METHOD_WITHOUT_GAINS
@@ -38,8 +38,8 @@ typedef struct baum_i_method {
   double best[2];
 } baum_i_method;
 
-/* Returns a constant text that says what gains do with a method. `chooses_step` tells whether the
- * method chooses its steps itself. */
+/* Returns a constant text that says with which gains violations decay. `chooses_step` tells whether
+ * the method chooses its steps itself. */
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
                                     bool chooses_step);
 
@@ -90,9 +90,9 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
  * and stores nothing. */
 bool baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Finds the nearest point that has a spectral radius of at most 0.9. If there is no such point,
- * finds the point with the smallest spectral radius. Its distance is at most 1 % larger than the
- * distance of the nearest such point. */
+/* Finds the nearest point that has a spectral radius of at most 0.9. The distance of the point that
+ * is found is at most 1 % larger than the smallest possible distance. If no point has such a
+ * spectral radius, finds the point with the smallest spectral radius. */
 void baum_i_stability_nearest(const baum_i_method *method, double alpha_h, double beta2_h2,
                               double *good_alpha_h, double *good_beta2_h2);
 

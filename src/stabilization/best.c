@@ -14,13 +14,13 @@
  * positive.
  *
  * Adams-Bashforth methods use the past of the motion. They therefore have no dead-beat point. Their
- * spectral radius is smallest at a pair of complex mu, for the following reason. If the two mu were
- * real and different, the one with the larger |z| would determine the radius. A double mu at the
- * place of the other one would then be at least as good. The point is searched on a lattice in the
- * chart (chart.h). The lattice is refined around the best point found so far, which at first is the
- * best point with critical damping. The largest of several |z| is, as a function of the point, a
- * surface with sharp valleys. A descent method would stop in such a valley. A search on a lattice
- * does not. */
+ * spectral radius is smallest at a pair of complex mu or at a double mu, for the following reason.
+ * If the two mu are real and different, one of them has the larger |z|, which is the spectral
+ * radius. A double mu at the place of the other one has a spectral radius that is not larger. The
+ * point is searched on a lattice in the chart (chart.h). The lattice is refined around the best
+ * point found so far, which at first is the best point with critical damping. The largest of
+ * several |z| is, as a function of the point, a surface with sharp valleys. A descent method would
+ * stop in such a valley. A search on a lattice does not. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -179,7 +179,7 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
-  /* This point is often the best one. */
+  /* The best point with critical damping is often the best point of all. */
   try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0));
   close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];

@@ -29,7 +29,8 @@ static baum_i_text radius_text(double radius)
 }
 
 /* The point of the gains lies on a ray that starts at 0. Returns the largest alpha h up to which
- * this ray is stable. Returns NaN if the point does not define a ray of its own. */
+ * this ray is stable. Returns NaN if alpha or beta is 0, and if alpha = beta, because messages
+ * state the limit of that ray anyway. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -65,7 +66,7 @@ baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_
   return baum_i_fail(BAUM_ERR_UNSTABLE,
                      "gains alpha = %.6g 1/s, beta = %.6g 1/s with %s and h = %.6g s: "
                      "(alpha h, beta^2 h^2) = (%.6g, %.6g) has spectral radius %s > 1, violations "
-                     "grow; stable with this integrator is %s; nearest good pair: (%.4g, %.4g), "
+                     "grow; this integrator is stable for %s; nearest good pair: (%.4g, %.4g), "
                      "that is alpha = %.4g 1/s, beta = %.4g 1/s",
                      gains->alpha, gains->beta, context->integrator, h, gains->alpha_h,
                      gains->beta2_h2, radius_text(radius).text,
@@ -81,7 +82,7 @@ baum_status baum_i_gain_refuse_velocities(const baum_i_gain_context *context,
   return baum_i_fail(BAUM_ERR_UNSTABLE,
                      "gains alpha = %.6g 1/s with %s and h = %.6g s: for rows of velocity level "
                      "alpha h = %.6g has spectral radius %s > 1, violations of velocities grow; "
-                     "stable with this integrator is alpha h < %.6g, that is alpha < %.4g 1/s",
+                     "this integrator is stable for alpha h < %.6g, that is alpha < %.4g 1/s",
                      gains->alpha, context->integrator, context->step, gains->alpha_h,
                      radius_text(velocities->spectral_radius).text, limit, limit / context->step);
 }
@@ -109,7 +110,8 @@ static const char *const class_text[] = {
   [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
 };
 
-static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
+static const char UNDAMPED[] =
+  "warning: with alpha = 0, only the error of the method damps violations";
 
 /* Returns the damping p per step of the slower mode of (6), as defined above. */
 static double promised_damping(const baum_i_gain_draft *gains)
@@ -153,7 +155,7 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
   baum_i_text remark = {""};
   if (near_edge) {
     remark = baum_i_text_of("; warning: near the edge of the region, a step leaves %s of a "
-                            "violation and not %.3g",
+                            "violation instead of %.3g",
                             radius.text, exp(-promised_damping(gains)));
   } else if (undamped) {
     remark = baum_i_text_of("; %s", UNDAMPED);
@@ -181,14 +183,14 @@ static clause variable_step_clause(const baum_i_gain_context *context,
     return (clause){baum_i_text_of("variable step; %s", UNDAMPED), true};
   }
   if (isfinite(max_step)) {
-    return (clause){baum_i_text_of("variable step, at most %.4g s, for beyond is where violations "
-                                   "would grow",
+    return (clause){baum_i_text_of("variable step, at most %.4g s, because violations would grow "
+                                   "with longer steps",
                                    max_step),
                     false};
   }
   if (family == BAUM_I_FAMILY_BDF && gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
     return (clause){baum_i_text_of("variable step; warning: alpha / beta = %.3g < %g, where BDF "
-                                   "may not damp",
+                                   "may not damp violations",
                                    gains->alpha / gains->beta, BDF_DAMPING_RATIO),
                     true};
   }

@@ -20,7 +20,9 @@ typedef struct baum_i_gain_draft {
 typedef struct baum_i_two_amplifications {
   baum_amplification positions;
   baum_amplification velocities;
-  bool by_velocities; /* the mechanism has rows of velocity level, and they are the worse ones */
+  /* True if the mechanism has only rows of velocity level, or if these have the larger spectral
+   * radius. */
+  bool by_velocities;
 } baum_i_two_amplifications;
 
 /* Sets the members `why` and `doubtful` of a choice. All numbers of the choice must have been

@@ -21,10 +21,10 @@
  * Rows of velocity level have one mode, exp(-alpha t), and must be stable for the same alpha.
  *
  * About variable steps: the step of an explicit method is limited so that (alpha h, beta^2 h^2) is
- * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. Violations therefore decay
- * for any alpha h if alpha / beta is at least cos 51.84 degrees = 0.618, because alpha / beta is
- * the cosine of the angle between the roots of s^2 + 2 alpha s + beta^2 and the negative real
- * axis. */
+ * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. The ratio alpha / beta is
+ * the cosine of the angle between the roots of s^2 + 2 alpha s + beta^2 and the negative real axis.
+ * Violations therefore decay for any alpha h if alpha / beta is at least cos 51.84 degrees =
+ * 0.618. */
 #include "stabilization/gains.h"
 
 #include <math.h>
@@ -185,7 +185,7 @@ static double auto_without_step(const baum_i_gain_context *context, double wante
     print_note(out, context, "");
     return wanted;
   }
-  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: 1 1/s for want of a rate)");
+  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: no rate, 1 1/s is used)");
   return 1.0;
 }
 
@@ -253,8 +253,8 @@ static baum_status check_needs(const rule_type *rule, const baum_i_gain_context 
 {
   if (rule->needs_step && !has_step(context)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "gains %s: the rule needs a fixed step, and %s chooses its own; use fixed, "
-                       "frequency or auto",
+                       "gains %s: the rule needs a fixed step, and %s chooses its own steps; use "
+                       "fixed, frequency or auto",
                        rule->name, context->integrator);
   }
   if (rule->apply == apply_auto && !(context->rate >= 0.0 && isfinite(context->rate))) {
@@ -300,7 +300,8 @@ static double largest_step(const baum_i_gain_context *context, const baum_i_gain
   return WITHIN_REGION * fmin(positions, velocities) / gains->alpha;
 }
 
-/* Finds the amplification of both kinds of rows, and the worse of those that exist. */
+/* Finds the amplification of both kinds of rows, and which kind determines the result. This is the
+ * kind with the larger spectral radius, or the only kind that the mechanism has. */
 static void amplify(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                     baum_i_two_amplifications *out)
 {

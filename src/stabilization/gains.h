@@ -27,8 +27,8 @@ typedef struct baum_i_gain_choice {
   double alpha;        /* [1/s] */
   double beta;         /* [1/s] */
   baum_gain_rule rule; /* the rule that was applied */
-  /* at the point (alpha h, beta^2 h^2); of the rows of positions or of velocity level, of those
-   * whose violations decay more slowly */
+  /* The amplification at the point (alpha h, beta^2 h^2). If there are rows of positions and of
+   * velocity level, it is that of the rows whose violations decay more slowly. */
   baum_amplification amplification;
   /* [s] The largest stable step of an explicit method with variable steps. It is infinite for other
    * methods. */
@@ -38,11 +38,11 @@ typedef struct baum_i_gain_choice {
 } baum_i_gain_choice;
 
 /* Applies a rule and checks the stability of its gains. Returns BAUM_OK if the gains can be used.
- * Returns BAUM_ERR_ARGUMENT for invalid numbers, and for a rule that requires a fixed step. Returns
- * BAUM_ERR_UNSUPPORTED if the method has no dead-beat point. Returns BAUM_ERR_UNSTABLE if the gains
- * are unstable. The message then gives (alpha h, beta^2 h^2), the spectral radius, the stable
- * region and the nearest good pair, in 1/s and scaled. Gains at which violations neither decay nor
- * grow are accepted with BAUM_OK, and the caller warns. */
+ * Returns BAUM_ERR_ARGUMENT for invalid numbers, and if the rule requires a fixed step but the step
+ * is variable. Returns BAUM_ERR_UNSUPPORTED if the method has no dead-beat point. Returns
+ * BAUM_ERR_UNSTABLE if the gains are unstable. The message then gives (alpha h, beta^2 h^2), the
+ * spectral radius, the stable region and the nearest good pair, in 1/s and scaled. Gains at which
+ * violations neither decay nor grow are accepted with BAUM_OK, and the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

@@ -26,8 +26,8 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-/* Locates the crossing between a node and its neighbour before it in direction d. Exactly one of
- * these two nodes is good. Stores the crossing if it is nearer than all others so far. */
+/* Locates the crossing between a node and the preceding node in direction d. Exactly one of these
+ * two nodes is good. Stores the crossing if it is nearer than all others so far. */
 static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
   double before[2] = {node[0], node[1]};

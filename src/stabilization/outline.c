@@ -117,7 +117,8 @@ static void follow_curve(march *m, const int start[2])
     edge = (exit + 2) & 3;
     double point[2];
     cross(m, square, edge, point);
-    /* Different, because all points with m = 0 are the point A = B = 0. */
+    /* A point that equals the last one is skipped. All places (s, 0) of the chart, for example, are
+     * the same point A = B = 0. */
     if (point[0] != last[0] || point[1] != last[1]) {
       put(m->out, point);
       memcpy(last, point, sizeof last);

@@ -28,8 +28,8 @@ static inline void fail_once(scenario *run, void *context, long n, bool for_good
   }
 }
 
-/* Runs the scenario once before counting, because libraries allocate memory in their first use that
- * they never free. */
+/* Runs the scenario once before counting, because libraries that are used for the first time
+ * allocate memory that they never free. */
 static inline long count_allocations(scenario *run, void *context)
 {
   assert_int_equal(run(context), BAUM_OK);

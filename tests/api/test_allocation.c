@@ -533,7 +533,8 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
   run_scenario s = {.parts = make_redundant(), .span = 0.001, .warned = true};
   s.options = options_for((step_mode){baum_euler(), true}, BAUM_FORMULATION_PROJECTION);
   for (int solver = BAUM_SOLVER_AUTO; solver <= BAUM_SOLVER_QR; solver++) {
-    /* With a variable step there is no companion run, which would take too long with KLU or QR. */
+    /* A run with a fixed step may make a second integration that estimates its error. With KLU or
+     * QR, this test would then take too long, so it uses a variable step. */
     if (solver > BAUM_SOLVER_AUTO) {
       s.options = options_for((step_mode){baum_dp5(), false}, BAUM_FORMULATION_PROJECTION);
     }

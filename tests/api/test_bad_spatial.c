@@ -84,11 +84,11 @@ static void orientations_that_are_no_unit_quaternion_are_refused(void **state)
     double p[4];
     const char *message;
   } bad[] = {
-    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 to 1e-6: a unit quaternion"},
-    {{2.0, 0.0, 0.0, 0.0}, "orientation has the length 2, must be 1 to 1e-6"},
-    {{0.0, 1.0 + 2e-6, 0.0, 0.0}, "orientation has the length 1.000002, must be 1 to 1e-6"},
-    {{0.0, 0.0, 0.0, 1.0 - 2e-6}, "orientation has the length 0.999998, must be 1 to 1e-6"},
-    {{1e300, 1e300, 0.0, 0.0}, "orientation has the length inf, must be 1 to 1e-6"},
+    {{0.0, 0.0, 0.0, 0.0}, "orientation has the length 0, must be 1 within 1e-6: a unit"},
+    {{2.0, 0.0, 0.0, 0.0}, "orientation has the length 2, must be 1 within 1e-6"},
+    {{0.0, 1.0 + 2e-6, 0.0, 0.0}, "orientation has the length 1.000002, must be 1 within 1e-6"},
+    {{0.0, 0.0, 0.0, 1.0 - 2e-6}, "orientation has the length 0.999998, must be 1 within 1e-6"},
+    {{1e300, 1e300, 0.0, 0.0}, "orientation has the length inf, must be 1 within 1e-6"},
   };
   every_element parts = open_parts();
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -105,7 +105,7 @@ static void inertias_of_no_body_are_refused(void **state)
   (void)state;
   static const char positive[] =
     "inertia has the principal moments | kg m^2; two must be > 0, and none < 0";
-  static const char triangle[] = "kg m^2; of a body none is above the sum of the other two";
+  static const char triangle[] = "kg m^2; none may be larger than the sum of the other two";
   static const struct {
     double inertia[6]; /* xx, yy, zz, xy, xz, yz */
     const char *message;
@@ -117,7 +117,7 @@ static void inertias_of_no_body_are_refused(void **state)
     {{1.0, 1.0, 1.0, 0.0, 0.0, -1.5}, positive},
     {{1.0, 1.0, 2.001, 0.0, 0.0, 0.0}, triangle},
     {{1.0, 3.0, 1.0, 0.0, 0.0, 0.0}, triangle},
-    {{1.0, 1.0, 1.0, 0.9, 0.0, 0.0}, "principal moments 0.1, 1 and 1.9 kg m^2; of a body none"},
+    {{1.0, 1.0, 1.0, 0.9, 0.0, 0.0}, "principal moments 0.1, 1 and 1.9 kg m^2; none may"},
   };
   every_element parts = open_parts();
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
@@ -273,7 +273,8 @@ static void points_are_given_in_one_way_only(void **state)
   const element_kind *strut = kind_of("spatial_distance");
   const element_kind *coil = kind_of("spatial_spring");
   const element_kind *socket = kind_of("spatial_spherical");
-  const char *length = "point is given and leaves no length; give point_a and point_b instead";
+  const char *length =
+    "point is given, but the length would be zero; give point_a and point_b instead";
   const char *off_ball = "point_b is (0, 0, 0.25) m, must be (0, 0, 0) on the particle body ";
   assert_true(refuses(&parts, strut, "point", off, length));
   assert_true(refuses(&parts, coil, "point", off, length));
@@ -401,7 +402,7 @@ static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
   memcpy(def.x_axis, z, sizeof z);
   check(baum_mechanism_set_spatial_planar(mechanism, id, &def));
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
-              "\"mount\": x_axis is along axis, must not be");
+              "\"mount\": x_axis is parallel to axis, must not be");
   baum_mechanism_destroy(mechanism);
 }
 

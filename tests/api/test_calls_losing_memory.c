@@ -400,7 +400,7 @@ typedef struct call {
   const char *name;
   stage stage;
   baum_status (*make)(scene *s);
-  /* The call evaluates by the run, which changes the counters of the run even if the call fails. */
+  /* The call makes the run evaluate. This changes its counters even if the call fails. */
   bool works;
 } call;
 
@@ -496,7 +496,7 @@ static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
     fail_msg("%s, allocation %ld, then again: %s", c->name, n, baum_message());
   }
   if (go_on(&s) != wanted) {
-    fail_msg("%s, allocation %ld: it comes out as something else", c->name, n);
+    fail_msg("%s, allocation %ld: the later result is different", c->name, n);
   }
   end_scene(&s);
   return failed;

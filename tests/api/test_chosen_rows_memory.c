@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation may fail while the omitted rows change, either during a run or because a run is
- * restored. */
+/* Lets every allocation fail while the omitted rows change, either during a run or because a run is
+ * restored. Calls must then return BAUM_ERR_MEMORY, or succeed without the memory. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>

@@ -173,7 +173,7 @@ static void every_allocation_of_an_event_may_fail(void **state)
 
 int main(void)
 {
-  /* The first call, in which heap.h looks up the functions that it excludes. */
+  /* In its first call, this function looks up the functions that heap.h excludes. */
   (void)heap_is_ours();
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every failure that ends a run early must have a message. It must contain the time, the step, a
- * joint or body, and advice. The last good step must stay readable, and another run must be able to
- * continue from it. */
+/* Every failure that ends a run early must have a message. The message must contain the time, the
+ * last good step, a joint or body, and advice. The last good step must stay readable, and another
+ * run must be able to continue from it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

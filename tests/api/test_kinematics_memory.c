@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps and outputs of kinematics must allocate no memory, and every allocation may fail. */
+/* Steps and outputs of kinematics must allocate no memory. If an allocation of another call fails,
+ * this call must return BAUM_ERR_MEMORY, or succeed without the memory. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>

@@ -13,7 +13,8 @@
 #include "heap.h"
 #include "report_scene.h"
 
-/* A report must not fail if there is only no memory for reading the processor's name. */
+/* Lets single allocations of a report fail. The call must return BAUM_ERR_MEMORY and lose no
+ * memory. It may return BAUM_OK if only the memory for reading the processor's name is missing. */
 static void check_form(const baum_study *study, baum_report_form form)
 {
   int failures = 0;

@@ -27,8 +27,8 @@ typedef struct model {
 baum_status model_adopt(baum_mechanism *mechanism, model *out);
 void model_destroy(model *out);
 
-/* The lengths of one metre and one second and the mass of one kilogram, in other units. The data of
- * models are in SI units, and the mechanism is built in the other units. */
+/* The values of one metre, one kilogram and one second in other units. The data of models are in SI
+ * units, and the mechanism is built in the other units. */
 typedef struct model_units {
   double length;
   double mass;

@@ -35,7 +35,8 @@ static baum_status build_slider_crank(model *out)
   return from_catalog("spatial_slider_crank", settings, 1, out);
 }
 
-/* axial: moment of inertia of the rods about themselves, relative to that about transverse axes */
+/* axial: moment of inertia of the rods about their own axes, relative to that about transverse
+ * axes */
 static baum_status build_bricard(double axial, model *out)
 {
   const baum_catalog_setting settings[] = {{"axial", axial}, {"angle", 0.3}, {"speed", 2.0}};
@@ -105,8 +106,9 @@ static baum_status build_stewart(model *out)
 
 /* ---- quadruped ---- */
 
-/* A link on a revolute joint, in the axes of the body that carries it: the joint is at `point`, its
- * axis is axis number `axis`, and the centre of mass is at `centre` from the joint. */
+/* A link on a revolute joint. The fields refer to the axes of the body that carries the link. The
+ * joint is at `point`, its axis is axis number `axis`, and the vector from the joint to the centre
+ * of mass of the link is `centre`. */
 typedef struct link {
   double point[3]; /* [m] */
   double centre[3];
@@ -117,7 +119,8 @@ typedef struct link {
   double inertia[3];
 } link;
 
-/* Adds a link to the body `on`, whose axes are `at`. Moves both to the link. */
+/* Adds a link to the body `on`, whose axes are `at`. Afterwards, `on` and `at` are those of the
+ * link. */
 static void add_link(baum_i_parts *parts, const link *l, baum_body_id *on, baum_i_axes *at)
 {
   double axis[3];
@@ -180,8 +183,8 @@ static double irregular(int k, int which)
 }
 
 /* Adds a chain along the x axes of its links. The links of a spherical chain have independent
- * orientations. Those of a revolute chain rotate against the link before them about an axis across
- * both. */
+ * orientations. Each link of a revolute chain rotates relative to the link before it about an axis
+ * that is perpendicular to both links. */
 static baum_status build_chain(bool revolute, int links, model *out)
 {
   baum_i_parts parts = baum_i_parts_begin();

@@ -10,7 +10,7 @@ typedef enum model_spatial {
   MODEL_SPATIAL_SLIDER_CRANK, /* 3 bodies, 17 rows: revolute, spherical, universal, prismatic */
   MODEL_RSSR,                 /* 3 bodies, 16 rows: revolute, spherical, spherical, revolute */
   MODEL_BRICARD,              /* 5 bodies, 30 rows of revolute joints, one redundant */
-  MODEL_SLENDER_BRICARD,      /* the same of rods without inertia about themselves */
+  MODEL_SLENDER_BRICARD,      /* the same with rods that have no inertia about their own axes */
   MODEL_STEWART,              /* 13 bodies, 72 rows: a platform on six legs of two bodies each */
   MODEL_QUADRUPED,            /* 14 bodies, 65 rows: a free trunk with four legs and a neck */
   MODEL_FLYBALL,              /* 4 bodies, 20 rows, with springs and dampers */

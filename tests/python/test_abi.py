@@ -97,7 +97,8 @@ class Abi(unittest.TestCase):
 
 
 class Changes(unittest.TestCase):
-    """What breaks compiled programs is found by tools/compare_abi.py, which a release runs."""
+    """Tests tools/compare_abi.py, which finds changes that break compiled programs. It is run for
+    every release."""
 
     def found_after(self, *replacements):
         """The changes that replacements in the text of _abi.py cause."""

@@ -222,8 +222,8 @@ class Costs(unittest.TestCase):
 
 class Exceptions(unittest.TestCase):
     def failing(self, error, after):
-        """A pendulum whose function raises an exception. This happens at times later than a limit,
-        once the function is armed."""
+        """A pendulum whose function raises an exception at times after `after`, as soon as the list
+        `armed` is not empty."""
         calls, armed = [], []
 
         def phi(t, q):

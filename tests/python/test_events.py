@@ -47,8 +47,9 @@ class Events(unittest.TestCase):
             self.assertEqual(s.advance_to(9), baum.Status.STOP_EVENT)
             times.append(s.time)
             s.set_state(s.time, s.q, -s.v)
-        # From the horizontal to the bottom takes a quarter of the period, which is K(1/sqrt 2)
-        # sqrt(l/g). Until it is at the bottom again takes half of the period.
+        # The pendulum needs a quarter of the period from the horizontal to the bottom. This time is
+        # K(1/sqrt 2) sqrt(l/g). After each bounce it needs half of the period to return to the
+        # bottom.
         quarter = 1.8540746773013719 / math.sqrt(9.81)
         np.testing.assert_allclose(times, [quarter, 3 * quarter, 5 * quarter], rtol=1e-7)
         self.assertEqual([event.direction for event in s.events], [-1, -1, -1])

@@ -15,7 +15,7 @@ from mechanisms import slider_crank
 
 
 def disk(initial=0.0, **load):
-    """A free disk of 0.5 kg m^2 without gravity. An input is its torque."""
+    """A free disk of 0.5 kg m^2 without gravity. An input sets its torque [N m]."""
     m = baum.Mechanism(gravity=(0, 0))
     body = m.planar_body("disk", mass=2, inertia=0.5, velocity=(0, 0), angular_velocity=0)
     torque = m.input("torque", initial)

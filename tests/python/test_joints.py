@@ -66,7 +66,9 @@ class Rows(unittest.TestCase):
         np.testing.assert_allclose(phi(m, (4, 3, 2)), [0])
         run = baum.Simulation(m, "rk8", rtol=1e-10)
         run.advance_to(4)
-        u0, w0, k2 = 0.5, 1.3, 0.15 / 2 + 0.09  # m u' = m 0.3 w^2
+        # The velocity u along the blade and the angular velocity w satisfy u' = 0.3 w^2, and u^2 +
+        # k2 w^2 is constant.
+        u0, w0, k2 = 0.5, 1.3, 0.15 / 2 + 0.09
         u = math.sqrt(u0**2 + k2 * w0**2)
         k = 0.3 * u / k2
         np.testing.assert_allclose(run.v[2], math.sqrt(u * k / 0.3) / math.cosh(4 * k + math.atanh(u0 / u)), rtol=1e-8)

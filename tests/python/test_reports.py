@@ -22,8 +22,8 @@ VOID = {"meta", "input", "br", "img", "link"}
 
 
 def make_study():
-    """A study with entries that are done and one that is refused. One of the first has a
-    warning that names a joint."""
+    """A study with entries that are done and an entry that is refused. One of the entries that are
+    done has a warning that names a joint."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint(JOINT, [bob], rows=1, phi=lambda t, q: q @ q - 1)

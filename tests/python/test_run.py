@@ -16,7 +16,7 @@ from mechanisms import slider_crank
 
 
 def near_singular():
-    """Run a slider-crank whose links are equal through its singular configuration."""
+    """Run a slider-crank with links of equal length. It passes a singular configuration."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return slider_crank(l=0.153, e=0.0).simulate(
@@ -196,7 +196,7 @@ class Plots(unittest.TestCase):
 
         _, axes = plt.subplots()
         self.assertEqual(self.axes("energy", axes=axes), drawn)
-        with self.assertRaisesRegex(ValueError, "axes: one for each unit is wanted, 2, not 1"):
+        with self.assertRaisesRegex(ValueError, "axes: 2 are wanted, one for each unit, not 1"):
             self.run_.plot("crank.pose", axes=axes)
         with self.assertRaisesRegex(KeyError, "'B.phi' was not recorded"):
             self.run_.plot("B.phi")

@@ -28,8 +28,8 @@ class Rotation:
 
 
 def add_every_joint(m, a, b, p):
-    """Add one joint of each kind between two bodies and a particle. Their points and axes are given
-    in both ways."""
+    """Add one joint of each kind between two bodies and a particle. Some have a common point in
+    ground axes, others have points and axes in the axes of both bodies."""
     point = (0.3, 0.1, -0.2)
     m.spherical("spherical", a, b, point=point)
     m.spatial_revolute("revolute", a, b, point=point, axis=(1, 2, 0))

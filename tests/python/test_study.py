@@ -50,7 +50,8 @@ class Studies(unittest.TestCase):
             best = self.study.recommend(error)
             self.assertIn("rk8", best.why)
             run = self.m.simulate(t, **best)
-            # the scale of lengths, 0.46 m, is smaller than the unit
+            # The error of the study is relative to the characteristic length, 0.46 m. In metres it
+            # is therefore smaller.
             self.assertLess(np.abs(run.q - exact).max(), error)
 
     def test_stress_settings_are_entries_that_work_or_say_why(self):

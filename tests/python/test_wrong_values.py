@@ -110,7 +110,7 @@ class Instead(unittest.TestCase):
         s = m.simulation("rk4", step=1e-2)
         w = baum.Workspace(m)
         read = lambda t, q, v: s.get("rod.multipliers")[0]
-        self.says(baum.Error, "for multipliers acceleration.t, q, v. of a baum.Workspace", s.event, function=read)
+        self.says(baum.Error, "acceleration.t, q, v. of a baum.Workspace for multipliers", s.event, function=read)
         s.event(function=lambda t, q, v: abs(w.acceleration(t, q, v)[1][0]) - 9.81)
         self.assertEqual(s.advance_to(1), baum.Status.STOP_EVENT)
         self.assertAlmostEqual(abs(s.get("rod.multipliers")[0]), 9.81, 6)

@@ -65,7 +65,7 @@ struct asked {
 void asked_make(asked *b);
 
 /* An event function that never becomes zero, and a progress function. Their `user` is a pointer to
- * the asked. */
+ * a struct `asked`. */
 int asked_gate(double t, const double *q, const double *v, const double *inputs, double *out,
                void *user);
 int asked_progress(const baum_simulation *run, double t, void *user);

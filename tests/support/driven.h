@@ -36,8 +36,8 @@ void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
  * velocity of the crank is the constant data->drive.rate. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
 /* At some crank angles the rod may be perpendicular to the guide. If the rod is too short, the
- * crank locks there. Returns the smallest difference between this crank angle and such an angle.
- * Returns INFINITY if there is no such angle. */
+ * crank locks there. Returns the smallest difference between `angle`, which is a crank angle, and
+ * one of these angles. Returns INFINITY if there are none. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----

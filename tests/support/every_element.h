@@ -2,23 +2,34 @@
 /* One mechanism that has an element of every kind, and a table of all kinds. Tests of the interface
  * use them.
  *
- * These elements are planar: a driven crank with a rod and a slider on a guide, and a tool welded
- * to the slider; a bob on a circle about the slider (user constraint); two masses in a row (user
- * coordinates); a spring, a load, a drag (user force), a torsion spring; a disc on an axle, geared
- * with the crank; a bar on a rail, whose rack is in mesh with the disc; a bead in a slot of the
- * disc, positioned by the crank's angle (coupling); a pea on a curve of the bar; a wheel on a hinge
- * that is driven along a spline (cam).
+ * These elements are planar:
  *
- * These elements are spatial: a shaft in a bearing; a yoke on a universal joint of the shaft, with
- * a shoe on a plane; a ram on a slide; a top in a socket of the shaft and on a table of the ram; a
- * tube in a sleeve, with a cap clamped to it; a ball on a wire of the yoke and on a strut of the
- * cap; coil (spring), push (load), winding (joint spring of the sleeve).
+ *   a driven crank with a rod and a slider on a guide, and a tool welded to the slider
+ *   a bob on a circle about the slider (user constraint)
+ *   two masses in a row (user coordinates)
+ *   a spring, a load, a drag (user force) and a torsion spring
+ *   a disc on an axle, geared with the crank
+ *   a bar on a rail, whose rack is in mesh with the disc
+ *   a bead in a slot of the disc, positioned by the crank's angle (coupling)
+ *   a pea on a curve of the bar
+ *   a wheel on a hinge that is driven along a spline (cam)
  *
- * Last, a sled in the plane on a blade (knife edge), and a coin that rolls.
+ * These elements are spatial:
  *
- * It has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The planar
- * part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4 degrees of
- * freedom. The design configuration satisfies all rows except the row of `cam`.
+ *   a shaft in a bearing
+ *   a yoke on a universal joint of the shaft, with a shoe (point on a plane)
+ *   a ram on a slide
+ *   a top in a socket of the shaft and on a table of the ram
+ *   a tube in a sleeve, with a cap clamped to it
+ *   a ball on a wire of the yoke and on a strut of the cap
+ *   a coil (spring), a push (load) and a winding (joint spring of the sleeve)
+ *
+ * The last elements are a sled in the plane on a blade (knife edge), and a coin that rolls (rolling
+ * disc).
+ *
+ * The mechanism has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The
+ * planar part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4
+ * degrees of freedom. The design configuration satisfies all rows except the row of `cam`.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H

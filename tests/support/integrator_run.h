@@ -45,8 +45,8 @@ typedef struct integrator_run {
 baum_status integrator_run_open(integrator_run *run, const integrator_setup *setup);
 void integrator_run_close(integrator_run *run);
 
-/* Takes one step. A fixed step has the length run->step. It projects if the formulation does. If
- * the step fails, the state stays unchanged. */
+/* Takes one step. A fixed step has the length run->step. If the formulation is projection, the
+ * step includes a projection. If the step fails, the state stays unchanged. */
 baum_status integrator_run_step(integrator_run *run);
 
 /* Advances to t, and sets q and v to the values there. With a fixed step, t must be a multiple of

@@ -22,11 +22,13 @@ typedef struct manifold_scene {
   void (*solve)(double t, double *q);
   int degrees_of_freedom;
   bool refuses_rattle; /* its user functions compute gyroscopic moments, which RATTLE refuses */
+  /* The unit vectors (cos, sin), or the unit quaternions, that q contains. In q, two successive
+   * quaternions begin seven numbers apart, and two successive unit vectors four numbers apart. */
   struct {
-    int first; /* index in q of the first unit */
-    int count; /* number of units; quaternions begin seven numbers apart, and others four */
-    int length;
-  } units;            /* the unit vectors and unit quaternions in q */
+    int first;  /* index in q of the first of them */
+    int count;  /* how many there are */
+    int length; /* numbers in each of them */
+  } units;
   int redundant_rows; /* 0 unless given */
 } manifold_scene;
 

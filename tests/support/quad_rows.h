@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes accelerations in quadruple precision, even if rows are dependent, and measures of the
- * dependence. M, J, g and gamma are computed by the library in double precision, but none of its
- * solvers is used. Let M = L L^T and y = L^T a, and let the rows of J L^-T be scaled to length 1.
- * The constraints are then W^T y = c. A QR factorization of W with pivoting gives that y which is
- * nearest to L^-1 g. */
+/* Computes accelerations in quadruple precision, even if rows are dependent. Also computes how
+ * close the rows are to dependence, and how much dependent rows contradict the others. M, J, g and
+ * gamma are computed by the library in double precision, but none of its solvers is used. Let M = L
+ * L^T and y = L^T a, and let the rows of J L^-T be scaled to length 1. The constraints are then W^T
+ * y = c. A QR factorization of W with pivoting gives that y which is nearest to L^-1 g. */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
 
@@ -57,8 +57,8 @@ void quad_equations_destroy(quad_equations *s);
 bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out);
 
 /* These functions are called after solving. The first one computes the multipliers (nc), which are
- * 0 for dependent rows. The second one computes the k-th linear combination of the rows of J that
- * is zero. */
+ * 0 for dependent rows. The second one computes the coefficients (nc) of the k-th linear
+ * combination of the rows of J that is zero. */
 void quad_equations_multipliers(const quad_equations *s, wide *lambda);
 void quad_equations_null(const quad_equations *s, int k, wide *lambda);
 

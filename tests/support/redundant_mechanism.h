@@ -15,7 +15,7 @@
 baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio);
 
 /* Makes a bracket of 1/ratio kg that is both pinned and welded to ground. It carries a body of 1 kg
- * at rest. *hold is set to the joint between them. */
+ * at rest. *hold is set to the joint between bracket and body. */
 baum_mechanism *redundant_bracket(double ratio, baum_joint_id *hold);
 
 /* A state, with the accelerations and multipliers that are tested. */
@@ -34,8 +34,8 @@ typedef struct redundant_state {
 /* Returns the largest residual of M a + J^T lambda = g over all bodies. Each residual is divided by
  * the largest term of its body, or by 1e-14 of the largest term of all bodies if that is larger.
  * The result is infinite if there is a NaN. Unless `rows` is NULL, *rows is set to the largest
- * residual of J a = gamma. It is relative to the largest term of J a, for the actual accelerations
- * or for those without constraints. */
+ * residual of J a = gamma. It is relative to the largest term of J a, either for the actual
+ * accelerations or for those without constraints, whichever is larger. */
 double redundant_imbalance(const redundant_state *s, double *rows);
 
 typedef enum redundant_verdict {

@@ -18,7 +18,7 @@ typedef enum singular_kind {
   SINGULAR_PARALLELOGRAM,
   SINGULAR_THREE_CRANKS,
   SINGULAR_SLIDER_CRANK, /* rod and crank have the same length */
-  /* The coupler is 1e-4 m longer, so it becomes only nearly singular. */
+  /* A parallelogram whose coupler is 1e-4 m too long, so that it becomes only nearly singular. */
   SINGULAR_NEAR_PARALLELOGRAM,
   SINGULAR_KINDS
 } singular_kind;

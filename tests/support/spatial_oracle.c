@@ -13,8 +13,8 @@
 static const double NO_ROW = 1e-13;
 
 /* Some linear combinations of rows are zero. In each of them, the rows of one joint cause a
- * reaction of this joint. The reaction of the joint is unique if all these reactions are smaller
- * than this. */
+ * reaction of this joint. The reaction of the joint is considered unique if all these reactions are
+ * smaller than NO_PART. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)

@@ -8,8 +8,8 @@
 baum_mechanism *user_make_empty(void);
 
 /* These functions freeze the mechanism, check its derivatives and destroy it. user_check_right()
- * requires that the check finds no error. user_check_wrong() requires that it finds an error and
- * gives this message. */
+ * requires that the check finds no error. user_check_wrong() requires that the check fails with
+ * this message. */
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);

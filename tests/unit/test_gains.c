@@ -209,7 +209,7 @@ static void gains_that_do_not_damp_are_warned_of(void **state)
   baum_i_gain_choice c = chosen(baum_gains_fixed(0.0, 100.0), fixed_step(RK4));
   assert_int_equal(c.amplification.stability, BAUM_STABLE);
   assert_true(c.doubtful);
-  has(c.why, "warning: alpha = 0 damps nothing but by the error of the method");
+  has(c.why, "warning: with alpha = 0, only the error of the method damps violations");
 }
 
 /* ---- Auto ----------------------------------------------------------------- */
@@ -303,7 +303,7 @@ static void auto_falls_back_when_nothing_moves(void **state)
   context.rate = 0.0;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 1.0 && c.beta == 1.0);
-  has(c.why, "(nothing moves at start: 1 1/s for want of a rate); variable step");
+  has(c.why, "(nothing moves at start: no rate, 1 1/s is used); variable step");
 }
 
 static void auto_refuses_a_rate_that_is_no_number(void **state)
@@ -377,7 +377,7 @@ static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
   assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), variable_step()).max_step));
   assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), fixed_step(RK4)).max_step));
   has(chosen(baum_gains_fixed(100.0, 100.0), rk4).why,
-      "variable step, at most 0.02507 s, for beyond is where violations would grow");
+      "variable step, at most 0.02507 s, because violations would grow with longer steps");
 }
 
 /* ---- Variable steps --------------------------------------------------------- */
@@ -429,8 +429,8 @@ static void weak_damping_is_a_matter_of_bdf(void **state)
   rk4.step = (double)NAN;
   assert_false(chosen(baum_gains_fixed(2.0, 10.0), adams).doubtful);
   assert_false(chosen(baum_gains_fixed(2.0, 10.0), rk4).doubtful);
-  has(chosen(baum_gains_fixed(0.0, 10.0), adams).why, "variable step; warning: alpha = 0 damps");
-  has(chosen(baum_gains_fixed(0.0, 10.0), rk4).why, "variable step; warning: alpha = 0 damps");
+  has(chosen(baum_gains_fixed(0.0, 10.0), adams).why, "variable step; warning: with alpha = 0");
+  has(chosen(baum_gains_fixed(0.0, 10.0), rk4).why, "variable step; warning: with alpha = 0");
 }
 
 /* ---- Refusals ------------------------------------------------------------- */
@@ -498,7 +498,7 @@ static void unstable_gains_are_refused_with_numbers_and_a_remedy(void **state)
   refused(baum_gains_taylor(), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
           "gains alpha = 1000 1/s, beta = 1414.21 1/s with semi_implicit_euler and h = 0.001 s: "
           "(alpha h, beta^2 h^2) = (1, 2) has spectral radius 2.41421 > 1, violations grow; "
-          "stable with this integrator is 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h; "
+          "this integrator is stable for 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h; "
           "nearest good pair: (",
           "), that is alpha = ");
   refused(baum_gains_fixed(2100.0, 2100.0), fixed_step(EULER), BAUM_ERR_UNSTABLE,
@@ -508,14 +508,14 @@ static void unstable_gains_are_refused_with_numbers_and_a_remedy(void **state)
   refused(baum_gains_taylor(), fixed_step(AB2), BAUM_ERR_UNSTABLE,
           "gains alpha = 1000 1/s, beta = 1414.21 1/s with ab2 and h = 0.001 s: (alpha h, beta^2 "
           "h^2) = (1, 2) has spectral radius ",
-          "stable with this integrator is alpha = beta up to alpha h = 1 and alpha = 0.7071 beta "
+          "this integrator is stable for alpha = beta up to alpha h = 1 and alpha = 0.7071 beta "
           "up to alpha h = ");
   refused(baum_gains_taylor(), fixed_step(AB3), BAUM_ERR_UNSTABLE,
           "with ab3 and h = 0.001 s: (alpha h, beta^2 h^2) = (1, 2) has spectral radius ",
-          "is alpha = beta up to alpha h = 0.545455 and ");
+          "for alpha = beta up to alpha h = 0.545455 and ");
   refused(baum_gains_fixed(1.0 / H, 1.0 / H), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
-          "(alpha h, beta^2 h^2) = (1, 1) has spectral radius 1.61803 > 1, violations grow; stable "
-          "with this integrator is 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h",
+          "(alpha h, beta^2 h^2) = (1, 1) has spectral radius 1.61803 > 1, violations grow; this "
+          "integrator is stable for 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h",
           "nearest good pair: (");
   refused(baum_gains_scaled(1.0, 2.0000001), fixed_step(EULER), BAUM_ERR_UNSTABLE,
           "radius 1 + 5e-08 > 1", "nearest");

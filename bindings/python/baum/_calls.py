@@ -36,8 +36,8 @@ STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 def raise_later(error: BaseException | None) -> None:
-    """Keep the exception of a callback until the call of the library that it stopped has
-    returned."""
+    """Keep the exception of a callback. The exception stops the present call of the library, and is
+    raised when this call has returned."""
     _here.error = error
 
 
@@ -211,7 +211,8 @@ class Handle:
         self._what = what
         self._users: dict[str, object] = {}
         self._destroy = weakref.finalize(self, destroy, address)
-        # Not destroyed at exit: a call that still runs in another thread may use the object.
+        # The object is not destroyed when the interpreter exits, because a call that still runs in
+        # another thread may use it.
         self._destroy.atexit = False
 
     def __reduce__(self) -> NoReturn:
@@ -238,10 +239,10 @@ class Handle:
         return self._address is None
 
     def call(self, function: Call, *arguments: Any) -> errors.Status:
-        """Call a function with this object as its first argument. In all else this is like
+        """Call a function with this object as its first argument. Everything else is as in
         make()."""
-        # dict.setdefault() is atomic. Unlike the acquisition of a lock it can be undone safely if
-        # Ctrl-C interrupts it.
+        # dict.setdefault() marks the object as used, and is atomic. If Ctrl-C interrupts this code,
+        # the mark can be removed safely, whereas a lock that was being acquired could not.
         me = object()
         try:
             while self._users.setdefault("now", me) is not me:
@@ -285,8 +286,8 @@ class Handle:
 
     def _in_use(self) -> str:
         instead = (
-            "; its functions can use their arguments t, q and v, and for multipliers "
-            "acceleration(t, q, v) of a baum.Workspace"
+            "; its functions must use their arguments t, q and v instead, and "
+            "acceleration(t, q, v) of a baum.Workspace for multipliers"
         )
         return f"this {self._what} is in use by another call" + instead * (
             self._what == "simulation"

@@ -11,7 +11,8 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-ROUNDING = 1e-6  # allowed deviation of a rotation matrix, for numbers that were typed in
+# Allowed deviation of a matrix from a rotation. Numbers that were typed by hand have such errors.
+ROUNDING = 1e-6
 
 
 def _matrix(value: Any, label: str) -> Array:

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from ._motion import TraceLike
     from .mechanism import Mechanism
 
-SHARE = 0.02  # largest part of its time that a thread spends on making frames
-TIMEOUT = 10.0  # [s] after which a page that does not read is given up
+SHARE = 0.02  # a thread spends at most this fraction of its time on making frames
+TIMEOUT = 10.0  # [s] a connection ends if its page has not read for this time
 SCRIPT = Path(__file__).with_name("live.js")
 
 
@@ -86,8 +86,8 @@ class Server(http.server.ThreadingHTTPServer):
         return f"{before}{policy}; connect-src 'self'{rest}{script}{body}{foot}"
 
     def text(self) -> str:
-        """Return the newest frame as JSON. If no call is advancing the run, this is its present
-        state."""
+        """Return the newest frame as JSON. If no call is advancing the run, the newest frame is the
+        present state of the run."""
         owner = self._owner()
         if owner is not None:
             owner.glance(self.live.show)

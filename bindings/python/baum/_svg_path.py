@@ -146,7 +146,9 @@ class _Pen:
         self, command: str, points: list[complex], control: tuple[str, complex] | None
     ) -> list[complex]:
         kind = "cubic" if command in "CS" else "quadratic"
-        if command in "ST":  # the last control point, mirrored, is the first one
+        # The first control point of S and T is the mirror image of the last control point of the
+        # preceding curve.
+        if command in "ST":
             known = control is not None and control[0] == kind
             points = [2 * self._here - control[1] if known and control else self._here, *points]
         self._control = kind, points[-2]

@@ -135,7 +135,7 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Body:
-        """Add `size` generalized coordinates. Functions of yours give their mass matrix and their
+        """Add `size` generalized coordinates. Your functions compute their mass matrix and their
         forces.
 
         mass(t, q): the mass matrix M (size x size).
@@ -154,8 +154,8 @@ class Adding:
         user: the last argument of compiled functions, an address or an object of ctypes.
 
         If the positions are not a vector, for example if they are a unit quaternion, give these
-        arguments, too. Derivatives with respect to q are then derivatives along displacements
-        (size).
+        arguments, too. Derivatives with respect to q are then derivatives along displacements, so
+        they have `size` columns, not `position_count`.
 
         position_count: number of positions.
         rate(q, v): the time derivative of q, N(q) v.
@@ -163,7 +163,8 @@ class Adding:
             velocity v.
         difference(a, b): the displacement v from a to b, for which move(1, v, a) is b.
         normalize(q): the point of the configuration manifold that is nearest to q.
-        position_scale: the size of a typical change of each position.
+        position_scale: (position_count) the size of a typical change of each position. `scale` then
+            refers to displacements.
         """
         return self._add(Body, "coordinates", locals())
 
@@ -344,8 +345,8 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. The joint has one
         row.
 
-        Choose F such that its gradient is about 1 near the curve. F is then about the distance from
-        the curve. Give either `point`, or both point_a and point_b.
+        Choose F such that the length of its gradient is about 1 near the curve. F is then about the
+        distance from the curve. Give either `point`, or both point_a and point_b.
 
         curve(xy): the numbers F [m], F_x, F_y, F_xx, F_xy, F_yy at the point xy [m]. The
             coordinates xy are in the axes of body_a, with body_a's point as origin.
@@ -367,11 +368,16 @@ class Adding:
         body_b: BodyLike | None = None,
     ) -> Joint:
         """Let a point of body_a move only along a blade that is fixed in body_a, such as a skate or
-        a wheel seen from above. One row of velocity level [m/s]: the velocity across the blade.
+        a wheel seen from above.
 
-        axis: direction of the blade, in ground axes if point is given, otherwise in the axes of
-        body_a. point: of the blade, in ground axes in the design configuration [m]; or point_a: in
-        the axes of body_a [m]. body_b: the surface on which the blade slides, by default ground.
+        The joint has one row of velocity level [m/s], which is the velocity of the point across the
+        blade. Give either `point` or point_a.
+
+        axis: direction of the blade. It is in ground axes if `point` is given, otherwise in the
+            axes of body_a.
+        point: the point of the blade in the design configuration, in ground axes [m].
+        point_a: the point of the blade in the axes of body_a [m].
+        body_b: the surface on which the blade slides, by default ground.
         """
         return self._add(Joint, "planar_knife_edge", locals())
 
@@ -390,8 +396,8 @@ class Adding:
     ) -> Joint:
         """Couple two joints: their coordinates a and b satisfy b = ratio a + offset, or b = f(a).
 
-        The joint has one row. With the two coordinates of one cylindrical joint, the coupling is a
-        screw. With a law, it can be a cam.
+        The joint has one row. A coupling of the two coordinates of one cylindrical joint makes this
+        joint a screw. A coupling with a law can describe a cam.
 
         ratio: in the unit of b per unit of a.
         offset: in the unit of b, [rad] or [m]; by default that of the design configuration.
@@ -416,7 +422,7 @@ class Adding:
         """Prescribe a coordinate of a joint as a function of time.
 
         The driver has one row: the coordinate [rad] or [m] equals value + rate t + acceleration t^2
-            / 2, or law(t).
+        / 2, or law(t).
 
         value: value at t = 0 [rad] or [m].
         rate: first derivative at t = 0 [rad/s] or [m/s].
@@ -574,8 +580,8 @@ class Adding:
     ) -> Force:
         """Add a spring and a damper on a coordinate of a joint, in the plane or in space.
 
-        coordinate: which coordinate of the joint, as in driver(). A run counts the revolutions of
-            angles.
+        coordinate: which coordinate of the joint, as in driver(). During a run, angles are
+            continuous over several revolutions.
         stiffness: [N m/rad] or [N/m].
         damping: [N m s/rad] or [N s/m].
         free_value: value without force [rad] or [m], by default that of the design configuration.
@@ -657,7 +663,7 @@ class Adding:
         handle: Input = self[name]
         return handle
 
-    # ---- how -------------------------------------------------------------------------------------
+    # ---- common code -----------------------------------------------------------------------------
 
     def _add(self, made: type[Added], kind_name: str, given: dict[str, Any]) -> Added:
         """Add an element. given: the arguments of one of the methods above, by name."""

@@ -326,13 +326,19 @@ class AddingInSpace:
         point_a: ArrayLike = (0.0, 0.0, 0.0),
         normal: ArrayLike = (0.0, 1.0, 0.0),
     ) -> Joint:
-        """Let a disc, wheel or sphere of body_b roll without slipping on a plane of body_a. Three
-        rows: the height over the plane [m], and two of velocity level [m/s].
+        """Let a disc, wheel or sphere of body_b roll without slipping on a plane of body_a.
 
-        radius: [m] > 0. rim_radius: of the cross-section of the rim [m]; 0 is a thin disc, radius a
-        sphere. centre, axis_b: of the disc, in the axes of body_b [m], [-]. body_a: by default
-        ground. point_a, normal: of the plane, in the axes of body_a [m], [-]; the normal points to
-        the disc.
+        The joint has three rows: the height of the disc over the plane [m], and the velocities of
+        the contact point in two directions of the plane, which are rows of velocity level [m/s].
+
+        radius: largest radius of the disc [m], positive.
+        body_a: the body of the plane, by default ground.
+        point_a: a point of the plane in the axes of body_a [m].
+        normal: normal of the plane in the axes of body_a. It points to the disc.
+        centre: centre of the disc in the axes of body_b [m].
+        axis_b: axis of the disc in the axes of body_b.
+        rim_radius: radius of the circular cross-section of the rim [m], from 0 to `radius`. With 0
+            the disc is thin, and with `radius` it is a sphere.
         """
         return self._add(Joint, "spatial_rolling_disc", locals())
 

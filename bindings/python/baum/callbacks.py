@@ -5,8 +5,9 @@ A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a poin
 result. This module wraps such a function in another one, called the shell, which has the signature
 that the library calls. The shell passes q and v as read-only arrays, which are valid only during
 the call. It checks the returned value and writes it to the memory of the library. If the function
-raises an exception, the shell keeps the exception until the call of the library that it stopped has
-returned. A force function that names inputs receives their present values after v, as floats.
+raises an exception, the shell keeps the exception and stops the present call of the library. The
+exception is raised when this call has returned. A force function that names inputs receives their
+present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
     function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
@@ -142,8 +143,8 @@ def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
-        # The view ends with the last input that the function needs: a copy of the mechanism may
-        # have more inputs.
+        # The view ends with the last input that the function needs. Its length must not be the
+        # present number of inputs, because a copy of the mechanism may have more inputs.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
         def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
@@ -283,7 +284,8 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_normalize_fn: _shell_normalize,
 }
 
-# ctypes gives functions with the same C types one type; the field tells them apart.
+# ctypes has only one type for all functions with the same signature. For these functions, the name
+# of the field selects the shell.
 SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 

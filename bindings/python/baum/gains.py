@@ -72,17 +72,18 @@ def deadbeat() -> Gains:
 
 
 def best_damping() -> Gains:
-    """Gains of least spectral radius. If a method has dead-beat gains, these are the ones. The rule
+    """Gains of least spectral radius. If a method has dead-beat gains, the rule chooses them. It
     needs a fixed step. It is the default rule of "ab2", "ab3" and "ab4", which keep their order
     with these gains."""
     return Gains("best_damping")
 
 
 def auto() -> Gains:
-    """Gains that suit the speed of the motion: alpha = beta = 0.05 to 0.35 times the mean angular
-    velocity of the first radians of the motion.
+    """Gains that suit the speed of the motion: alpha = beta = c omega.
 
-    The factor depends on the integrator, which keeps its order. If drivers prescribe all degrees of
+    omega is the mean angular velocity of the motion. A short run at the beginning measures it while
+    the mechanism rotates through its first radians. The factor c is 0.05 to 0.35 and depends on the
+    integrator. With these gains the integrator keeps its order. If drivers prescribe all degrees of
     freedom, the gains are larger.
     """
     return Gains("auto")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Integrators by name, and the stability of Baumgarte's gains with them.
 
-The functions stability...() take an integrator or its name. Some integrators have no region of
-stability, such as "cvode_bdf" and "rattle". For these, most of the functions raise baum.Error. They
-raise ValueError for a name that does not exist, and TypeError for values that are not numbers.
+The functions stability...() take an integrator or its name. All of them raise ValueError for a name
+that does not exist, and TypeError for values that are not numbers. Some integrators have no region
+of stability, such as "cvode_bdf" and "rattle". For these, most of the functions raise baum.Error.
 """
 
 from __future__ import annotations
@@ -108,8 +108,8 @@ def stability(
 ) -> Amplification:
     """Compute the amplification of a violation with the gains alpha h [-] and (beta h)^2 [-].
 
-    Without beta2_h2 it is that of rows of velocity level. They have only one mode, so the second
-    root is NaN.
+    Without beta2_h2 the result applies to rows of velocity level, which have no beta. A violation
+    of such a row has only one mode, so the second root is NaN.
     """
     out = _abi.baum_amplification()
     gains = [number(alpha_h, "alpha_h")]
@@ -209,8 +209,8 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """Describe in words what gains do with a method. Methods without a region of stability have
-    such a text, too."""
+    """Describe in words with which gains violations decay. Integrators without a region of
+    stability have such a text, too."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
 

@@ -8,7 +8,7 @@ let following = true, paused = false, touched = false, scale = view.scale, room 
 
 table.forEach((column, c) => { table[c] = Array.from(column); });
 times = table[0];
-play = () => {}; // the run plays
+play = () => {}; // the page plays nothing: it shows the frames of the run as they arrive
 
 const keep = (list, test) => list.filter((_, k) => test(k));
 function thin(test) {
@@ -18,7 +18,7 @@ function thin(test) {
 }
 function append(row) {
   if (row[0] === last) thin(k => k < times.length - 1);
-  else if (row[0] < last) thin(() => false); // another start
+  else if (row[0] < last) thin(() => false); // the time has gone back, so all frames are discarded
   if (times.length >= MOST) thin(k => k % 2 === 0);
   row.forEach((x, c) => table[c].push(x));
   const k = times.length - 1;
@@ -75,7 +75,7 @@ source.onmessage = event => {
   now = Math.max(now, first);
   redraw();
 };
-source.addEventListener('end', () => { // closing stops the browser from asking again
+source.addEventListener('end', () => { // without close(), the browser would connect again
   source.close();
   find('play').disabled = one.disabled = true;
   find('play').textContent = 'Ended';

@@ -2,8 +2,8 @@
 """Pages that follow a run in progress.
 
 A View is a small web server with a thread of its own. It serves only programs on this computer. The
-run leaves its newest frame in a Live object, at most 60 times a second. Each page has a thread of
-the server that sends it the newest frame; if a page is slow, it misses frames. A run therefore
+run leaves its newest frame in a Live object, at most 60 times a second. For each page, the server
+has a thread that sends the newest frame to the page. A slow page misses frames. A run therefore
 never waits for a page, with one exception: while a page pauses the run, the thread that advances
 the run waits.
 """
@@ -90,7 +90,7 @@ class Live:
         return bool(self.function(t))
 
     def is_silent(self, seconds: float) -> bool:
-        """Whether the library does not call call() within this time."""
+        """Whether the library will not call call() within this time [s]."""
         return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:
@@ -175,7 +175,7 @@ class Live:
             self._left_at = time.monotonic()
 
 
-# ---- what the user has ---------------------------------------------------------------------------
+# ---- views ---------------------------------------------------------------------------------------
 
 
 class View:

@@ -109,9 +109,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     The place of a joint is given by `point` in ground axes, in the design configuration, or by
     `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
-    `axis_b`. m["A"] is the handle of the element with the name "A". Functions of yours receive the
-    time t, the positions q and some of them the velocities v of the bodies that belong to their
-    element, and return their result.
+    `axis_b`. m["A"] is the handle of the element with the name "A". Your functions receive the time
+    t and the positions q of the bodies on which their element acts. Some functions also receive the
+    velocities v of these bodies. All of them return their result.
     """
 
     def __init__(
@@ -290,7 +290,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """All inputs, in the order of adding."""
         return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
-    # ---- the whole -------------------------------------------------------------------------------
+    # ---- properties of the whole mechanism -------------------------------------------------------
 
     @property
     def gravity(self) -> tuple[float, float, float]:
@@ -364,8 +364,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         it may also move the body that you changed; to avoid this, give a position and an angle that
         fit, or held=True.
 
-        If you also change the `point`, `point_a` or `point_b` of a joint or a force, it is placed
-        in the new design configuration. Angles of spatial joints are 0 in the new design
+        If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
+        is placed in the new design configuration. Angles of spatial joints are 0 in the new design
         configuration. Therefore some changes raise ValueError: those that alter the angle of a
         spatial joint that a driver, a coupling or a spring uses, and those that alter the relative
         orientation of a spatial weld or prismatic joint.
@@ -466,8 +466,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         return values
 
     def check_derivatives(self) -> None:
-        """Compare the derivatives that your functions return with differences. Raises baum.Error if
-        a derivative is wrong; the message names the wrong entry."""
+        """Check the derivatives that your functions return, by finite differences. Raises
+        baum.Error if a derivative is wrong; the message names the wrong entry."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:

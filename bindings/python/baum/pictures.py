@@ -74,7 +74,7 @@ def save(svg: str, path: str | os.PathLike[str], suffix: str, dpi: float) -> Non
     size = width / INCH, height / INCH
     figure = Figure(figsize=size, facecolor="white", frameon=suffix == ".png")
     draw(svg, figure)
-    with matplotlib.rc_context({"pdf.fonttype": 42}):  # texts stay texts
+    with matplotlib.rc_context({"pdf.fonttype": 42}):  # embed fonts: texts stay selectable
         figure.savefig(path, format=suffix[1:], dpi=dpi)
 
 

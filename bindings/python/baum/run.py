@@ -42,12 +42,12 @@ class _ByName:
 
 
 class Counters(_ByName, _records.Counters):
-    __doc__ = f"{_records.Counters.__doc__}"  # help() does not show that of a base class
+    __doc__ = f"{_records.Counters.__doc__}"  # help() shows no docstring of a base class
     __slots__ = ()
 
 
 class NearSingular(_ByName, _records.NearSingular):
-    __doc__ = f"{_records.NearSingular.__doc__}"  # help() does not show that of a base class
+    __doc__ = f"{_records.NearSingular.__doc__}"  # help() shows no docstring of a base class
     __slots__ = ()
 
 
@@ -233,7 +233,7 @@ class Run:
     @property
     def columns(self) -> dict[str, str]:
         """The unit of each column of to_dict(), by the name of the column. It is "-" for pure
-        numbers, and "" if the unit depends on functions of yours."""
+        numbers, and "" if the unit depends on your functions."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))
@@ -432,7 +432,7 @@ def _axes(count: int, given: Any) -> list[Axes]:
     if given is not None:
         found = list(np.ravel(given))
         if len(found) != count:
-            raise ValueError(f"axes: one for each unit is wanted, {count}, not {len(found)}")
+            raise ValueError(f"axes: {count} are wanted, one for each unit, not {len(found)}")
         return found
     try:
         import matplotlib.pyplot as plt

@@ -52,7 +52,8 @@ def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functio
 
 
 class _Hooks:
-    """The hooks of a mechanism, and the objects whose names they state."""
+    """The hooks of a mechanism, and the Python objects that belong to them. A hook states the name
+    that the library writes for the address of a function or of a `user` object."""
 
     def __init__(self, mechanism: Mechanism, given: Functions) -> None:
         self.objects: dict[str, Any] = {}

@@ -209,7 +209,8 @@ class Simulation(_calls.Closing):
     rtol: tolerance of the local error [-], between 0 and 1, relative to the scales of q and v.
     atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale; by
         default none.
-    max_step: longest variable step [s], by default none. Set it if forces begin late.
+    max_step: longest variable step [s], by default none. Set it if a force is zero at first and
+        begins to act later, because long steps could miss its beginning.
     formulation: "default" is the first formulation that the integrator offers. Others are
         "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
@@ -219,18 +220,21 @@ class Simulation(_calls.Closing):
         one number for each row of the joint.
     allow_unstable: True accepts gains that are known to be unstable.
     tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
-        and multipliers [-], positive. tolerance_lambda may be finite only for "ida" with
-        "baumgarte" or "unstabilized".
+        and multipliers [-], positive. By default tolerance_lambda is infinite, so the error of
+        multipliers is not tested. It may be finite only for "ida" with "baumgarte" or
+        "unstabilized".
     start_time: [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts it and does not assemble.
-    solver: "auto", "klu", "qr" or "block".
+    solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
     check_derivatives: True first compares the derivatives of your functions with differences.
     max_steps: number of steps after which a call fails.
-    energy_account: True records the works for `energy_account` and its channel.
+    energy_account: True computes the work of all forces during the run, which the property and the
+        channel `energy_account` report.
     error_check: True estimates the error of the motion by a second integration
         (counters.error_estimate), and warns if the error is large. Without this option, a run with
-        fixed steps does so only if the sum of its local errors becomes large enough to matter.
+        fixed steps makes this second integration only if the sum of its local errors becomes large
+        enough to matter.
     progress: True shows a bar in a terminal or a notebook, except for step(), which does not know
         its end. A function progress(t) is called every progress_interval seconds of wall time. It
         cancels the run if it returns a true value.
@@ -315,7 +319,7 @@ class Simulation(_calls.Closing):
     def advance_to(self, t: Scalar, progress: Progress = None) -> Status:
         """Advance to the time t [s], forward or backward.
 
-        progress: as the option, for this call only.
+        progress: like the option `progress`, but for this call only.
 
         Returns the Status: OK, WARNED, STOP_EVENT or STOP_CANCELLED. Raises baum.Error if the run
             fails. The run then stays at the end of its last successful step.
@@ -563,8 +567,8 @@ class Simulation(_calls.Closing):
         end: float | None = None,
     ) -> Status:
         """Call a function that advances the run. `end` is the time at which it will end, if that is
-        known. arguments() returns the arguments for everything that has not been done yet. at_once
-        tells that the call is short."""
+        known. arguments() returns the arguments for the work that has not been done yet. at_once is
+        True if the call is known to be short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
@@ -593,8 +597,12 @@ class Simulation(_calls.Closing):
         self, function: Any, arguments: Callable[[], tuple[Any, ...]], short: bool, divisible: bool
     ) -> Status:
         """Make a call that advances the run: in this thread if it is short, otherwise in a second
-        thread. A divisible call is begun in this thread, where it has the time AT_ONCE, which is
-        too short for Python callbacks."""
+        thread.
+
+        A divisible call can be stopped and continued. If it runs no Python callbacks, it begins in
+        this thread with a time limit of AT_ONCE. If it does not end within this limit, the second
+        thread continues it.
+        """
         if short:
             return self._owner.call(function, *arguments())
         if divisible and self._live.is_silent(AT_ONCE) and not self._has_python:

@@ -344,8 +344,8 @@ class Study(_calls.Closing):
         return self
 
     def add_stress(self, integrator: str | Integrator | None = None) -> Study:
-        """Add stress settings, which have extreme steps, tolerances and gains. They are those of
-        all integrators, or of one. Returns the study."""
+        """Add stress settings, which have extreme steps, tolerances and gains, for one integrator
+        or, by default, for all. Returns the study."""
         place = None if integrator is None else lookup(integrator).address
         self._long(lib.baum_study_add_stress, place)
         return self
@@ -413,7 +413,8 @@ class Study(_calls.Closing):
 
     @property
     def methods(self) -> list[StudyMethod]:
-        """All methods. Among other figures they state by which factor one more digit of accuracy
+        """All methods. A method is a group of entries with the same integrator, formulation and
+        gains. Among other figures, it states the factor by which one more digit of accuracy
         increases the cost."""
         count = lib.baum_study_method_count(self._owner.address)
         return [

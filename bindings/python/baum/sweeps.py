@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from .mechanism import Mechanism
 
-CHUNKS = 64  # a sweep is divided into at most so many parts per worker
+CHUNKS = 64  # a sweep is divided into at most this many parts per worker
 Reduce = Callable[[Run], Any]
 
 
@@ -121,7 +121,7 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
     """Draw rows from a sampler, such as scipy.stats.qmc.Sobol, between the bounds of each
     parameter."""
     if count is None:
-        raise ValueError("count is missing: how many samples are drawn")
+        raise ValueError("count is missing, the number of samples to draw")
     for name, values in columns.items():
         if values.shape != (2,):
             raise ValueError(f"{name}: lower and upper bound are wanted, not {values.tolist()}")
@@ -271,7 +271,9 @@ def sweep(
     frozen = mechanism if mechanism.frozen else mechanism.copy().freeze()
     listed = tuple(record) if isinstance(record, (list, tuple)) else (record,)
     task = _Task(frozen, tuple(columns), first, method, listed, reduce, options)
-    with contextlib.suppress(Error):  # wrong values are results of their runs, wrong names are not
+    # Wrong names raise their exceptions here. Values that the library refuses are ignored here,
+    # because they only make their own run fail.
+    with contextlib.suppress(Error):
         frozen.copy(**_changes(task.names, rows[0] if rows else ()))
     kept = _File(file, task, rows) if file is not None else None
     results: list[_Result | None] = kept.read() if kept else [None] * len(rows)

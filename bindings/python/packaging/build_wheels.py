@@ -6,8 +6,8 @@ that contain the parts of SuiteSparse and SUNDIALS they need, from Debian's sour
 usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS, and sdist)
 
 Writes into build/wheels/out. Needs cmake and ninja, and apt or the two archives of SOURCES in
-build/wheels/sources. For wasm32-wasi it makes an archive of static libraries and headers instead,
-for sdist the source archive of the Python package.
+build/wheels/sources. For the target wasm32-wasi, the program makes an archive of static libraries
+and headers instead. For sdist, it makes the source archive of the Python package.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ TOOLS = ["ziglang==0.17.1", "scikit-build-core==1.1.2", "wheel==0.48.0"]
 
 
 class Source(NamedTuple):
-    """A file in the pool of Debian's archive, and the folders of it that are needed."""
+    """An archive in the pool of Debian, and the folders in this archive that are needed."""
 
     path: str
     sha256: str
@@ -50,7 +50,7 @@ SOURCES = [
 
 
 class Target(NamedTuple):
-    """Names of a system: of zig, of CMake (system and processor), of Python packages."""
+    """The names that zig, CMake (system and processor) and Python packages use for a system."""
 
     zig: str
     system: str
@@ -73,12 +73,12 @@ TARGETS = {
     "macos-arm64": Target("aarch64-macos.11.0", "Darwin", "arm64", "macosx_11_0_arm64"),
     "macos-x86_64": Target("x86_64-macos.11.0", "Darwin", "x86_64", "macosx_11_0_x86_64"),
     "windows-x86_64": Target("x86_64-windows-gnu", "Windows", "AMD64", "win_amd64"),
-    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # for CMake: a system with pthreads
+    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # CMake must assume pthreads
 }
 
 
 def run(*command: object) -> str:
-    """The output of a command. If it fails, show all it said and end."""
+    """Return the output of a command. If the command fails, show its output and exit."""
     words = [str(word) for word in command]
     done = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
@@ -87,7 +87,7 @@ def run(*command: object) -> str:
 
 
 def make_tools() -> Path:
-    """The Python of an environment with TOOLS."""
+    """Return the Python interpreter of a virtual environment in which TOOLS are installed."""
     python = WORK / "venv" / "bin" / "python"
     note = WORK / "venv" / "installed"
     if not note.exists() or note.read_text() != " ".join(TOOLS):
@@ -98,7 +98,7 @@ def make_tools() -> Path:
 
 
 def fetch(source: Source) -> Path:
-    """The archive of a source, from Debian's mirror that apt uses here."""
+    """Return the archive of a source. If it is missing, get it from the mirror that apt uses."""
     file = WORK / "sources" / Path(source.path).name
     if not file.exists():
         targets = run("apt-get", "indextargets", "--format", "$(REPO_URI)", "Label: Debian")
@@ -134,7 +134,7 @@ def unpack() -> Path:
 
 
 def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> dict[str, object]:
-    """Variables of CMake for a target, whose tools become commands in a folder."""
+    """Return CMake variables for a target. The tools of the target become commands in `folder`."""
     zig = Path(run(python, "-c", "import ziglang; print(ziglang.__path__[0])").strip()) / "zig"
     folder.mkdir(parents=True, exist_ok=True)
     for name, words in {"cc": f"cc -target {target.zig}", "ar": "ar", "ranlib": "ranlib"}.items():
@@ -156,7 +156,7 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_INSTALL_NAME_DIR": "@loader_path",
         "CMAKE_C_FLAGS": "-g0 -DBAUM_I_CPUID",  # see src/base/hot.c
         "CMAKE_SHARED_LINKER_FLAGS": "-s",
-        "CMAKE_C_STANDARD_LIBRARIES": "",  # of Windows; none is used
+        "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
     }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares derivatives that user functions return with finite differences of user functions.
+/* Checks the derivatives that user functions return, by finite differences of user functions.
  *
  * The check compares the value g that a user function returned with differences d for a sequence
  * of decreasing steps. The value g is accepted if
@@ -91,8 +91,8 @@ static trial take_trial(baum_i_local *here, int size)
   return t;
 }
 
-/* Store a new difference if it is the best one so far. The first step has no previous value, so its
- * error is NaN, and it never becomes the best. */
+/* Store a new difference if it is the best one so far. For the first step there is no previous
+ * value. The error is then NaN, and the difference is not stored. */
 static void keep_best(const trial *t, int i, double value, double error, double step)
 {
   double varied = t->now.variation[i] + t->now.noise[i];
@@ -198,8 +198,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a field. Its entries are stored at the indices of their derivatives, so that messages
- * name the right entry of the derivative. */
+/* Context of a field with rearranged entries. Each entry is stored at the index of its derivative,
+ * so that messages name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares derivatives that user functions return with finite differences. The file check.c
+/* Checks the derivatives that user functions return, by finite differences. The file check.c
  * describes when a derivative is accepted. */
 #ifndef BAUM_I_MECHANISM_GENERAL_CHECK_H
 #define BAUM_I_MECHANISM_GENERAL_CHECK_H

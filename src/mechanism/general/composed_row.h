@@ -19,7 +19,7 @@ enum {
 /* One of the two coordinates c_0 and c_1. */
 typedef struct baum_i_inner {
   baum_i_coordinate c;
-  baum_i_coordinate_blocks blocks; /* derivatives for lambda = 1; set only for second derivatives */
+  baum_i_coordinate_blocks blocks; /* for lambda = 1; set only if second derivatives are needed */
   int columns;                     /* number of columns of the coordinate's two bodies */
   /* For each of these columns, its index among the columns of the row. */
   int at[BAUM_I_PAIR_COLUMNS];
@@ -38,7 +38,7 @@ typedef struct baum_i_outer {
  * number place[0] and place[1] of the row. */
 void baum_i_composed_place(baum_i_inner *inner, int width, int row_width, const int place[2]);
 
-/* Copy the columns that belong to a coordinate from the columns of the row. */
+/* From the columns of the row, copy those that belong to a coordinate. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double *own);
 
 /* Add J of the row to `gradient`, which has the columns of the row. */

@@ -3,8 +3,8 @@
  * mass matrix M(q, t) and their force g(q, v, t). Either v = q', or q' = N(q) v, where the user
  * functions of coordinates_manifold.c define N.
  *
- * All derivatives of M a are finite differences (difference.c). So are those derivatives of g for
- * which there is no user function.
+ * All derivatives of M a are finite differences (difference.c). Derivatives of g are finite
+ * differences, too, unless a user function computes them.
  */
 #include <math.h>
 #include <string.h>
@@ -293,8 +293,8 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   return BAUM_OK;
 }
 
-/* Check whether the mass matrix is as constant as constant_mass claims, by comparing M with its
- * value in the design configuration at t = 0. */
+/* Check that the mass matrix is constant, as constant_mass states. For this purpose, M is compared
+ * with its value in the design configuration at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {

@@ -205,7 +205,8 @@ static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
   const double *scale = at->point->mechanism->position_scale + body->q;
   memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
   double way = 0.0;
-  /* Way is not finite if a user function returned such values. */
+  /* `way` is not finite if a user function returns numbers that are not finite. The loop then
+   * ends. */
   for (int k = 0; k < MOVES && isfinite(way); k++) {
     way = 0.0;
     memcpy(moved, normal, (size_t)body->nq * sizeof *moved);

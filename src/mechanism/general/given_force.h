@@ -41,7 +41,7 @@ baum_status baum_i_given_force_potential(const baum_i_given_force *given, const 
 baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
                                      double *sum);
 
-/* Compare the derivatives that user functions return with finite differences. */
+/* Check the derivatives that user functions return, by finite differences. */
 baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);
 
 #endif

@@ -177,7 +177,8 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spline_driver, "spline driver", fields), .check = check,
                  .own = own, .release = release,
-                 /* The numbers are zero, so the driver uses motion(). */
+                 /* These parameters are all zero. BAUM_I_DRIVER_POLYNOMIAL is therefore 0, and
+                  * the driver uses motion(). */
                  .parameter_count = BAUM_I_DRIVER_NUMBERS},
   BAUM_I_DRIVER_MEMBERS(driven, motion),
 };

@@ -104,7 +104,7 @@ baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *poi
  * the whole tension. */
 baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
                                 double sum[BAUM_I_POWERS]);
-/* Compares the derivatives that a user's law returns with finite differences. */
+/* Checks the derivatives that a user's law returns, by finite differences. */
 baum_status baum_i_spring_check(const void *force, baum_i_point *point);
 
 #endif

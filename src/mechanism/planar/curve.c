@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Point on a curve, planar. The user's function F(x, y) is zero on a curve that is fixed in body_a,
- * and the point of body_b stays on this curve. (This is like the point-follower and the cam of
- * Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, but the curve has an implicit equation, not
- * a parameter with an equation of its own.) If d is the vector from the marker on body_a to the
- * marker on body_b:
+ * and the point of body_b stays on this curve. The point-follower and the cam of Nikravesh 1988,
+ * chapter 4, and Haug 1989, chapter 3, are similar. They describe the curve by a parameter, which
+ * needs an additional equation. Here the equation of the curve is implicit. Let d be the vector
+ * from the marker on body_a to the marker on body_b:
  *
  *   (x, y) = A_a^T d, the distances of axis_row.h along (1, 0) and (0, 1)
  *   Phi    = F(x, y)                     (1 row)

@@ -22,7 +22,8 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Parameters of the joint, which follow two points of which only the first is used: t. */
+/* The parameters of the joint that follow the two points: the vector t in the axes of body_a. Of
+ * the two points, only the first one is used. */
 enum { OWN_COUNT = 2 };
 
 /* ---- definition ---- */

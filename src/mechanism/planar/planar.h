@@ -94,8 +94,8 @@ baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, cons
  * would be zero. */
 baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
-/* Check, in addition, that both bodies have an angle (turning), or that body_a has an angle
- * (axis). */
+/* These two functions make the same checks as baum_i_planar_check_with_point(). In addition, the
+ * first one checks that both bodies have an angle, and the second one that body_a has an angle. */
 baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
                                         const char *label);
 baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,

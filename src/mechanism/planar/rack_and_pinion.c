@@ -8,9 +8,10 @@
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6 columns)
  *   gamma and all second derivatives are those of s, because the row is linear in the angles
  *
- * At the contact the pinion is at rest relative to the rack. Relative to the rack, its centre has
- * the velocity R w u. Its point at R n from the centre, with n = k x u, has the velocity R w u + w
- * k x R n = 0, so this is the point of contact.
+ * At the contact, the pinion is at rest relative to the rack. Let w be the angular velocity of the
+ * pinion relative to the rack, and n = k x u. Relative to the rack, the centre of the pinion has
+ * the velocity R w u. The point of the pinion at R n from its centre has the velocity
+ * R w u + w k x R n = 0. This point is therefore the point of contact.
  */
 #include <math.h>
 

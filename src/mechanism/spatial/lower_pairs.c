@@ -159,8 +159,8 @@ static baum_status fail_opposite(const baum_i_joint *joint)
                      baum_i_label(&joint->element).text);
 }
 
-/* Finds x_b by the smallest rotation that takes z_a to z_b, applied to x_a. The angle of the joint
- * is therefore 0 in the design configuration. */
+/* Finds x_b. It is x_a after the smallest rotation that takes z_a to z_b. The angle of the joint is
+ * therefore 0 in the design configuration. */
 static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {
@@ -247,7 +247,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   }
   if (!(given ? put_axes(&a, z, x, axes)
               : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is along axis, must not be",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is parallel to axis, must not be",
                        baum_i_label(&joint->element).text);
   }
   return lower_axes_b(mechanism, joint, parameters);

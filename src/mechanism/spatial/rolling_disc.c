@@ -1,35 +1,36 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. With the unit
- * normal k of the plane, the unit axis n of the disc, c = k . n, s = sqrt(1 - c^2), the radius R
- * and the radius t of the rim's cross-section (0: a sharp edge, R: a sphere), the contact point is
- * at
+/* A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. Let k be the unit
+ * normal of the plane, n the unit axis of the disc, c = k . n, and s = sqrt(1 - c^2). Let R be the
+ * radius of the disc, and t the radius of the rim's cross-section (0: a sharp edge, R: a sphere).
+ * The contact point is at
  *
  *   rho = -(R - t) u - t k,   u = (k - c n) / s                            from the centre,
  *
- * because u is the direction in the plane of the disc that is nearest to k. Let p be the arm of the
- * centre on body_b, d its place from the origin of body_a, and let x be a motion with the
- * velocities V of both origins and the angular velocities W. The material points in contact have
- * the relative velocity
+ * because u is the direction in the plane of the disc that is nearest to k. The vector p points
+ * from the origin of body_b to the centre, and d points from the origin of body_a to the centre. A
+ * motion z consists of the velocities V of both origins and of the angular velocities W of both
+ * bodies. In the motion z, the material points in contact have the relative velocity
  *
- *   U(x) = V_b + W_b x (p + rho) - V_a - W_a x (d + rho)
+ *   U(z) = V_b + W_b x (p + rho) - V_a - W_a x (d + rho)
  *
- * The rows are k . (d + rho) - k . s_a, a row of positions whose J is k . U, and e . U = 0 for two
- * directions e in the plane, rows of velocity level.
+ * The first row is a row of positions, k . (d + rho) - k . s_a = 0. Its J is k . U. The other two
+ * rows are of velocity level. They are e . U = 0 for two directions e in the plane.
  *
- * Let D_y be the derivative along a motion y. In it, V is constant in ground axes and W in body
- * axes:
+ * Let D_y be the derivative along a motion y. For this derivative, the V of a motion z are constant
+ * in ground axes, and its W are constant in body axes:
  *
- *   D_y W = W_y x W for each body,  D_y k = W_ya x k, likewise e,  D_y p = W_yb x p
+ *   D_y W = W_y x W for each body,  D_y k = W_ya x k,  D_y e = W_ya x e,  D_y p = W_yb x p
  *   D_y d = V_yb + W_yb x p - V_ya,  D_y rho = W_ya x rho + G(r),  r = (W_yb - W_ya) x n
  *
- * where G(r) is the derivative of rho along a change r of n at constant k; the other term follows
- * from the isotropy of rho(k, n). Then
+ * where G(r) is the derivative of rho along a change r of n at constant k. The term W_ya x rho is
+ * there because rho rotates with k and n if both rotate together. Then
  *
  *   (J w)_q . y = D_y (e . U(w)),   gamma = -D_v (e . U(v))
  *   gamma_v . y = -D_y (e . U(v)) - D_v (e . U(y)),   gamma_q . y = -D_y D_v (e . U(v))
  *
- * In the last one D_y G(r) = W_ya x G(r) + G(D_y r - W_ya x r) + H(r_y, r) with the second
- * derivative H.
+ * gamma_q contains D_y G(r) = W_ya x G(r) + G(D_y r - W_ya x r) + H(r_y, r). Here H(r_y, r) is the
+ * second derivative of rho along the changes r_y and r of n, and r_y is the change that the motion
+ * y causes.
  */
 #include <math.h>
 #include <string.h>
@@ -134,7 +135,7 @@ static void subtract(const double x[3], const double y[3], double out[3])
 
 /* ---- the contact ---- */
 
-/* Velocities in ground axes: of both origins, and angular velocities. */
+/* The velocities of both origins and the angular velocities of both bodies, in ground axes. */
 typedef struct motion {
   double v_a[3], w_a[3], v_b[3], w_b[3];
 } motion;
@@ -149,7 +150,8 @@ typedef struct contact {
   double p[3], d[3], rho[3];
 } contact;
 
-/* Vectors at a contact that vary with the configuration; also their derivatives along a motion. */
+/* The vectors of a contact that vary with the configuration, or the derivatives of these vectors
+ * along a motion. */
 typedef struct variation {
   double p[3], d[3], rho[3];
 } variation;
@@ -186,7 +188,8 @@ static motion motion_at(const contact *x)
   return out;
 }
 
-/* Returns the motion with these twelve velocities; angular velocities are in body axes. */
+/* Returns the motion with these twelve velocities. The angular velocities among them are in body
+ * axes. */
 static motion motion_of(const contact *x, const double twelve[COLUMNS])
 {
   motion out;
@@ -204,7 +207,7 @@ static motion unit_motion(const contact *x, int column)
   return motion_of(x, twelve);
 }
 
-/* Adds G(r). */
+/* Adds G(r), see above. */
 static void add_first(const contact *x, const double r[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);
@@ -216,7 +219,7 @@ static void add_first(const contact *x, const double r[3], double out[3])
   }
 }
 
-/* Adds H(r, y). */
+/* Adds H(r, y), see above. */
 static void add_second(const contact *x, const double r[3], const double y[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);
@@ -233,7 +236,7 @@ static void add_second(const contact *x, const double r[3], const double y[3], d
   }
 }
 
-/* Returns the change r of n relative to body_a. */
+/* Computes the change r of n relative to body_a that the motion y causes. */
 static void relative_change(const contact *x, const motion *y, double r[3])
 {
   double relative[3];
@@ -254,8 +257,8 @@ static variation derivative_along(const contact *x, const motion *y)
   return out;
 }
 
-/* Returns D_y of the variation along a motion z, whose angular velocities are constant in body
- * axes. */
+/* Returns D_y of the derivatives along a motion z, that is D_y D_z of p, d and rho. The argument dz
+ * is motion_along(z, y). */
 static variation second_along(const contact *x, const motion *z, const motion *dz, const motion *y)
 {
   const variation by_y = derivative_along(x, y);
@@ -280,7 +283,7 @@ static variation second_along(const contact *x, const motion *z, const motion *d
   return out;
 }
 
-/* Returns D_y of the angular velocities of z; its velocities do not change. */
+/* Returns D_y of the motion z. Its velocities are 0, because the V of z are constant. */
 static motion motion_along(const motion *z, const motion *y)
 {
   motion out = {.v_a = {0.0}};
@@ -289,7 +292,7 @@ static motion motion_along(const motion *z, const motion *y)
   return out;
 }
 
-/* Adds W_b x (p + rho) - W_a x (d + rho) of some vectors. */
+/* Adds W_b x (p + rho) - W_a x (d + rho) for the W of the motion z and the vectors in `at`. */
 static void add_turning(const motion *z, const variation *at, double out[3])
 {
   add_cross(1.0, z->w_b, at->p, out);
@@ -307,7 +310,7 @@ static variation present(const contact *x)
   return out;
 }
 
-/* U(z) */
+/* Computes U(z). */
 static void slip_of(const contact *x, const motion *z, double out[3])
 {
   const variation at = present(x);
@@ -315,7 +318,7 @@ static void slip_of(const contact *x, const motion *z, double out[3])
   add_turning(z, &at, out);
 }
 
-/* D_y U(z) */
+/* Computes D_y U(z). */
 static void slip_along(const contact *x, const motion *z, const motion *y, double out[3])
 {
   const variation at = present(x);
@@ -326,7 +329,7 @@ static void slip_along(const contact *x, const motion *z, const motion *y, doubl
   add_turning(z, &by_y, out);
 }
 
-/* D_y (e . U(z)) of every row. */
+/* Computes D_y (e . U(z)) for every row, where e is k in the first row. */
 static void rows_along(const contact *x, const motion *z, const motion *y, double out[ROWS])
 {
   double slip[3], change[3];
@@ -339,7 +342,7 @@ static void rows_along(const contact *x, const motion *z, const motion *y, doubl
   }
 }
 
-/* D_y D_v (e . U(v)) of every row. */
+/* Computes D_y D_v (e . U(v)) for every row, where e is k in the first row. */
 static void bend_along(const contact *x, const motion *v, const motion *y, double out[ROWS])
 {
   const motion dv = motion_along(v, y);
@@ -362,7 +365,8 @@ static void bend_along(const contact *x, const motion *v, const motion *y, doubl
   }
 }
 
-/* The row of J with the direction e: the generalized force of a contact force e on body_b. */
+/* Computes the row of J with the direction e. It equals the generalized force of a contact force e
+ * on body_b and of its opposite on body_a. */
 static void row_of(const contact *x, const double e[3], double twelve[COLUMNS])
 {
   double arm_a[3], arm_b[3], moment[3];
@@ -407,7 +411,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
   return BAUM_OK;
 }
 
-/* Adds column j of (J^T lambda)_q, with l = sum of lambda e. */
+/* Adds column j of (J^T lambda)_q. l is the sum of lambda e over the rows. */
 static void add_force_column(const contact *x, const double l[3], int j, double *square)
 {
   const motion y = unit_motion(x, j);
@@ -475,7 +479,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   return BAUM_OK;
 }
 
-/* The contact point. */
+/* Sets `at` to the contact point in ground axes. */
 static void place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
 {
   const contact x = contact_at(joint, point);

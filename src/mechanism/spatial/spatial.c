@@ -73,7 +73,8 @@ static baum_status check_one_way(const baum_i_spatial_head *head, const char *la
   bool point = baum_i_spatial_is_given(head->point);
   if (point && has_length) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: point is given and leaves no length; give point_a and point_b instead",
+                       "%s: point is given, but the length would be zero; give point_a and "
+                       "point_b instead",
                        label);
   }
   return baum_i_check_points_given(label, point, baum_i_spatial_is_given(head->point_a),

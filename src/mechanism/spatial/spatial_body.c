@@ -68,8 +68,8 @@ static baum_status check_inertia(const baum_spatial_body_def *def, const char *l
   }
   if (!(m[2] - m[1] <= m[0] + ROUNDING * m[2])) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: inertia has the principal moments %g, %g and %g kg m^2; of a body none "
-                       "is above the sum of the other two",
+                       "%s: inertia has the principal moments %g, %g and %g kg m^2; none may be "
+                       "larger than the sum of the other two",
                        label, m[0], m[1], m[2]);
   }
   return BAUM_OK;
@@ -82,8 +82,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   double length = baum_i_quaternion_length(def->orientation);
   if (!(fabs(length - 1.0) <= NEAR_UNIT)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: orientation has the length %.9g, must be 1 to 1e-6: a unit quaternion "
-                       "w, x, y, z",
+                       "%s: orientation has the length %.9g, must be 1 within 1e-6: a unit "
+                       "quaternion w, x, y, z",
                        label, length);
   }
   return check_inertia(def, label);

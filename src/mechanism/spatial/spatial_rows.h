@@ -104,7 +104,7 @@ void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point
                                    double factor, const double *w, const double *lambda,
                                    const baum_i_joint_blocks *blocks);
 
-/* Subtract lambda times those entries of the gradient from `six` that belong to body_b. */
+/* From `six`, subtract lambda times those entries of the gradient that belong to body_b. */
 void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
                                    double six[BAUM_I_SPACE]);
 
