@@ -83,7 +83,8 @@ baum_status baum_study_add_stress(baum_study *study, const baum_integrator *inte
   double rate = 0.0;
   BAUM_I_TRY(baum_i_study_rate(study, &rate));
   ladders l = {.study = study, .period = 2.0 * PI / rate};
-  const baum_i_text missing = baum_i_text_of("%s: this build has no %s with a step or a tolerance",
-                                             call, baum_integrator_name(integrator));
+  const char *wanted = integrator ? baum_integrator_name(integrator) : "integrator";
+  const baum_i_text missing =
+    baum_i_text_of("%s: this build has no %s with a step or a tolerance", call, wanted);
   return baum_i_study_add_each(study, integrator, add_integrator, &l, missing.text);
 }
