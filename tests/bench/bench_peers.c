@@ -4,8 +4,8 @@
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all entries by default
  *
  * A study runs rk8, dp5 and rk4 with every formulation, and with many steps and tolerances. For
- * each error, the table shows the entry with the smallest CPU time. It is measured from the
- * creation of a run to its end.
+ * each error, the table shows the entry with the smallest CPU time. The CPU time is measured from
+ * the creation of a run to its end.
  *
  * Planar problems: the errors include all positions, at 50 samples. bench_work_precision compares
  * only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
@@ -15,9 +15,9 @@
  * with compiled right-hand sides, and a hand-written RK4.
  *
  * Spatial problems: the errors include all positions at the end, compared with the references of
- * the catalogue. A level counts as reached within 10 %, for all programs. The other programs are
- * Pinocchio with RK4 and Baumgarte stabilization, MuJoCo with RK4, and Exudyn with
- * generalized-alpha.
+ * the catalogue. An error is accepted if it exceeds its nominal value by at most 10 %. This is the
+ * same for all programs. The other programs are Pinocchio with RK4 and Baumgarte stabilization,
+ * MuJoCo with RK4, and Exudyn with generalized-alpha.
  *
  * The times of other programs were measured for this table on similar machines. They are the times
  * of whole runs, and the table shows the cheapest of them. There is no command that repeats these
@@ -51,7 +51,7 @@ typedef struct peer {
 
 static const peer PEERS[] = {
   {"slider_crank",
-   "free slider-crank, 2 s; theirs of other lengths, masses and speed",
+   "free slider-crank, 2 s (other programs: other lengths, masses and speed)",
    {"speed", 10.0},
    2.0,
    PLANAR,

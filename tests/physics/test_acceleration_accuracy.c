@@ -13,8 +13,8 @@
 
 static const double PI = 3.14159265358979324;
 
-/* This is about ten times the rounding error after refinement. Condition numbers of a few hundred
- * amplify rounding errors. */
+/* The limit for ordinary configurations. It is about ten times the error that remains after
+ * refinement. Condition numbers of a few hundred amplify rounding errors. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
@@ -199,7 +199,7 @@ static void ordinary_configurations_keep_twelve_digits(void **state)
   enum { POSES = 5 };
   table t = {0};
   uint64_t seed = 1;
-  print_head("random poses, the worst of 5");
+  print_head("random configurations, the worst of 5");
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     errors worst = {0};
     for (int i = 0; i < POSES; i++) {

@@ -32,7 +32,7 @@ static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s], or NaN; the sample times of tests/data are multiples of the step */
+  double step; /* [s], or NaN for variable steps; sample times of tests/data are multiples of it */
   double rtol;
   baum_formulation formulation;
 } method;

@@ -82,8 +82,9 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* This is ten times rtol per radian, at about 2.8 rad/s. The error grows with time, because the
-     * computed period is slightly wrong. */
+    /* The limit is 10 rtol seconds for each second of the motion. At about 2.8 rad/s, this is an
+     * error of the angle of 28 rtol. The error grows with time, because the computed period is
+     * slightly wrong. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
   /* The allowed errors are twice those that were measured over 12 s at h = 1e-3 s. These were

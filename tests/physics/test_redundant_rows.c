@@ -13,8 +13,9 @@
 
 enum { POSES = 8 };
 
-/* The limit of the difference between two results. Both have the accuracy of ordinary
- * configurations. In these configurations, redundant rows are satisfied only up to rounding. */
+/* The largest allowed difference between the results with and without redundant rows. Both results
+ * have the accuracy of ordinary configurations. The redundant rows are satisfied only up to
+ * rounding, which adds to the difference. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs of mechanisms ---- */

@@ -58,8 +58,8 @@ static baum_mechanism *pendulum_with_pins(int pins)
   return m;
 }
 
-/* Makes parallel cranks of length 1 m. Their feet are at x = 0, 1, 2, ..., they have the same
- * angle, and one coupler joins them. */
+/* Makes parallel cranks of length 1 m. Their pins to ground are at x = 0, 1, 2, ... All cranks have
+ * the same angle, and one coupler joins them. */
 static baum_mechanism *parallelogram(int cranks, double angle)
 {
   static const char *const names[3] = {"first", "second", "third"};
@@ -107,7 +107,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* by the least norm, each pin has half of the force */
+  for (int i = 0; i < 2; i++) { /* if the norm is least, each pin carries half of the force */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
