@@ -4,7 +4,7 @@
  * heavy top and a four-bar (RSSR). None of them dissipates energy, so their energy should stay
  * constant.
  *
- *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
+ *   bench_long [STEPS [INTEGRATOR]]      default: 10000000 steps, all integrators
  *
  * The program prints a line for every decade of steps. The line contains the smallest and the
  * largest change of energy since the start that occurs in this decade, relative to the largest

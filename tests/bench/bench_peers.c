@@ -7,16 +7,16 @@
  * each error, the table shows the entry with the smallest CPU time. The CPU time is measured from
  * the creation of a run to its end.
  *
- * Planar problems: the errors include all positions, at 50 samples. bench_work_precision compares
- * only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
+ * For planar problems, the errors include all positions, at 50 samples. bench_work_precision
+ * compares only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
  * therefore cost less. Runs of baum locate and report each flat configuration that they pass
  * through. For N = 1 and an error of 1e-4, this takes a fifth of their time. The other programs do
  * not do this. They are Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE
  * with compiled right-hand sides, and a hand-written RK4.
  *
- * Spatial problems: the errors include all positions at the end, compared with the references of
- * the catalogue. An error is accepted if it exceeds its nominal value by at most 10 %. This is the
- * same for all programs. The other programs are Pinocchio with RK4 and Baumgarte stabilization,
+ * For spatial problems, the errors include all positions at the end, compared with the references
+ * of the catalogue. An error is accepted if it exceeds its nominal value by at most 10 %. This is
+ * the same for all programs. The other programs are Pinocchio with RK4 and Baumgarte stabilization,
  * MuJoCo with RK4, and Exudyn with generalized-alpha.
  *
  * The times of other programs were measured for this table on similar machines. They are the times
@@ -98,8 +98,9 @@ static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
   return status;
 }
 
-/* Gives the reference of the catalogue to the study: for spatial problems the end, and for planar
- * problems the exact solution, if there is one. Otherwise the study computes a reference. */
+/* Gives a reference of the catalogue to the study. For spatial problems, this is the state at the
+ * end. For planar problems, it is the exact solution. If there is no exact solution, the study
+ * computes a reference. */
 static baum_status give_reference(baum_study *study, const baum_mechanism *mechanism,
                                   baum_catalog_choice *choice, const peer *at)
 {

@@ -27,11 +27,11 @@ static const double OFF = 1e-6;
  * of the characteristic length. Much larger violations would no longer follow the linear
  * equations. */
 static const double GROWN = 1e3;
-/* A violation is considered to have decayed if it is below this fraction of the initial one. If
- * Phi' = 0 at the start, a mode of a one-step method initially has the fraction
- * (1 - z1) / (z2 - z1) of the violation. Here this is at least 1/100, so that no growing mode is
- * overlooked. A multistep method has further modes, which may be smaller. For this reason its runs
- * never end early as decayed. */
+/* A violation is considered to have decayed if it is below this fraction of the initial one. A
+ * one-step method has two modes, whose factors per step are z1 and z2. If Phi' = 0 at the start, a
+ * mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. Here this is at least
+ * 1/100, so that no growing mode is overlooked. A multistep method has further modes, which may be
+ * smaller. For this reason its runs never end early as decayed. */
 static const double DECAYED = 1e-3;
 
 /* Size of the grid divided by the size of the region. */
@@ -90,7 +90,8 @@ static inline watched_run start_consistent(const model *m)
 
 /* Tells whether the largest violation in the last quarter of the run is below that in the first
  * quarter. A run ends early if its violation has grown. It also ends early if the violation stays
- * decayed for CALM steps, because with fewer steps it could just be passing through zero. */
+ * below DECAYED for CALM steps. Fewer steps would not suffice, because the violation could just be
+ * passing through zero. */
 static inline bool watch_decay(const watched_run *watched, bool one_step)
 {
   double phi[PHYSICS_NC];

@@ -149,8 +149,8 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* The equation of motion in the crank angle, the only degree of freedom, gives an acceleration. The
- * oracle must find the same acceleration. */
+/* The mechanism has one degree of freedom, the crank angle. Its equation of motion gives the
+ * acceleration of this angle. The oracle must find the same acceleration. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;

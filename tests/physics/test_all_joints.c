@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a mechanism with every kind of joint (support/joint_scenes.c). It is run for half a second
- * with large motions, with every integrator of this build and all its formulations. The test also
- * checks reactions. They must satisfy the equations of motion of every body, and they must do no
- * work. */
+/* Runs one mechanism for each kind of joint (support/joint_scenes.c). Each mechanism is run for
+ * half a second with large motions, with every integrator of this build and all its formulations.
+ * The test also checks reactions. They must satisfy the equations of motion of every body, and they
+ * must do no work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -175,7 +175,8 @@ static void every_method_carries_every_joint(void **state)
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
     outcome reference = find_reference(&joint_scenes[k]);
-    /* These are at least two Euler and three Runge-Kutta methods, each with three formulations. */
+    /* Every build has at least two Euler and three Runge-Kutta methods, each with three
+     * formulations. */
     assert_true(try_methods(&joint_scenes[k], &reference) >= 15);
   }
 }

@@ -130,8 +130,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* This is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding error of
-     * positions. */
+    /* The limit is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding
+     * error of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -408,9 +408,10 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* Makes a run of a swing from a random angle, by random calls. Events are at the lowest point and
- * at the points of rest. Those at the lowest point may be terminal. Returns the number of wrong
- * events. *worst is raised to the largest relative error of an event's time. */
+/* Runs a pendulum that starts at a random angle, and advances the run by random calls. Events are
+ * at the lowest point and at the points of rest. The event at the lowest point may be terminal.
+ * Returns the number of wrong events. If the relative error of an event's time is larger than
+ * *worst, sets *worst to this error. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));

@@ -26,12 +26,13 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE,  /* a pin whose two points are moved along the rod; it locks crank and rod */
-  PIN_APART,  /* a pin of which only one point is moved; it contradicts the crank pin */
-  FOOT_ASIDE, /* a pin at the foot whose two points are moved; it locks the crank */
+  PIN_ASIDE, /* a pin whose two points are moved along the rod; it locks crank and rod */
+  PIN_APART, /* a pin of which only one point is moved; it contradicts the crank pin */
+  /* a pin near the pin "foot" to ground, whose two points are moved; it locks the crank */
+  FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod along the rod, which is only compatible in this configuration */
+  ROD_ASIDE, /* a massless rod along the rod; it fits only in this configuration */
   ROD_LONGER,
   AGAIN_COUNT
 } again;

@@ -24,8 +24,10 @@ static const double AS_OTHERS = 30.0;
  * of about 10. */
 static const double ROUNDING = 1e-11;
 
-/* These kinds of mechanisms include every structure. The last two have a hub, which is a body that
- * has most of the joints. The block solver can handle the smaller hub, but not the larger one. */
+/* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
+ * coordinates, in structures without joints, without loops, and with many loops. The last two kinds
+ * have a hub, which is a body that has most of the joints. The block solver can handle the smaller
+ * hub, but not the larger one. */
 static const random_kind kinds[] = {
   {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
   {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},

@@ -11,7 +11,7 @@ typedef struct way {
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
   bool fixed;   /* whether the step is fixed */
-  double order; /* for a fixed-step method: its order with its default gains */
+  double order; /* order of a fixed-step method with its default gains */
   bool built;   /* whether this build contains the method */
 } way;
 

@@ -150,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* For each moving body of the slider-crank, checks Newton's and Euler's equations: weight and the
- * reactions of both pins must give the acceleration. */
+/* Checks Newton's and Euler's equations for each moving body of the slider-crank. The weight and
+ * the reactions of both pins must produce the acceleration. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;

@@ -436,7 +436,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
      * of the pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    /* The tangential part of v. */
+    /* The step must keep the tangential component of v, which is 1 m/s. */
     ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05);
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);

@@ -414,9 +414,9 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* The contradictions have both signs and sizes from 1e-6 to 1e12. Beside the largest ones, the
- * other right sides are lost in rounding. Afterwards, the same factors must solve the system
- * without the contradiction. */
+/* The contradictions have both signs and sizes from 1e-6 to 1e12. Compared with the largest one,
+ * the other right sides are negligible. If the matrix was factored, the same factors must
+ * afterwards solve the system without the contradiction. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;

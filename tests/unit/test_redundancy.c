@@ -230,7 +230,7 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The multipliers are wrong by 1e-5, while forces are about 10 N. */
+/* The test makes multipliers wrong by 1e-5, while forces are about 10 N. */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -379,7 +379,7 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   }
   ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* a method of order 1 with h = 1e-5 s */
   ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* with rtol 1e-9 */
-  /* With rtol 1e-9; the error of IDA exceeds its tolerance. */
+  /* Also with rtol 1e-9. The error of IDA, however, exceeds this tolerance. */
   ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6);
   baum_mechanism_destroy(m);
 }

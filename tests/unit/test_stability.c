@@ -35,9 +35,9 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* For explicit Euler, the boundary of the region is B = 2 A if zeta < 1, and B = 4 A - 4 if
- * zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together with B = (A / zeta)^2, this gives
- * the limits in closed form. */
+/* The damping ratio is zeta = alpha / beta. For explicit Euler, the boundary of the region is B = 2
+ * A if zeta < 1, and B = 4 A - 4 if zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together
+ * with B = (A / zeta)^2, this gives the limits in closed form. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
