@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares what an error costs with this library and with other software.
+/* Compares the computing time that this library and other software need for a given error.
  *
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all entries by default
  *
@@ -81,7 +81,7 @@ static const peer PEERS[] = {
 };
 enum { PEER_COUNT = sizeof PEERS / sizeof PEERS[0] };
 
-/* Gives the positions at the end of the span, which the catalogue stores, to the study. */
+/* Gives the study the positions at the end of the span. The catalogue stores these positions. */
 static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
                             const baum_catalog_choice *choice, double end, double digits)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* In this mechanism, the choice of omitted rows changes during the motion. Two pins join two bars
- * rigidly. The bars make several revolutions with every integrator, formulation and solver, and
- * they must move as if they were welded. */
+/* Tests a mechanism in which the choice of omitted rows changes during the motion. Two pins join
+ * two bars rigidly. The bars make several revolutions with every integrator, formulation and
+ * solver, and they must move as if they were welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

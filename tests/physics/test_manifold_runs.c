@@ -383,7 +383,8 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
 }
 
 /* The residual of the account is caused by the error of the method. It must be comparable with the
- * residual of the twin, because the other representation of q only changes the choice of steps. */
+ * residual of the twin, because a different representation of q only changes the choice of
+ * steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {
   (void)state;

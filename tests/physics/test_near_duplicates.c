@@ -165,8 +165,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations, divided by the largest acceleration with or without
- * constraints. */
+/* Returns the error of the accelerations. It is divided by the largest acceleration that occurs,
+ * either with the constraints or without them. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);

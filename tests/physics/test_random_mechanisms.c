@@ -219,7 +219,7 @@ static void blocks_agree_with_the_whole_system(void **state)
 
 /* ---- after a failure ---- */
 
-/* Makes one call of the first user constraint set NaN. This is the call whose number is `call`. */
+/* Arranges that call number `call` of the first user constraint returns NaN. */
 static void spoil(pair *p, int call)
 {
   random_rows *rows = &p->random->rows[0];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows must not change anything. Two mechanisms are compared with the same bodies without
- * redundant rows. One has a third parallel crank, and the other a second guide on the same line. */
+/* Redundant rows must not change the motion. Two mechanisms with redundant rows are compared with
+ * the same mechanisms without these rows. The rows come from a third parallel crank in the first
+ * mechanism, and from a second guide on the same line in the second one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -170,7 +170,7 @@ static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 }
 
 #if BAUM_HAVE_SUNDIALS
-/* Five cranks fall through the horizontal twice. In this configuration they are singular. The
+/* Five cranks fall through the horizontal configuration twice. This configuration is singular. The
  * second time, the run continues on a branch on which all configurations are singular. The second
  * near-singular interval therefore does not end. */
 static void branches_of_singular_configurations_are_told(void **state)

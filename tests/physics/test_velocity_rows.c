@@ -171,8 +171,8 @@ enum { GRID = 40, STEPS = 400 };
 static const double STEP = 1e-3;
 static const double ACROSS = 1e-3; /* [m/s] initial violation */
 
-/* A body with its blade at the centre of mass, which does not rotate: J is constant, and only the
- * gain changes the velocity across the blade. */
+/* Makes a body that does not rotate and has its blade at the centre of mass. J is then constant,
+ * and only the gain changes the velocity across the blade. */
 static baum_mechanism *make_straight(void)
 {
   baum_mechanism *m = start_plane();
@@ -240,7 +240,7 @@ static int compare_boundary(const baum_mechanism *m, const baum_integrator *inte
       fail_msg("%s at alpha h = %g: predicted %g, simulated %g", baum_integrator_name(integrator),
                alpha_h, radius, growth);
     }
-    /* Simulated growth is 0 or 2 if the violation leaves the range of the test. */
+    /* growth_of() returns 0 or 2 if the violation leaves the range of the test. */
     assert_true(growth == 0.0 || growth == 2.0 || fabs(growth - radius) <= 1e-2 * radius);
     compared++;
   }

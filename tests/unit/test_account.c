@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the energy account with motions that are known in closed form. The first tests have only
- * one kind of work each. The others test how the account starts and continues in a run. */
+/* Tests the energy account with motions that are known in closed form. In each of the first tests,
+ * only one kind of work is done. The others test how the account starts and continues in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

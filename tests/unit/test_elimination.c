@@ -97,7 +97,7 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Computes the order of elimination. It gets the neighbours in decreasing order, because their
+/* Computes the order of elimination. The neighbours of a node are passed in decreasing order. Their
  * order must not matter. */
 static baum_status order(graph *g, int most, baum_i_elimination *out)
 {

@@ -290,8 +290,8 @@ static void multipliers_may_vanish(void **state)
       setup.rtol = pow(10.0, -k);
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
       assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
-      /* No step has an error, so IDA doubles the length of every step. The first one is sqrt(rtol)
-       * s. */
+      /* No step has an error, so IDA doubles the length of every step. The first step is sqrt(rtol)
+       * s long. */
       assert_true(run.steps < 100);
       for (int i = 0; i < 2; i++) { /* rounding errors at 10 m, one in each step */
         ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
@@ -411,9 +411,9 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* The state at the start has Phi = 1e-2 m and Phi' = 0.3 m/s. The first step must remove those
- * violations that are zero by the equations of the formulation. With GGL and at index 3 these are
- * both, and at index 2 only Phi'. */
+/* The state at the start has Phi = 1e-2 m and Phi' = 0.3 m/s. The first step must remove the
+ * violations of those constraints that are part of the formulation's equations. With GGL and at
+ * index 3, it must remove both Phi and Phi', and at index 2 only Phi'. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
