@@ -244,6 +244,6 @@ int main(int argc, char **argv)
     judge_problem(&problem, &args, &cells, &held);
     gain_problem_clear(&problem);
   }
-  printf("auto holds in %d of %d cells\n", held, cells);
+  printf("no constant beats auto in %d of %d cells\n", held, cells);
   return 0;
 }

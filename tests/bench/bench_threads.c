@@ -73,6 +73,7 @@ int main(void)
     (void)fprintf(stderr, "%s\n", baum_message());
     return EXIT_FAILURE;
   }
-  printf("two over one: wall %.2f, cpu %.2f\n", two.wall / one.wall, two.cpu / one.cpu);
+  printf("two threads divided by one: wall %.2f, cpu %.2f\n", two.wall / one.wall,
+         two.cpu / one.cpu);
   return EXIT_SUCCESS;
 }

@@ -174,7 +174,7 @@ static void breaks_are_met_forward_and_backward(void **state)
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      /* Rounding error of t. */
+      /* The limit is the rounding error of t. */
       ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP);
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }

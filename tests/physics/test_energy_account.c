@@ -116,7 +116,7 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
                                             baum_rk8(),    baum_ab2(),
                                             baum_ab3(),    baum_ab4(),
                                             baum_rattle(), baum_generalized_alpha()};
-  printf("\nresiduals at steps that are halved, their mean slope\n");
+  printf("\nresiduals with steps that are halved each time, mean slope\n");
   for (int s = 0; s < ACCOUNT_SCENES; s++) {
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
       for (int f = 0; f < FORMULATION_COUNT; f++) {

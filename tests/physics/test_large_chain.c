@@ -201,7 +201,7 @@ static void every_link_obeys_newton_and_euler(void **state)
   model m = build_chain();
   double *a = solve(&m);
   worst off = compare_links(a);
-  printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
+  printf("forces up to %.3g N; largest errors: moments %.1e N m, ends %.1e m/s^2\n", off.force,
          off.moment, off.gap);
   /* F_k is a sum of up to 1e5 terms. The rounding error of each term is 1e-16 of it. */
   assert_true(off.moment <= 1e-11 * off.force);

@@ -210,8 +210,8 @@ static void blocks_agree_with_the_whole_system(void **state)
     }
   }
   /* For many random structures projection is impossible, because they cannot move. */
-  print_message("%d poses, %d singular, %d projections, %d mechanisms by blocks\n", p->solved,
-                p->singular, p->projected, p->by_blocks);
+  print_message("%d configurations, %d singular, %d projections, %d mechanisms by blocks\n",
+                p->solved, p->singular, p->projected, p->by_blocks);
   assert_true(p->solved > 2 * p->singular);
   assert_true(p->projected > 100);
   assert_true(p->by_blocks > 200);

@@ -214,7 +214,7 @@ static void part(const method *with, void *context)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     bool warned =
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
-    expect(warned == (k == 1), with, "whether there is a warning that a row of a motor is violated",
+    expect(warned == (k == 1), with, "the warning about a violated row is missing or unjustified",
            k);
     /* Methods of order 1 themselves have violations of up to 1e-2. A variable step may end beyond
      * END. */

@@ -79,8 +79,8 @@ static void check_entry(const baum_catalog_entry *entry)
   assert_int_equal(
     baum_catalog_compare(&choice, m, common.t, common.n, common.q, common.v, &error, sizeof error),
     BAUM_OK);
-  print_message("%-22s %4.1f digits, stored with %4.1f, itself says %4.1f%s\n", entry->name,
-                -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
+  print_message("%-22s agrees to %4.1f digits; the catalogue states %4.1f, the study %4.1f%s\n",
+                entry->name, -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
                 r.trusted ? "" : ", untrusted");
   if (r.trusted) {
     /* The estimated error is the largest of three differences. The true error may be larger than

@@ -120,8 +120,8 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
     fits++;
   }
   double mean = pow(product, 1.0 / fits);
-  printf("%-12s mean of the fitted %.2f, least %.2f\n", baum_integrator_name(integrator), mean,
-         least);
+  printf("%-12s mean of the fitted factors %.2f, least factor %.2f\n",
+         baum_integrator_name(integrator), mean, least);
   assert_true(mean >= least_mean);
   assert_true(least >= LEAST_SINGLE_FALL);
 }

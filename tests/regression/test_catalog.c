@@ -217,7 +217,8 @@ static void compare_with_table(const char *name, int count, const double *t, con
       worst = fmax(worst, fabs(got[k] - want) / fmax(1.0, fabs(want)));
     }
   }
-  printf("%-24s %.1e from the table, to %.1f digits trusted\n", name, worst, entry.digits_q);
+  printf("%-24s differs by %.1e from the table; the catalogue states %.1f digits\n", name, worst,
+         entry.digits_q);
   assert_true(worst <= pow(10.0, -entry.digits_q));
 }
 

@@ -335,8 +335,8 @@ static void random_graphs_have_little_more_fill_than_by_greed(void **state)
     greed += couplings_by_greed(&g);
     unordered += couplings_in_order(&g);
   }
-  print_message("couplings %d, by greed %d, without an order %d, of edges %d\n", found, greed,
-                unordered, edges);
+  print_message("%d couplings, %d in the greedy order, %d in an arbitrary order; %d edges\n", found,
+                greed, unordered, edges);
   assert_true(found >= edges);
   assert_true(found < 1.1 * greed);
   assert_true(found - edges < 0.5 * (unordered - edges));

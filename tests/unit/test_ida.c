@@ -84,10 +84,12 @@ static void violation_is_as_the_formulation_says(void **state)
     index2[k] = largest_violation(BAUM_FORMULATION_INDEX2, k ? 50.0 : 5.0);
     ggl[k] = largest_violation(BAUM_FORMULATION_GGL, k ? 50.0 : 5.0);
   }
-  print_message("Phi: %.2g, %.2g, %.2g; index 2 %.2g and %.2g, GGL %.2g and %.2g\n",
+  print_message("Phi: unstabilized %.2g, Baumgarte %.2g, index 3 %.2g; after 5 s and 50 s: index 2 "
+                "%.2g and %.2g, GGL %.2g and %.2g\n",
                 unstabilized.phi, baumgarte.phi, index3.phi, index2[0].phi, index2[1].phi,
                 ggl[0].phi, ggl[1].phi);
-  print_message("Phi': %.2g, %.2g, %.2g; index 2 %.2g and %.2g, GGL %.2g and %.2g\n",
+  print_message("Phi': unstabilized %.2g, Baumgarte %.2g, index 3 %.2g; after 5 s and 50 s: index "
+                "2 %.2g and %.2g, GGL %.2g and %.2g\n",
                 unstabilized.rate, baumgarte.rate, index3.rate, index2[0].rate, index2[1].rate,
                 ggl[0].rate, ggl[1].rate);
   assert_true(index3.phi <= 5e-6 && baumgarte.phi <= 1e-4);
