@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh tests/release.sh [--check]
 #
-# Makes the files of a release: checks the sources, runs every stage of tests/run.sh, and copies the packages and their
-# SHA-256 digests into build/dist. This takes hours; if a stage fails, the next run continues there, as long as the
-# commit is the same. --check only checks the sources, in a few seconds. Publishing is left to you.
+# Makes the files of a release. The script checks the sources and runs every stage of tests/run.sh. Then it copies the
+# packages and their SHA-256 digests into build/dist. This takes hours. If a stage fails, the next call continues with
+# this stage, as long as the commit is the same. With --check, the script only checks the sources, which takes a few
+# seconds. It does not publish the release, but prints the commands for this.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -14,7 +15,8 @@ tag=v$text
 out=build/dist
 failures=0
 
-# check WHAT COMMAND...: run it and report. A failed check does not end the script, so that all are seen.
+# check WHAT COMMAND... runs the command and reports the result. A failed check does not end the script, so that all
+# failures are reported.
 check() {
   what=$1
   shift
@@ -37,7 +39,7 @@ tag_is_new() {
   ! git rev-parse --quiet --verify "refs/tags/$tag" >/dev/null
 }
 
-# The first heading is "## VERSION, DATE", and an entry follows.
+# The first heading of the changelog must be "## VERSION, DATE", and at least one entry must follow it.
 changelog_is_dated() {
   heading=$(grep -m 1 '^## ' docs/changelog.md)
   day=${heading#"## $text, "}
@@ -54,13 +56,14 @@ soname() {
   sed -n 's/^set(BAUM_SOVERSION \([0-9]*\))/\1/p'
 }
 
-# The release before this one, by version; nothing before the first release.
+# Prints the tag of the previous release. Tags are sorted by version. Prints nothing if this is the first release.
 last_tag() {
   { git tag --list 'v[0-9]*' && echo "$tag"; } | sort -V |
     awk -v tag="$tag" '$0 == tag { print last; exit } { last = $0 }'
 }
 
-# The part of a version that changes if programs break: the major version, before 1.0 also the minor version.
+# Prints the part of a version that must change if compiled programs break. This is the major version. Before version
+# 1.0, it is the major and the minor version.
 breaking_part() {
   case $1 in
     v0.*) echo "${1%.*}" ;;
@@ -68,14 +71,15 @@ breaking_part() {
   esac
 }
 
-# What breaks compiled programs needs another soname and another major version, before 1.0 minor version.
+# A change that breaks compiled programs requires another soname and another major version. Before version 1.0, it
+# requires another minor version instead.
 soname_counts_breaks() {
   last=$(last_tag)
   [ -n "$last" ] || return 0
   mkdir -p "$out"
   git show "$last:bindings/python/baum/_abi.py" >"$out/last_abi.py"
   python3 bindings/python/tools/compare_abi.py "$out/last_abi.py" bindings/python/baum/_abi.py && return
-  echo "since $last: raise BAUM_SOVERSION in CMakeLists.txt and the major version, before 1.0 the minor version"
+  echo "since $last: raise BAUM_SOVERSION in CMakeLists.txt and the major version (before 1.0, the minor version)"
   [ "$(soname <CMakeLists.txt)" -gt "$(git show "$last:CMakeLists.txt" | soname)" ] &&
     [ "$(breaking_part "$last")" != "$(breaking_part "$tag")" ]
 }
@@ -83,9 +87,9 @@ soname_counts_breaks() {
 check "the working tree is clean" tree_is_clean
 check "there is no tag $tag yet" tag_is_new
 check "docs/changelog.md has entries and a date for $text" changelog_is_dated
-check "the version has one place" version_has_one_place
+check "the version is defined in one place and agrees everywhere" version_has_one_place
 check "generated files of the Python package are up to date" python3 bindings/python/tools/generate_abi.py --check
-check "the soname counts what breaks compiled programs" soname_counts_breaks
+check "the soname changes if compiled programs break" soname_counts_breaks
 [ "$failures" -eq 0 ] || exit 1
 [ "${1:-}" != --check ] || exit 0
 
@@ -95,7 +99,7 @@ mkdir -p "$out"
 touch "$passed"
 for stage in $(sh tests/run.sh --list); do
   grep -qx "$stage" "$passed" && continue
-  # Only packages of this commit may remain there.
+  # The folder may contain only packages of this commit.
   [ "$stage" != wheels ] || rm -rf build/wheels/out
   sh tests/run.sh "$stage"
   echo "$stage" >>"$passed"

@@ -3,12 +3,14 @@
 # usage: sh tests/run.sh [STAGE...]
 #        sh tests/run.sh --list     print the names of all stages
 #
-# Installs missing packages and runs the named stages (default: the first row below) until one fails.
+# Installs missing packages and runs the named stages, one after the other, until one fails. Without an argument, it
+# runs the stages in the first row. The stages in the second row run only if they are named.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels   if named
-# BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders always need 100.
-# BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
-# BAUM_FRESH="build test": the stages that stage fresh runs in the bare system; default: the first row.
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels
+# BAUM_COVERAGE is the smallest line coverage of src that stage coverage accepts, in percent (default: 95). Five folders
+# of src must always have 100 %.
+# BAUM_FUZZ_SECONDS is the time for which stage fuzz runs each target (default: 600).
+# BAUM_FRESH names the stages that stage fresh runs in the bare system (default: the first row).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -21,7 +23,7 @@ fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 stage_format() {
   find include src examples tests -name '*.[ch]' | sort |
     xargs clang-format --dry-run --Werror --style=file || {
-    echo "to mend: find include src examples tests -name '*.[ch]' | xargs clang-format -i"
+    echo "to correct this: find include src examples tests -name '*.[ch]' | xargs clang-format -i"
     return 1
   }
   need_venv
@@ -29,7 +31,7 @@ stage_format() {
   sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
 }
 
-# Formatting, type hints and lint of the Python package and of the examples.
+# Checks formatting, type hints and lint of the Python package and of the examples.
 stage_types() {
   need_venv
   settings=bindings/python/pyproject.toml
@@ -40,7 +42,7 @@ stage_types() {
   "$venv/bin/pyright" --project $settings --pythonpath "$venv/bin/python"
 }
 
-# The reference manual in build/doxygen; fails if a public function, parameter or field is undocumented.
+# Makes the reference manual in build/doxygen. Fails if a public function, parameter or field has no documentation.
 stage_docs() {
   mkdir -p build
   doxygen docs/Doxyfile
@@ -61,7 +63,7 @@ build_clang() {
   build dev clang -DBAUM_WERROR=ON -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug
 }
 
-# run_tests FOLDER [CTEST ARGUMENT...]
+# run_tests FOLDER [CTEST ARGUMENT...] runs the tests of the build in build/FOLDER.
 run_tests() {
   tested=build/$1
   shift
@@ -86,7 +88,7 @@ stage_minimal() {
   run_tests minimal -LE sweep
 }
 
-# Installs the library like a user, then moves it: nothing may depend on the original place.
+# Installs the library as a user does, and then moves it, because nothing may depend on the original folder.
 install_release() {
   need_venv
   build release release -DBAUM_WERROR=ON -DBAUM_TESTS=OFF
@@ -142,14 +144,15 @@ stage_coverage() {
   "$venv/bin/python" tests/layout/check_messages.py --untriggered "$all.json" .
 }
 
-# The tests that stage asan omits.
+# Runs the sweeps and grids, which stage asan omits, with the same sanitizers.
 stage_sweeps() {
   need_venv
   build asan asan -DBAUM_WERROR=ON
   run_tests asan -L 'sweep|grid'
 }
 
-# The replays of the fuzzers keep only pointers into their mechanisms: valgrind calls these "possibly lost".
+# Only definite leaks are errors. The replays of the fuzzers keep only pointers to the inside of their mechanisms, and
+# valgrind calls such mechanisms "possibly lost".
 stage_valgrind() {
   need_venv
   checks="--quiet;--trace-children=yes;--error-exitcode=99;--leak-check=full;--errors-for-leak-kinds=definite"
@@ -163,7 +166,8 @@ stage_thread() {
   run_tests thread -R thread
 }
 
-# The page of a study in headless Chromium, which is a large package.
+# Checks the pages of studies, motions and live views, and the shapes of elements. The checks need headless Chromium,
+# which is a large package.
 stage_browser() {
   need_packages chromium
   build_dev
@@ -177,7 +181,8 @@ stage_browser() {
     "$venv/bin/python" tests/browser/check_shapes.py build/browser
 }
 
-# An input that fails stays in build/fuzz as crash-*: correct the error and add it to tests/fuzz/corpus.
+# If an input makes a target fail, it remains in build/fuzz as crash-*. Correct the error, and add the input to
+# tests/fuzz/corpus.
 stage_fuzz() {
   need_venv
   need_packages libclang-rt-14-dev
@@ -207,7 +212,7 @@ stage_random() {
   build/random/tests/bench_sweeps all
 }
 
-# fresh_run RELEASE COMMAND...: run commands on a bare Debian, in a clone of the project.
+# fresh_run RELEASE COMMAND... runs commands on a bare Debian, in a clone of the project.
 fresh_run() {
   need_packages debootstrap git
   rm -rf build/fresh-clone
@@ -218,18 +223,19 @@ fresh_run() {
   as_root sh tests/install/fresh.sh "$release" "$PWD/build/fresh-$release" "$PWD/build/fresh-clone" "$@"
 }
 
-# Runs the two commands of the README on a bare Debian 12; for releases and large changes.
+# Runs examples/run.sh and tests/run.sh on a bare Debian 12. This stage is meant for releases and large changes.
 stage_fresh() {
   fresh_run bookworm "sh examples/run.sh" "sh tests/run.sh ${BAUM_FRESH:-}"
 }
 
-# The stages that depend on compilers and on SUNDIALS 7, on Debian 13, and its packages of baum.
+# Runs the stages that depend on the compiler or on SUNDIALS on a bare Debian 13, which has SUNDIALS 7. Also builds
+# and installs the Debian packages of baum there.
 stage_trixie() {
   fresh_run trixie "sh tests/run.sh build test minimal install python debs" \
     "sh tests/install/packages.sh build/debian"
 }
 
-# The Debian packages in build/debian.
+# Builds the Debian packages in build/debian.
 stage_debs() {
   need_packages lintian dpkg-dev
   quietly cmake --preset debian
@@ -239,7 +245,7 @@ stage_debs() {
   lintian --allow-root --fail-on error build/debian/*.deb
 }
 
-# Installs the packages on a bare Debian 12, uses and removes them there.
+# Installs the Debian packages on a bare Debian 12, uses them, and removes them.
 stage_packages() {
   stage_debs
   rm -rf build/packages
@@ -248,13 +254,13 @@ stage_packages() {
   fresh_run bookworm "sh tests/install/packages.sh packages"
 }
 
-# The commands for installing in README.md and docs/install.md, word by word, on bare Debians.
+# Runs the commands for installing in README.md and docs/install.md exactly as printed, on a bare Debian 12 and 13.
 stage_readme() {
   fresh_run bookworm "sh tests/install/readme.sh"
   fresh_run trixie "sh tests/install/readme.sh"
 }
 
-# Builds the Python packages of all systems and runs them where that is possible on Linux.
+# Builds the Python packages for all systems, and runs those that can be run on Linux.
 stage_wheels() {
   need_packages debootstrap qemu-user-static wine64 nodejs binutils python3-venv
   as_root sh tests/install/wheels.sh "$PWD"
@@ -272,7 +278,7 @@ fi
 for stage in "$@"; do
   case " $usual $named " in
     *" $stage "*) ;;
-    *) echo "no stage $stage; there are: $usual $named" >&2; exit 2 ;;
+    *) echo "there is no stage $stage; the stages are: $usual $named" >&2; exit 2 ;;
   esac
 done
 [ $# -gt 0 ] || set -- $usual

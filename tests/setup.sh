@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions of tests/run.sh and examples/run.sh, which source this file from the top folder of the project.
-# They install packages that a fresh Debian 12 lacks, as root or by sudo, and build under build/.
+# Functions for tests/run.sh, tests/release.sh and examples/run.sh, which source this file in the top folder of the
+# project. The functions install packages that a fresh Debian 12 lacks, as root or by sudo, and build in build/.
 
 jobs=$(nproc)
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev
@@ -17,9 +17,9 @@ as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# need_packages NAME...: install the missing ones of these packages.
+# need_packages NAME... installs those of these packages that are missing.
 need_packages() {
-  command -v dpkg-query >/dev/null || { echo "no Debian here; wanted: $*"; return 0; }
+  command -v dpkg-query >/dev/null || { echo "this system is not Debian; please install: $*"; return 0; }
   missing=
   for package in "$@"; do
     dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q '^install ok installed$' ||
@@ -33,7 +33,7 @@ need_packages() {
     apt-get install -q -y --no-install-recommends $missing
 }
 
-# A virtual environment with the packages that tests and examples import, of Debian's Python with python3-venv.
+# Makes a virtual environment with the packages that tests and examples import. It uses Debian's Python if there is one.
 need_venv() {
   [ "$(cat "$venv/installed" 2>/dev/null)" = "$venv_packages" ] && return
   heading "Python environment with $venv_packages"
@@ -45,13 +45,13 @@ need_venv() {
   echo "$venv_packages" >"$venv/installed"
 }
 
-# quietly COMMAND...: run it and show its output only if it fails.
+# quietly COMMAND... runs the command, and shows its output only if it fails.
 quietly() {
   mkdir -p build
   "$@" >build/last.log 2>&1 || { cat build/last.log; echo "failed: $*"; return 1; }
 }
 
-# build PRESET FOLDER [CMAKE ARGUMENT...]: configure and build in build/FOLDER.
+# build PRESET FOLDER [CMAKE ARGUMENT...] configures and builds in build/FOLDER.
 build() {
   preset=$1
   folder=build/$2

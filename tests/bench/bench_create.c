@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The cost of creating a run, and of whole short runs.
+/* Measures the time that the creation of a run takes, and the time of whole short runs.
  *
  * usage: bench_create                        prints a table
- *        bench_create SCENE METHOD COUNT     creates and destroys this often, for callgrind
+ *        bench_create SCENE METHOD COUNT     creates and destroys COUNT runs, for callgrind
  *        bench_create SCENE METHOD COUNT run also advances each run to the end of the scene
  *
- * Columns: time of baum_simulation_create() with baum_simulation_destroy(); time of the same with a
- * run to the end of the scene between them; and the steps, rejected steps and evaluations of this
- * run. parts/timing.h defines the time.
+ * The first column of the table is the time of baum_simulation_create() and
+ * baum_simulation_destroy(). In the second column, the run is also advanced to the end of the
+ * scene. The last columns are the steps, rejected steps and evaluations of this run. parts/timing.h
+ * defines how times are measured.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -14,12 +14,13 @@
  * run is its largest position error at ten samples. Lengths are relative to the characteristic
  * length. A run is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong.
  * The growth of a motion is the largest amplification of a perturbation from any of 20 times to any
- * later one of them. Velocities are divided by the mean rate of the motion.
+ * later one of them. To make velocities comparable with positions, they are divided by the mean
+ * rate of the motion.
  *
  * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
- * too many wrong fixed-step runs have no warning that doubts their motion. These limits are one run
- * with a growth of up to 30, and more than 1 % of the runs with a growth of up to 1000. With
- * error_check, it is one run with a growth of up to 1e4.
+ * too many wrong fixed-step runs have no warning that doubts their motion. No such run is allowed
+ * if the growth is at most 30. If the growth is at most 1000, at most 1 % of the wrong runs may
+ * lack a warning. With the option error_check, no such run is allowed up to a growth of 1e4.
  */
 #include <math.h>
 #include <pthread.h>

@@ -145,10 +145,9 @@ static void print_row(const scene *at, const measured *m, double reference)
 static void print_head(void)
 {
   printf(
-    "\nns of CPU time per evaluation. rel: over that of the first solver. Phases in ns; other: "
-    "what "
-    "the whole\ntakes beyond them: checks, refinement, copies. apart: largest relative difference "
-    "of a\n");
+    "\nThe column ns is the CPU time per evaluation. rel: this time divided by that of the first "
+    "solver.\nThe phases are in ns. other: time of the whole evaluation outside of the phases, for "
+    "checks,\nrefinement and copies. apart: largest relative difference of a.\n");
   printf("%-12s %6s %-11s %10s %8s %6s %9s %9s %9s %9s %9s %6s\n", "case", "n", "solver", "ns",
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
@@ -217,12 +216,14 @@ static bool bench_solvers(const arguments *given)
 
 /* ---- spatial scenes ---- */
 
-/* [s] The driven planar slider-crank took this long where the peers were timed. */
+/* [s] Time of the driven planar slider-crank on the machine on which the other programs were
+ * measured. */
 static const double CRANK_OF_PEERS = 184e-9;
 
-/* ns per acceleration of the fastest of other programs, measured on one machine of 3.2 GHz with
- * their fastest calls (Pinocchio 4.1.0, MuJoCo 4.0.0). NaN: not measured. MuJoCo's flyball had no
- * springs. No command repeats these measurements. */
+/* [ns] Time that the fastest other program needs for one acceleration. The programs are Pinocchio
+ * 4.1.0 and MuJoCo 4.0.0. They were measured on one machine of 3.2 GHz, with their fastest calls.
+ * NaN means not measured. MuJoCo's flyball had no springs. No command repeats these
+ * measurements. */
 static const struct {
   model_spatial which;
   int n;
@@ -248,10 +249,11 @@ enum { SPATIAL_COUNT = sizeof SPATIAL / sizeof SPATIAL[0] };
 
 static void print_spatial_head(void)
 {
-  printf("\nspatial scenes, ns of CPU time per acceleration. scaled: as if the driven planar "
-         "slider-crank, timed\nin turn with every scene, took %.0f ns. peers: the fastest other "
-         "program there. apart: as above\n",
-         1e9 * CRANK_OF_PEERS);
+  printf(
+    "\nspatial scenes, ns of CPU time per acceleration. scaled: this time, scaled to a machine "
+    "on which the\ndriven planar slider-crank takes %.0f ns. peers: time of the fastest other "
+    "program on that machine.\napart: as above\n",
+    1e9 * CRANK_OF_PEERS);
   printf("%-20s %6s %-11s %10s %8s %10s %8s %8s %6s %6s\n", "case", "n", "solver", "ns", "per body",
          "scaled", "per body", "peers", "rel", "apart");
 }
@@ -356,7 +358,7 @@ static bool bench_steps_of(scene_kind kind, int n)
 static bool bench_steps(const arguments *given)
 {
   bool fine = true;
-  printf("\nsemi-implicit Euler, Baumgarte, one step and all that comes with it\n");
+  printf("\nsemi-implicit Euler with Baumgarte's gains, time of a whole step\n");
   printf("%-12s %6s %12s %12s %9s\n", "case", "n", "steps/s", "ns", "per body");
   for (int k = 0; k < CASE_COUNT; k++) {
     if (is_wanted(given, CASES[k].kind, CASES[k].n) && CASES[k].n <= LARGEST_STEPPED) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares formulations. For the same tolerances or steps, it prints their errors, violations,
- * steps and evaluations.
+/* Compares formulations. For the same tolerances or steps, the program prints their errors,
+ * violations, steps and evaluations.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *

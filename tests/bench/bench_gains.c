@@ -4,10 +4,11 @@
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
  * A cell is a combination of a problem, an integrator and an rtol. The cost and the error of a cell
- * are geometric means over perturbed starts. The cost is the number of evaluations of (7), each of
- * which factors its matrix, plus the factorizations of the integrator's own matrix. The cost of
- * `auto` includes its pilot run. The error is the largest one over all coordinates and samples,
- * relative to the scales. In a cell, a constant beats `auto` if it
+ * are geometric means over perturbed starts. The cost is a number of factorizations. Each
+ * evaluation of the accelerations by equation (7) of docs/theory/formulations.md factors a matrix.
+ * The factorizations of the integrator's own matrix are added. The cost of `auto` includes its
+ * pilot run. The error is the largest one over all coordinates and samples, relative to the scales.
+ * In a cell, a constant beats `auto` if it
  *   costs no more than `auto` and has less than a third of its error, or
  *   has no larger error than `auto` and costs less than 1 / 1.25 of its cost.
  * The sweep has 49 constants. They cover 12 decades, with four constants in each. If a run with
@@ -243,6 +244,6 @@ int main(int argc, char **argv)
     judge_problem(&problem, &args, &cells, &held);
     gain_problem_clear(&problem);
   }
-  printf("auto holds in %d of %d cells\n", held, cells);
+  printf("no constant beats auto in %d of %d cells\n", held, cells);
   return 0;
 }

@@ -4,13 +4,14 @@
  * heavy top and a four-bar (RSSR). None of them dissipates energy, so their energy should stay
  * constant.
  *
- *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
+ *   bench_long [STEPS [INTEGRATOR]]      default: 10000000 steps, all integrators
  *
  * The program prints a line for every decade of steps. The line contains the smallest and the
  * largest change of energy since the start that occurs in this decade, relative to the largest
- * kinetic energy. The power p of time with which this change grows follows; it is computed from
- * this decade and the one before. Then come the largest violations since the start, the heap in
- * use, and the computing time in seconds. If a run fails, its message is printed.
+ * kinetic energy. The next number is p. The change grows as the power p of time, where p is
+ * computed from this decade and the one before. The last numbers are the largest violations since
+ * the start, the heap in use, and the computing time in seconds. If a run fails, its message is
+ * printed.
  */
 #include <malloc.h>
 #include <math.h>

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares what an error costs with this library and with other software.
+/* Compares the computing time that this library and other software need for a given error.
  *
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all entries by default
  *
  * A study runs rk8, dp5 and rk4 with every formulation, and with many steps and tolerances. For
- * each error, the table shows the entry with the smallest CPU time. It is measured from the
- * creation of a run to its end.
+ * each error, the table shows the entry with the smallest CPU time. The CPU time is measured from
+ * the creation of a run to its end.
  *
- * Planar problems: the errors include all positions, at 50 samples. bench_work_precision compares
- * only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
+ * For planar problems, the errors include all positions, at 50 samples. bench_work_precision
+ * compares only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs
  * therefore cost less. Runs of baum locate and report each flat configuration that they pass
  * through. For N = 1 and an error of 1e-4, this takes a fifth of their time. The other programs do
  * not do this. They are Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE
  * with compiled right-hand sides, and a hand-written RK4.
  *
- * Spatial problems: the errors include all positions at the end, compared with the references of
- * the catalogue. A level counts as reached within 10 %, for all programs. The other programs are
- * Pinocchio with RK4 and Baumgarte stabilization, MuJoCo with RK4, and Exudyn with
- * generalized-alpha.
+ * For spatial problems, the errors include all positions at the end, compared with the references
+ * of the catalogue. An error is accepted if it exceeds its nominal value by at most 10 %. This is
+ * the same for all programs. The other programs are Pinocchio with RK4 and Baumgarte stabilization,
+ * MuJoCo with RK4, and Exudyn with generalized-alpha.
  *
  * The times of other programs were measured for this table on similar machines. They are the times
  * of whole runs, and the table shows the cheapest of them. There is no command that repeats these
@@ -51,7 +51,7 @@ typedef struct peer {
 
 static const peer PEERS[] = {
   {"slider_crank",
-   "free slider-crank, 2 s; theirs of other lengths, masses and speed",
+   "free slider-crank, 2 s (other programs: other lengths, masses and speed)",
    {"speed", 10.0},
    2.0,
    PLANAR,
@@ -81,7 +81,7 @@ static const peer PEERS[] = {
 };
 enum { PEER_COUNT = sizeof PEERS / sizeof PEERS[0] };
 
-/* Gives the positions at the end of the span, which the catalogue stores, to the study. */
+/* Gives the study the positions at the end of the span. The catalogue stores these positions. */
 static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
                             const baum_catalog_choice *choice, double end, double digits)
 {
@@ -98,8 +98,9 @@ static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
   return status;
 }
 
-/* Gives the reference of the catalogue to the study: for spatial problems the end, and for planar
- * problems the exact solution, if there is one. Otherwise the study computes a reference. */
+/* Gives a reference of the catalogue to the study. For spatial problems, this is the state at the
+ * end. For planar problems, it is the exact solution. If there is no exact solution, the study
+ * computes a reference. */
 static baum_status give_reference(baum_study *study, const baum_mechanism *mechanism,
                                   baum_catalog_choice *choice, const peer *at)
 {

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cost of short runs from Python, for the slider-crank over 2 s, and of user functions in
-Python, for the pendulum of the README: the number of calls in a step of rk4, and the overhead of a
-call, which is its time without that of the function itself.
+"""Measures what short runs and user functions cost in Python. The short runs are runs of the
+slider-crank over 2 s. The user functions are those of the pendulum of the README. For them, the
+program prints the number of calls in a step of rk4, and the overhead of a call. The overhead is the
+time of a call without the time of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 
-With `quick` or `full`, the program also measures a study of the pendulum over 2 s with this grid.
+With `quick` or `full`, the program also measures a study of the pendulum over 2 s. The study uses
+the grid of this name.
 
-The overhead is the difference from a run whose functions compute the same values in C, which needs a
-C compiler. Times of short runs are wall times, all others CPU times, the smallest of several runs.
+To find the overhead, the program compares with a run whose functions compute the same values in C.
+This needs a C compiler. Times of short runs are wall times, and all other times are CPU times. Each
+time is the smallest one of several runs.
 """
 import ctypes
 import sys
@@ -109,7 +112,7 @@ def report_study(grid, language, phi):
 
 
 def short_run(m, options):
-    """Wall times of creating a run, advancing it and reading q."""
+    """Return the counters of a run, after the wall times of creating it, advancing it and reading q."""
     clock = time.perf_counter
     times = [clock()]
     s = m.simulation("rk8", rtol=1e-5, **options)

@@ -14,7 +14,8 @@
 static void report(const random_tally *t)
 {
   (void)printf(
-    "%ld mechanisms, %ld poses: %ld met (%ld of them with dependent rows), %ld rightly refused, "
+    "%ld mechanisms, %ld configurations: %ld met (%ld of them with dependent rows), %ld rightly "
+    "refused, "
     "%ld wrong, %ld with rows that contradict each other, %ld false alarms; largest error of "
     "those met %.2g\n",
     t->mechanisms, t->poses, t->counts[RANDOM_MET], t->dependent, t->counts[RANDOM_REFUSED],

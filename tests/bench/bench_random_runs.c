@@ -237,8 +237,8 @@ static bool find_truth(scene *s)
   result b = run(s, tight(BAUM_FORMULATION_BAUMGARTE, BAUM_SOLVER_KLU), NULL, NULL);
   double error = apart(s, a.q, b.q);
   if (a.status < BAUM_OK || b.status < BAUM_OK || !(error < AGREEMENT)) {
-    (void)printf("seed %llu: no truth, %.2g: %s / %s\n", (unsigned long long)s->seed, error, a.text,
-                 b.text);
+    (void)printf("seed %llu: no reference, two runs differ by %.2g: %s / %s\n",
+                 (unsigned long long)s->seed, error, a.text, b.text);
     return false;
   }
   memcpy(s->q, a.q, sizeof s->q);

@@ -68,7 +68,7 @@ int main(int count, char **arguments)
   wrong += report("run", tally.run);
   wrong += tally.wrong_unique;
   (void)printf(
-    "largest imbalance of those met: %.2g; %ld multipliers wrongly called unique or not\n",
+    "largest imbalance of those met: %.2g; %ld multipliers whose uniqueness is reported wrongly\n",
     tally.worst, tally.wrong_unique);
   return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Makes sweeps over steps and tolerances in difficult scenes. It counts how many runs are wrong,
- * and how many of these are silently wrong.
+/* Makes sweeps over steps and tolerances in difficult scenes. The program counts how many runs are
+ * wrong, and how many of these are silently wrong.
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *

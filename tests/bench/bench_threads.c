@@ -2,9 +2,9 @@
 /* Compares the speed of a study with two threads and with one thread. The study runs the standard
  * grid for a slider-crank without a driver.
  *
- * Two threads measure the errors. Afterwards only one thread measures the times, so that the wall
- * time is not halved. In this study, each time is measured once. The total CPU time should not
- * grow.
+ * Two threads compute the errors of the entries. Afterwards only one thread measures their CPU
+ * times. The wall time is therefore more than half of that with one thread. In this study, each
+ * time is measured once. The total CPU time should not grow.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -73,6 +73,7 @@ int main(void)
     (void)fprintf(stderr, "%s\n", baum_message());
     return EXIT_FAILURE;
   }
-  printf("two over one: wall %.2f, cpu %.2f\n", two.wall / one.wall, two.cpu / one.cpu);
+  printf("two threads divided by one: wall %.2f, cpu %.2f\n", two.wall / one.wall,
+         two.cpu / one.cpu);
   return EXIT_SUCCESS;
 }

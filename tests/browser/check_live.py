@@ -107,7 +107,7 @@ def check_buttons(browser, loop, checks):
     key(browser, " ")
     time.sleep(0.3)
     checks.expect(not is_held(loop), "the space bar does not resume")
-    checks.expect(browser.run("now < last"), "the past is left by new frames")
+    checks.expect(browser.run("now < last"), "new frames end the view of the past")
     key(browser, "End")
     time.sleep(0.2)
     checks.expect(browser.run("now === last && following_now()"), "End does not follow the run again")
@@ -121,7 +121,7 @@ def check_quiet(browser, checks):
     checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
     foreign = [url for url in browser.requests() if not url.startswith("http://127.0.0.1:")]
     checks.expect(foreign == [], f"the page asked for {foreign}")
-    checks.expect(browser.run("window.taken") is None, "a name was run as a program")
+    checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
 
 
 def check_page(browser, name, make, folder, checks):

@@ -127,8 +127,8 @@ def write_solids(template, path):
     return seen
 
 
-# Returns for each of these points the body whose colour the pixel has, in any light. It is 0 for
-# the paper or the floor.
+# For each given point, returns the number of the body that is seen there. The body is found by the
+# colour of the pixel, whatever the light. The number is 0 for the paper or the floor.
 BODIES_AT = """(points => {
   const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
   [copy.canvas.width, copy.canvas.height] = [stage.width, stage.height];
@@ -185,9 +185,9 @@ def mouse(browser, *steps, **more):
 def check_quiet(browser, checks):
     checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
     checks.expect(browser.requests() == [], f"the page asked for {browser.requests()}")
-    checks.expect(browser.run("window.taken") is None, "a name was run as a program")
-    checks.expect(browser.run("document.querySelectorAll('main b:not(#marks b), h1 b').length") == 0, "a name is markup")
-    checks.expect(browser.run("document.title") == NAME, "the title")
+    checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
+    checks.expect(browser.run("document.querySelectorAll('main b:not(#marks b), h1 b').length") == 0, "a name has become markup")
+    checks.expect(browser.run("document.title") == NAME, "the title is not the given name")
 
 
 def check_layout(browser, checks):
@@ -212,7 +212,7 @@ def check_time(browser, checks):
     checks.expect(browser.run("now") > 0.5 and browser.run(INK) != before, "a step to the right")
     key(browser, "Home")
     wait(browser)
-    checks.expect(browser.run("now === first"), "Home")
+    checks.expect(browser.run("now === first"), "Home does not show the first frame")
     key(browser, " ")
     time.sleep(0.6)
     checks.expect(browser.run("playing && now > first"), "the space bar does not play")
@@ -268,7 +268,7 @@ def check_view(browser, spatial, checks):
         checks.expect(after[:9] == before[:9] and after[9] > before[9], "Shift does not move the picture")
     key(browser, "0")
     wait(browser)
-    checks.expect(abs(browser.run("view.shift[0]")) < 1e-9, "0 does not fit")
+    checks.expect(abs(browser.run("view.shift[0]")) < 1e-9, "the key 0 does not reset the view")
     for name in ("n", "c", "r", "t"):
         before = browser.run(INK)
         key(browser, name)

@@ -93,7 +93,7 @@ def contrast(a, b):
 def check_quiet(browser, checks):
     checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
     checks.expect(browser.requests() == [], f"the page asked for {browser.requests()}")
-    checks.expect(browser.run("window.taken") is None, "a name was run as a program")
+    checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
     checks.expect(browser.run("document.title") == TITLE, "the title is not what was given")
     checks.expect(count(browser, "main b, main img, header img") == 0, "a name has become markup")
 
@@ -178,7 +178,7 @@ def check_advice(browser, checks):
     rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"
                        " [row.querySelector('summary').textContent,"
                        "  ...Array.from(row.querySelectorAll('[data-v]'), cell => cell.dataset.v)])")
-    checks.expect({row[0] for row in rows} == set(why), "recommended settings")
+    checks.expect({row[0] for row in rows} == set(why), "the recommended settings are not those of the report")
     for name, *figures in rows:
         said = re.search(r"error (\S+) for a work of (\S+) and (\S+) ms", why[name]).groups()
         for got, wanted, factor in zip(figures, said, (1, 1, 1e3)):
@@ -255,12 +255,12 @@ def check_table(browser, study, checks):
     button = f"#rows thead th:nth-child({column + 1}) button"
     expected = [entry.error for entry in study.entries if entry.state == "done"]
     before = cells(browser, column)
-    checks.expect(len(before) == len(study) and not is_sorted(before, False), "the order of adding")
+    checks.expect(len(before) == len(study) and not is_sorted(before, False), "the entries are not in the order in which they were added")
     for presses, reverse, word in ((1, False, "ascending"), (2, True, "descending")):
         browser.click(button)
         values = cells(browser, column)
         checks.expect(is_sorted(values, reverse), f"error is not {word} after {presses} presses")
-        checks.expect(sum(v is not None for v in values) == len(expected), "errors in the table")
+        checks.expect(sum(v is not None for v in values) == len(expected), "the number of errors in the table is wrong")
         sort = browser.run(f"document.querySelector('{button}').parentNode.ariaSort")
         checks.expect(sort == word, f"aria-sort is {sort}, not {word}")
     browser.run(f"document.querySelector('{button}').focus()")
@@ -291,9 +291,9 @@ def check_filters(browser, study, checks):
     )
     checks.expect(shown == 0, f"{shown} lines of euler are shown without it")
     others = sum(entry.integrator != "euler" for entry in study.entries)
-    checks.expect(len(cells(browser, 2)) == others, "entries without euler")
+    checks.expect(len(cells(browser, 2)) == others, "the number of entries without euler is wrong")
     browser.click("#integrators input")
-    checks.expect(len(cells(browser, 2)) == len(study), "all entries again")
+    checks.expect(len(cells(browser, 2)) == len(study), "not all entries are shown again")
     browser.click("#all")
     hidden = browser.run("Array.from(document.querySelectorAll('#rows th, #rows td'))"
                          ".filter(cell => getComputedStyle(cell).display === 'none').length")
@@ -359,8 +359,8 @@ def check_sabotage(browser, page, study, checks):
             for _ in check_everywhere(browser, broken, study, found):
                 pass
         except (RuntimeError, ValueError):  # something that the checks need is missing
-            found.wrong.append("no page")
-        checks.expect(found.wrong, f"nobody notices {other!r}")
+            found.wrong.append("the page lacks what the checks need")
+        checks.expect(found.wrong, f"no check notices {other!r}")
         print(f"noticed: {found.wrong[0] if found.wrong else 'nothing'}"[:150])
 
 

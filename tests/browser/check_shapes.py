@@ -27,7 +27,8 @@ from chromium import Chromium
 REFERENCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "references")
 WIDTH, HEIGHT, COLUMNS = 320, 240, 6  # [px] size of a picture, and number of pictures in a row
 SCALE = 2  # pictures are drawn larger by this factor
-# [shades] for the mean over 3 x 3 pixels; with the same Chromium, there is no difference
+# [shades] largest allowed difference, as a mean over 3 x 3 pixels. Two runs of the same Chromium
+# do not differ.
 TOLERANCE = 0.6
 SCENES = {"plane": scenes.PLANE, "space": scenes.SPACE}
 PAGES = ("plane", "space")  # the pages for which there are references
@@ -143,7 +144,7 @@ def page_image(browser, folder, name, m, wrong):
     browser.open(path + "#t=0")
     found = browser.run(GAPS)
     if found and (found[0] or not found[1]):
-        print(f"wrong: {name}: {found[0]} gaps are open at the start, {found[1]} after it has been moved")
+        print(f"wrong: {name}: {found[0]} gaps are open at the start, {found[1]} after the bodies have been moved")
         wrong.append(name)
     browser.run(f"stage.style.width = '{SCALE * WIDTH}px', stage.style.height = '{SCALE * HEIGHT}px',"
                 " stage.style.border = 0, window.dispatchEvent(new Event('resize'))")
@@ -194,7 +195,7 @@ def check_sheet(title, pictures, folder):
 
 def check_kinds():
     """Check that there is a scene for each kind of element. User coordinates are excluded, because
-    they have no place."""
+    they have no position that could be drawn."""
     used = {e.kind.name for kinds in SCENES.values() for name in kinds for e in scenes.build(kinds, name)}
     missing = sorted(set(KINDS) - used - {"coordinates"})
     for name in missing:
@@ -209,7 +210,7 @@ def check_sensitivity(browser, folder, svgs, sheets):
         images = [svg_image(text[: text.rindex("<g>")] + "</svg>") for text in texts.values()]
         for (name, whole), less in zip(sheets[f"{group}_svg"].items(), read_images(browser, folder, images)):
             if difference(whole, less) <= TOLERANCE:
-                print(f"wrong: {group}: nobody would notice that {name} lacks its last shape")
+                print(f"wrong: {group}: the picture of {name} is the same without its last shape")
                 wrong.append(name)
     return wrong
 

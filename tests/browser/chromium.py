@@ -129,9 +129,9 @@ class Chromium:
             file.write(base64.b64decode(answer["data"]))
 
     def complaints(self):
-        """Return console messages, exceptions, and reports of blocked content. Copying pictures
-        takes time with the software that replaces a graphics card. The report about this is
-        omitted."""
+        """Return console messages, exceptions, and reports of blocked content. One report is
+        omitted. It says that copying pictures is slow, because software replaces a graphics
+        card."""
         out = []
         for event in self.events:
             details = event["params"]

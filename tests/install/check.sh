@@ -56,7 +56,7 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
-# link OUT ARGUMENT... links a program that uses every backend with the static libraries.
+# link OUT ARGUMENT... links every_backend.c with the static libraries and runs it.
 link() {
   out=$1
   shift
@@ -66,19 +66,19 @@ link() {
   "$out"
 }
 
-echo "every backend on archives of baum"
+echo "every backend, with the static libraries of baum"
 link "$build/every_backend"
 if readelf -d "$build/every_backend" | grep 'NEEDED.*libbaum'; then
   fail "the static program loads the shared library"
 fi
 
 case $(pkg-config --static --libs baum) in
-  *-lmpi*) echo "every backend on archives alone: skipped, the archives of MPI need more than they name" ;;
-  *) echo "every backend on archives alone"; link "$build/all_static" -static ;;
+  *-lmpi*) echo "every backend, with static libraries only: skipped, MPI needs libraries that it does not name" ;;
+  *) echo "every backend, with static libraries only"; link "$build/all_static" -static ;;
 esac
 
-# Makes a program of the C blocks in the first chapter. Functions are copied unchanged, and
-# statements become the body of main.
+# Makes a program of the C blocks in the first chapter of docs/tutorial.md. Functions are copied
+# unchanged, and statements become the body of main.
 echo "the tutorial's program, as it is printed"
 awk -v main="$build/main" '
   /^## / { chapter++ }
@@ -98,7 +98,7 @@ awk -v main="$build/main" '
 "$cc" -std=c11 "$build/tutorial.c" -o "$build/tutorial" $(pkg-config --cflags --libs baum)
 LD_LIBRARY_PATH=$libraries "$build/tutorial"
 
-echo "every example, on what is installed"
+echo "every example, with the installed libraries"
 for example in "$project"/examples/*.c; do
   # shellcheck disable=SC2046
   "$cc" -std=c11 "$example" -o "$build/example" $(pkg-config --cflags --libs baum_catalog) -lm

@@ -1,12 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: readme.sh
-# As root on a bare Debian, in the top folder of the project: runs the commands of README.md and docs/install.md, word by
-# word and in this order: the C library in /usr/local and in the home directory, Python from the sources, Debian packages.
+# Must be run as root on a bare Debian, in the top folder of the project. Runs the commands for installing in README.md
+# and docs/install.md exactly as they are printed there. They install the C library in /usr/local and then in the home
+# directory, Python from the sources, and the Debian packages, in this order.
 set -eu
 . tests/install/documented.sh
 
-# The first program in C of the README, and what it prints.
+# The first programs of the README in C and in Python, and what the program in C prints.
 first_block README.md c >program.c
 first_block README.md text >expected.txt
 first_block README.md python >program.py

@@ -298,7 +298,7 @@ static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;
   matrix product;
-  /* Each maps changes at an earlier sample to changes at the present one. */
+  /* Each matrix maps changes at an earlier sample to changes at the present one. */
   matrix from[JUDGE_SEGMENTS];
   ref->growth = 1.0;
   ref->growth_end = 1.0;

@@ -19,7 +19,7 @@ extern int baum_check_headers;"
   for compiler in "$cc -x c -std=c11 -Wstrict-prototypes" "$cxx -x c++ -std=c++17"; do
     # shellcheck disable=SC2086
     if ! echo "$unit" | $compiler $strict -I"$include" -; then
-      echo "$name: not by itself with $compiler"
+      echo "$name: does not compile alone with $compiler"
       failures=$((failures + 1))
     fi
   done

@@ -78,6 +78,6 @@ find src include -name '*.[ch]' | sort | xargs awk '
   }
 
   END {
-    printf "%d includes read, %d against the order of layers\n", includes, failures
+    printf "%d includes read, %d violate the order of layers\n", includes, failures
     exit failures > 0 || includes == 0
   }'

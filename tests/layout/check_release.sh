@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_release.sh PROJECT
-# `sh tests/release.sh --check` accepts a tree that is ready for a release and refuses others: in a repository of its own,
-# with a version after that of the project. Exit status 77, skipped: there is no git.
+# Checks that `sh tests/release.sh --check` accepts a tree that is ready for a release, and refuses other trees. The
+# test makes its own repository from a copy of the project, with a later version than that of the project. If there is
+# no git, the test is skipped (exit status 77).
 set -eu
 command -v git >/dev/null || exit 77
 folder=$(mktemp -d)
@@ -11,7 +12,7 @@ tar -C "$1" -cf - CMakeLists.txt README.md docs/changelog.md docs/install.md inc
   tests/release.sh tests/setup.sh tests/layout | tar -C "$folder" -xf -
 cd "$folder"
 
-# Nothing of the user's settings and of a repository around this one.
+# The user's settings of git, and a repository that contains this folder, must have no effect.
 unset GIT_DIR GIT_WORK_TREE GIT_INDEX_FILE
 export GIT_CONFIG_GLOBAL=/dev/null GIT_CONFIG_NOSYSTEM=1 PYTHONDONTWRITEBYTECODE=1
 export GIT_AUTHOR_NAME=t GIT_AUTHOR_EMAIL=t@t.invalid GIT_COMMITTER_NAME=t GIT_COMMITTER_EMAIL=t@t.invalid
@@ -22,7 +23,7 @@ commit() {
   git add -A && git commit -q -m "$1"
 }
 
-# set_version MAJOR MINOR PATCH SOVERSION [DATE]: in all places that a release changes.
+# set_version MAJOR MINOR PATCH SOVERSION [DATE] writes the version in all places that a release changes.
 set_version() {
   sed -i -e "s/\(BAUM_VERSION_MAJOR\) *[0-9]*/\1 $1/" -e "s/\(BAUM_VERSION_MINOR\) *[0-9]*/\1 $2/" \
     -e "s/\(BAUM_VERSION_PATCH\) *[0-9]*/\1 $3/" -e "s/\(BAUM_VERSION \) *\"[^\"]*\"/\1 \"$1.$2.$3\"/" include/baum/version.h
@@ -39,7 +40,7 @@ accepted() {
   sh tests/release.sh --check >said || { echo "refused: $1"; cat said; exit 1; }
 }
 
-# refused WHY WHAT: only the check WHAT fails.
+# refused WHY WHAT checks that the tree is refused, and that WHAT is the only check that fails. WHY is printed.
 refused() {
   if sh tests/release.sh --check >said; then
     echo "accepted: $1"

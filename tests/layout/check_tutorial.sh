@@ -40,7 +40,7 @@ check() {
     for file in "$3"/*; do
       if holds "$file" "$block"; then held=$file; fi
     done
-    [ -n "$held" ] || fail "$1, the block after line $(basename "$block"): not so in any of $(basename "$3")"
+    [ -n "$held" ] || fail "$1, the block after line $(basename "$block"): no file in $(basename "$3") contains it"
     count=$((count + 1))
   done
   echo "$1: $count blocks of $2"

@@ -1,15 +1,16 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_version.sh VERSION SOVERSION PROJECT
-# include/baum/version.h is the only place of the version: the build and generate_abi.py read it, the Python package has
-# that of _abi.py, and the documents name no other. The Python package looks for the library by its soname.
+# Checks that the version is the same everywhere. It is defined in include/baum/version.h. The build and generate_abi.py
+# read it there. The Python package takes it from _abi.py, and the documents must not name another version. The Python
+# package finds the library by its soname, which must also agree.
 set -eu
 version=$1
 soversion=$2
 cd "$3"
 failures=0
 
-# same WHAT FOUND WANTED
+# same WHAT FOUND WANTED reports WHAT if FOUND differs from WANTED.
 same() {
   [ "$2" = "$3" ] && return
   echo "$1 has $2, must have $3"

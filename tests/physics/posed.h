@@ -28,7 +28,7 @@ typedef struct posed {
   double *want_lambda;
 } posed;
 
-/* Becomes the owner of a new model, and sets its state to the design configuration. */
+/* Takes ownership of a new model, and sets the state to the design configuration. */
 static inline posed pose_model(baum_status built, model m)
 {
   check(built);

@@ -7,9 +7,10 @@
  * in parallel. Include after cmocka.h.
  *
  * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / beta^2
- * h^2) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the length scale.
- * If h omega = 1e-5, the steady violation is 1e-10 of the length scale. In the corner of the grid
- * it is 20 times as large. For methods of higher order it is smaller.
+ * h^2) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the characteristic
+ * length. If h omega = 1e-5, the steady violation is 1e-10 of the characteristic length. In the
+ * corner of the grid where alpha h is largest and beta^2 h^2 is smallest, it is about 20 times as
+ * large. For methods of higher order it is smaller.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H
@@ -20,15 +21,17 @@
 
 enum { CELLS = 44, STEPS = 3000, CALM = 32, OUTLINE = 2000 };
 
-static const double OFF = 1e-6; /* initial error, as a fraction of the length scale, or in rad */
+/* initial error, as a fraction of the characteristic length, or in rad */
+static const double OFF = 1e-6;
 /* A violation is considered to have grown if it is this many times the initial one. It is then 1e-3
- * of the scale, where the equations are no longer linear. */
+ * of the characteristic length. Much larger violations would no longer follow the linear
+ * equations. */
 static const double GROWN = 1e3;
-/* A violation is considered to have decayed if it is below this fraction of the initial one. If
- * Phi' = 0 at the start, a mode of a one-step method initially has the fraction
- * (1 - z1) / (z2 - z1) of the violation. Here this is at least 1/100, so that no growing mode is
- * overlooked. A multistep method has further modes, which may be smaller. For this reason its runs
- * never end early as decayed. */
+/* A violation is considered to have decayed if it is below this fraction of the initial one. A
+ * one-step method has two modes, whose factors per step are z1 and z2. If Phi' = 0 at the start, a
+ * mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. Here this is at least
+ * 1/100, so that no growing mode is overlooked. A multistep method has further modes, which may be
+ * smaller. For this reason its runs never end early as decayed. */
 static const double DECAYED = 1e-3;
 
 /* Size of the grid divided by the size of the region. */
@@ -55,8 +58,8 @@ static inline void violate(const watched_run *watched, const baum_mechanism *mec
   check(baum_simulation_set_state(watched->run, 0.0, q, v));
 }
 
-/* Starts a run in the violated state. `consistent` is an assembled run, which is created only
- * once. */
+/* Starts a run whose initial state violates all constraints. `consistent` is an assembled run that
+ * provides the consistent state. It is created only once. */
 static inline watched_run start(const model *m, const watched_run *consistent,
                                 const baum_integrator *integrator, double step, baum_gains gains)
 {
@@ -87,7 +90,8 @@ static inline watched_run start_consistent(const model *m)
 
 /* Tells whether the largest violation in the last quarter of the run is below that in the first
  * quarter. A run ends early if its violation has grown. It also ends early if the violation stays
- * decayed for CALM steps, because with fewer steps it could just be passing through zero. */
+ * below DECAYED for CALM steps. Fewer steps would not suffice, because the violation could just be
+ * passing through zero. */
 static inline bool watch_decay(const watched_run *watched, bool one_step)
 {
   double phi[PHYSICS_NC];
@@ -187,7 +191,7 @@ static inline void count(tally *t, const window *w, int i, int j, bool observed)
   t->differ_at_boundary += observed != predicted && boundary;
   if (observed != predicted && !boundary) {
     t->differ_elsewhere++;
-    printf("astray: alpha h %.4f, beta^2 h^2 %.4f: predicted %d, observed %d\n", alpha_at(w, i),
+    printf("mismatch: alpha h %.4f, beta^2 h^2 %.4f: predicted %d, observed %d\n", alpha_at(w, i),
            beta2_at(w, j), predicted, observed);
   }
 }

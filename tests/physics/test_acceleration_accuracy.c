@@ -13,8 +13,8 @@
 
 static const double PI = 3.14159265358979324;
 
-/* This is about ten times the rounding error after refinement. Condition numbers of a few hundred
- * amplify rounding errors. */
+/* The limit for ordinary configurations. It is about ten times the error that remains after
+ * refinement. Condition numbers of a few hundred amplify rounding errors. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
@@ -149,8 +149,8 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* The equation of motion in the crank angle, the only degree of freedom, gives an acceleration. The
- * oracle must find the same acceleration. */
+/* The mechanism has one degree of freedom, the crank angle. Its equation of motion gives the
+ * acceleration of this angle. The oracle must find the same acceleration. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;
@@ -199,7 +199,7 @@ static void ordinary_configurations_keep_twelve_digits(void **state)
   enum { POSES = 5 };
   table t = {0};
   uint64_t seed = 1;
-  print_head("random poses, the worst of 5");
+  print_head("random configurations, the worst of 5");
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     errors worst = {0};
     for (int i = 0; i < POSES; i++) {

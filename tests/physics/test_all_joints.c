@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a mechanism with every kind of joint (support/joint_scenes.c). It is run for half a second
- * with large motions, with every integrator of this build and all its formulations. The test also
- * checks reactions. They must satisfy the equations of motion of every body, and they must do no
- * work. */
+/* Runs one mechanism for each kind of joint (support/joint_scenes.c). Each mechanism is run for
+ * half a second with large motions, with every integrator of this build and all its formulations.
+ * The test also checks reactions. They must satisfy the equations of motion of every body, and they
+ * must do no work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -101,17 +101,18 @@ typedef struct method {
 /* Returns the limit of the error, of the violation and of the relative change of energy. The limits
  * are listed by order, and the first one is for variable steps. Each limit is at least three times
  * the largest measured value. For order 1 this measured value is 3e-2, after 500 steps of a double
- * pendulum. With every order it falls by a factor of about 200, until it reaches the error of the
- * reference. */
+ * pendulum. The measured value falls by a factor of about 200 from each order to the next, until it
+ * reaches the error of the reference. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {5e-5, 1.5e-1, 4e-4, 3e-6, 3e-8, 3e-10, 3e-11, 3e-11, 3e-11};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 3e-3; /* IDA controls only the error of y, which is less accurate at index 3. */
+    return 3e-3; /* IDA is less accurate at index 3, where its error test omits velocities. */
   }
   /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
    * constants of Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use
-   * derivatives from before a knot of a spline driver after this knot. */
+   * derivatives of earlier steps. After a knot of a spline driver, some of these derivatives come
+   * from before the knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
@@ -174,7 +175,8 @@ static void every_method_carries_every_joint(void **state)
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
     outcome reference = find_reference(&joint_scenes[k]);
-    /* These are at least two Euler and three Runge-Kutta methods, each with three formulations. */
+    /* Every build has at least two Euler and three Runge-Kutta methods, each with three
+     * formulations. */
     assert_true(try_methods(&joint_scenes[k], &reference) >= 15);
   }
 }

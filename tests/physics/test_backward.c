@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs the free and the driven slider-crank forward and then backward in time. The runs use
  * stabilization, or IDA at higher index. Violations must not grow in either direction. After the
- * way back, the error at the start must be comparable with the error at the far end. */
+ * backward run, the error at the start must be comparable with the error at the far end. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -26,13 +26,13 @@ static const double MOST_VIOLATION = 4.0;
  * acts for twice the time, and 1 from the backward run. The limit is larger, because the error at
  * the far end may be small by chance. */
 static const double MOST_ERROR = 20.0;
-/* Rounding errors of about 1e4 steps. The driven crank needs this term, because its positions are a
- * function of time alone and have no other errors. */
+/* Allows for the rounding errors of about 1e4 steps. The driven crank needs this term, because its
+ * positions are a function of time alone and have no other errors. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s], or NaN; the sample times of tests/data are multiples of the step */
+  double step; /* [s], or NaN for variable steps; sample times of tests/data are multiples of it */
   double rtol;
   baum_formulation formulation;
 } method;

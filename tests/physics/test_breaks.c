@@ -23,10 +23,8 @@ enum { BREAKS = 3 };
 /* The first time is a multiple of STEP, and the other two are not. The last two are less than a
  * step apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
-static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0,
-                                          /* [N m]; the moment of inertia about the pin is 1 kg
-                                           * m^2. */
-                                          1.0};
+/* [N m]; the moment of inertia about the pin is 1 kg m^2. */
+static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
 
@@ -118,11 +116,11 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Returns the largest allowed error. For variable steps, it is ten times rtol. The angular
- * velocities are up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
- * generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the first step
- * after a break has a lower order. For all other methods, it is the rounding error of about 200
- * steps. */
+/* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
+ * largest angular velocity of 6 rad/s. For Euler methods, it is the error (h/2) |torque| t of the
+ * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
+ * first step after a break has a lower order. For all other methods, it is the rounding error of
+ * about 200 steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -176,7 +174,7 @@ static void breaks_are_met_forward_and_backward(void **state)
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      /* Rounding error of t. */
+      /* The limit is the rounding error of t. */
       ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP);
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }

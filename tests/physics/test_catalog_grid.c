@@ -11,7 +11,7 @@
 
 #include "catalog_grid.h"
 
-/* [s] time limit of a run; only in slow builds do runs come near it. */
+/* [s] Time limit of a run. Runs come near this limit only in slow builds. */
 static const double LIMIT = 5.0;
 
 static void judge(const char *name, const baum_integrator *integrator, catalog_tally *sum)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* With variable steps, the residual of the energy account must be below 100 rtol. With fixed steps,
  * it must have the order of the method. The test covers all mechanisms of account_scenes.h with
- * every formulation. The residual of a run is the largest one at 8 times. It is relative to the
- * largest energy or work. */
+ * every formulation. The residual of a run is the largest of the residuals at 8 times. It is
+ * divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -70,8 +70,9 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* If terms of higher order dominate, a measured slope may be larger than the order. If such terms
- * have the opposite sign, it may be smaller than the order by at most this. */
+/* How far a measured slope may be below the order. It is smaller than the order if error terms of
+ * higher order have the opposite sign. It may also be larger than the order, if such terms
+ * dominate. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -90,13 +91,14 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   double slope = log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  /* If the residual is below 1e-12, it is the rounding error of a sum of several thousand works. */
+  /* If the residual is below 1e-12, it is only the rounding error of summing the works of several
+   * thousand steps. */
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
 /* Tells whether the order of a method can be observed in a scene. This is impossible at index 3 if
- * the start violates the constraints, because the first step jumps onto them. RATTLE supports
- * neither dampers nor M(q). */
+ * the start violates the constraints, because the first step moves the state onto the constraints.
+ * RATTLE supports neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -114,7 +116,7 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
                                             baum_rk8(),    baum_ab2(),
                                             baum_ab3(),    baum_ab4(),
                                             baum_rattle(), baum_generalized_alpha()};
-  printf("\nresiduals at steps that are halved, their mean slope\n");
+  printf("\nresiduals with steps that are halved each time, mean slope\n");
   for (int s = 0; s < ACCOUNT_SCENES; s++) {
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
       for (int f = 0; f < FORMULATION_COUNT; f++) {
@@ -189,8 +191,8 @@ static void residuals_of_sundials_fall_with_the_tolerance(void **state)
 
 /* ---- what causes the residual ---- */
 
-/* A motion at TIMES times, and its largest errors. They are the error of q, if an exact motion is
- * given, and the errors of the account. */
+/* A computed motion at TIMES times, with the largest error of q and the largest errors of the
+ * energy account. The error of q is known only if an exact motion is given. */
 typedef struct motion {
   double q[TIMES][WIDTH];
   double error;    /* largest error of q, in m or rad; links are 1 m long */
@@ -225,7 +227,7 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   return out;
 }
 
-/* If almost no work is done, the residual is the change of T + V and contains no errors of summed
+/* If almost no work is done, the residual is the change of T + V and contains no errors of computed
  * works. It must then be comparable with the error of the motion. Both are caused by the
  * integrator. This shows that the residuals of BDF and IDA at tight tolerances come from the
  * integrators, and not from the account. */

@@ -82,8 +82,9 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* This is ten times rtol per radian, at about 2.8 rad/s. The error grows with time, because the
-     * computed period is slightly wrong. */
+    /* The limit is 10 rtol seconds for each second of the motion. At about 2.8 rad/s, this is an
+     * error of the angle of 28 rtol. The error grows with time, because the computed period is
+     * slightly wrong. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
   /* The allowed errors are twice those that were measured over 12 s at h = 1e-3 s. These were
@@ -129,8 +130,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* This is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding error of
-     * positions. */
+    /* The limit is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding
+     * error of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -407,9 +408,10 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* Makes a run of a swing from a random angle, by random calls. Events are at the lowest point and
- * at the points of rest. Those at the lowest point may be terminal. Returns the number of wrong
- * events. *worst is raised to the largest relative error of an event's time. */
+/* Runs a pendulum that starts at a random angle, and advances the run by random calls. Events are
+ * at the lowest point and at the points of rest. The event at the lowest point may be terminal.
+ * Returns the number of wrong events. If the relative error of an event's time is larger than
+ * *worst, sets *worst to this error. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests a chain of 100000 links: how much time and memory its setup takes, and whether every link
- * satisfies Newton's and Euler's equations. Builds with instrumentation, such as sanitizers, use a
- * shorter chain and do not test memory. */
+/* Tests a chain of 100000 links. The test checks how much time and memory the setup takes, and
+ * whether every link satisfies Newton's and Euler's equations. Builds with instrumentation, such as
+ * sanitizers, use a shorter chain and do not test memory. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -139,9 +139,10 @@ static void degrees_of_freedom_are_counted(void **state)
 /* ---- mechanics ---- */
 
 /* Each link must satisfy Newton's and Euler's equations. The pin at the start of link k carries
- * this link and all links after it. Its force is F_k = sum of m (a_j - g) over j >= k. Then J
- * alpha_k = -p x F_k - p x F_(k+1), where p is the vector from the centre of the link to its end.
- * The ends of adjacent links must have the same acceleration. */
+ * this link and all links after it. Its force is F_k = sum of m (a_j - g) over j >= k. With the
+ * moment of inertia J of a link, Euler's equation is J alpha_k = -p x F_k - p x F_(k+1), where p is
+ * the vector from the centre of the link to its end. The ends of adjacent links must have the same
+ * acceleration. */
 typedef struct worst {
   double force;
   double moment; /* [N m] largest residual */
@@ -200,7 +201,7 @@ static void every_link_obeys_newton_and_euler(void **state)
   model m = build_chain();
   double *a = solve(&m);
   worst off = compare_links(a);
-  printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
+  printf("forces up to %.3g N; largest errors: moments %.1e N m, ends %.1e m/s^2\n", off.force,
          off.moment, off.gap);
   /* F_k is a sum of up to 1e5 terms. The rounding error of each term is 1e-16 of it. */
   assert_true(off.moment <= 1e-11 * off.force);

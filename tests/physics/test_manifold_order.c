@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the order of every fixed-step integrator if positions are on a manifold. The step is halved
- * repeatedly, for a slider-crank of turned bodies and for a heavy top, and the errors are compared.
- * The gains are chosen by the rule `auto`. They are the same for all these steps. */
+/* Tests the order of every fixed-step integrator for mechanisms whose positions are on a manifold.
+ * The step is halved repeatedly, for a heavy top, and for a slider-crank whose bodies represent
+ * their angle by (cos, sin), and the errors are compared. The gains are chosen by the rule `auto`.
+ * They are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -109,7 +109,7 @@ static double allowed(const method *with)
 {
   static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
   if (with->formulation == BAUM_FORMULATION_INDEX3) {
-    return 1e-2; /* IDA controls only the error of y, which is less accurate at index 3. */
+    return 1e-2; /* IDA is less accurate at index 3, where its error test omits velocities. */
   }
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
@@ -176,7 +176,8 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
 
 /* If angles are represented by (cos, sin), move() is exact. A method that changes q only by move()
  * must therefore take the same steps as with the twin. For quaternions, the Euler methods add h q'
- * instead. In this case only the first two methods are tested. */
+ * instead of calling move(). In scenes with quaternions, only RATTLE and generalized-alpha are
+ * therefore tested. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
@@ -221,8 +222,8 @@ static double estimate_of(const baum_mechanism *mechanism)
   return counters.error_estimate;
 }
 
-/* Error estimates are displacements, which are angles in rad here. They are not differences of q.
- * They must therefore be the same as the velocities of the twin. */
+/* The error estimate measures displacements along the manifold, which are angles in rad here. It
+ * does not measure differences of q. It must therefore equal the error estimate of the twin. */
 static void errors_are_displacements(void **state)
 {
   (void)state;
@@ -282,7 +283,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   advance(other, scene, with, 0.2);
   expect("a restored run", apart(baum_simulation_q(run), baum_simulation_q(other), nq), 0.0, scene,
          with);
-  /* Setting the saved state must also restore it. */
+  /* A state that was read from the run earlier can be set again. */
   double q[SIZE];
   double v[SIZE];
   int32_t nv;
@@ -293,7 +294,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   memcpy(v, baum_simulation_v(run), (size_t)nv * sizeof *v);
   advance(run, scene, with, 0.25);
   check(baum_simulation_set_state(run, 0.2, q, v));
-  expect("a state put back", apart(baum_simulation_q(run), q, nq), 1e-15, scene, with);
+  expect("a state that is set again", apart(baum_simulation_q(run), q, nq), 1e-15, scene, with);
   free(saved);
   baum_simulation_destroy(run);
   baum_simulation_destroy(other);
@@ -347,7 +348,8 @@ static void try_event(const manifold_scene *scene, const method *with, const voi
   baum_simulation *run = start(scene, with, &nq);
   double t = find_event(run, &value);
   expect("the time of the event", fabs(t - want->t), allowed(with), scene, with);
-  expect("what passes zero", fabs(baum_simulation_q(run)[0] - value), 1e-12, scene, with);
+  expect("the value of the event function", fabs(baum_simulation_q(run)[0] - value), 1e-12, scene,
+         with);
   expect("the distance from the manifold", off_manifold(scene, baum_simulation_q(run)), 1e-15,
          scene, with);
   baum_simulation_destroy(run);
@@ -381,7 +383,8 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
 }
 
 /* The residual of the account is caused by the error of the method. It must be comparable with the
- * residual of the twin, because the other representation of q only changes the choice of steps. */
+ * residual of the twin, because a different representation of q only changes the choice of
+ * steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {
   (void)state;
@@ -430,7 +433,7 @@ static void kinematics_follows_the_driver(void **state)
     scene->solve(0.1 * k, want);
     assert_true(apart(baum_simulation_q(run), want, 12) <= 1e-13);
     assert_true(off_manifold(scene, baum_simulation_q(run)) <= 1e-15);
-    /* Computed by differences of Phi. */
+    /* The tolerance allows for errors of J and nu, which are computed by differences of Phi. */
     assert_true(fabs(baum_simulation_v(run)[2] - 4.0) <= 1e-12);
   }
   baum_simulation_destroy(run);

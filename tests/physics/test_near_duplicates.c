@@ -2,9 +2,9 @@
 /* A slider-crank has one joint too many. The additional pin, guide or rod is almost the same as
  * another joint. Its position or direction differs by 1e-14 to 1e-6. With every solver, a run must
  * either be refused, with a message that names a joint, or have the right accelerations. These are
- * computed in quadruple precision for the same M, J, g and gamma. The reference treats rows as one
- * if they are less than 1e-10 apart. If there are initial velocities, the reference first projects
- * them onto the rows. */
+ * computed in quadruple precision for the same M, J, g and gamma. The reference treats two rows as
+ * the same row if they differ by less than 1e-10. If there are initial velocities, the reference
+ * first projects them so that they satisfy the rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,12 +26,13 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE,  /* a pin whose two points are moved along the rod; it locks crank and rod */
-  PIN_APART,  /* a pin of which only one point is moved; it contradicts the crank pin */
-  FOOT_ASIDE, /* a pin at the foot whose two points are moved; it locks the crank */
+  PIN_ASIDE, /* a pin whose two points are moved along the rod; it locks crank and rod */
+  PIN_APART, /* a pin of which only one point is moved; it contradicts the crank pin */
+  /* a pin near the pin "foot" to ground, whose two points are moved; it locks the crank */
+  FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod along the rod, which is only compatible in this configuration */
+  ROD_ASIDE, /* a massless rod along the rod; it fits only in this configuration */
   ROD_LONGER,
   AGAIN_COUNT
 } again;
@@ -164,8 +165,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations, divided by the largest acceleration with or without
- * constraints. */
+/* Returns the error of the accelerations. It is divided by the largest acceleration that occurs,
+ * either with the constraints or without them. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -192,9 +193,10 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   return most / rows.size;
 }
 
-/* Returns the largest allowed error. In a moving mechanism, Phi' may be violated without a message
- * by up to OPEN of start.c. Accelerations depend on the square of velocities. The error of
- * accelerations may therefore be more than twice this violation. */
+/* Returns the largest allowed error. If a mechanism moves, the library tolerates a relative
+ * violation of Phi' of up to 1e-6 without a message (the constant OPEN in src/simulate/start.c).
+ * Accelerations depend on the squares of velocities. Their relative error may therefore be more
+ * than twice this violation. */
 static double allowed(double rate)
 {
   /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by an angle of 1e-10,
@@ -313,8 +315,9 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
   baum_mechanism_destroy(m);
 }
 
-/* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors such
- * as projection leaves. They must be accepted as rest, both with gravity and without. */
+/* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors of
+ * the size that a projection leaves. The library must treat them as rest, both with gravity and
+ * without. */
 static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
 {
   (void)state;

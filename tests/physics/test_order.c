@@ -143,7 +143,7 @@ static void compare_high_order(const high_ladder *ladder, const model *m,
 static void orders_5_and_8_are_kept(void **state)
 {
   (void)state;
-  printf("\nerrors at steps that are halved, their mean slope\n");
+  printf("\nerrors with steps that are halved each time, mean slope\n");
   for (size_t i = 0; i < sizeof HIGH / sizeof HIGH[0]; i++) {
     const baum_integrator *integrator = HIGH[i].order == 5 ? baum_dp5() : baum_rk8();
     model m = build_mechanism(HIGH[i].which);
@@ -163,7 +163,7 @@ static void compare_all(baum_formulation formulation)
                                                    baum_rk4(),    baum_ab2(),
                                                    baum_ab3(),    baum_ab4(),
                                                    baum_rattle(), baum_generalized_alpha()};
-  printf("\nerrors at steps that are halved, slopes between them, their mean\n");
+  printf("\nerrors with steps that are halved each time, slopes between them, mean slope\n");
   for (int i = 0; i < 3; i++) {
     model m = build_mechanism(mechanisms[i]);
     for (int k = 0; k < METHODS; k++) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks rotate freely, like the wheels of a locomotive. Their feet are not in line.
- * In every configuration, one row is redundant. Whichever row is omitted, the other rows are
- * singular in some configurations. The choice of the omitted row must therefore change during the
- * motion. With every integrator and formulation, the cranks must move like a pendulum of the same
- * inertia. No singular configuration may be reported. */
+/* Three parallel cranks rotate freely, like the wheels of a locomotive. Their pins to ground are
+ * not on one line. In every configuration, one row is redundant. Whichever row is omitted, the
+ * other rows are singular in some configurations. The choice of the omitted row must therefore
+ * change during the motion. With every integrator and formulation, the cranks must move like a
+ * pendulum of the same inertia. No singular configuration may be reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -83,8 +83,8 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
  * judged. Other fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and
- * rounding errors. With variable steps, BDF and IDA restart whenever the rows change, and have
- * errors of 1e4 rtol. Other methods have errors of 10 rtol. */
+ * rounding errors. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the rows
+ * change, and have errors of about 1e4 rtol. The errors of other methods are about 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);

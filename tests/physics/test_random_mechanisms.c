@@ -20,12 +20,14 @@
  * thousand. They are ill-conditioned, and lose several digits. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
-/* Rounding errors of Phi, Phi' and gamma. These are sums of about twelve terms, which are about
- * 10. */
+/* Rounding errors of Phi, Phi' and gamma. Each of these is a sum of about twelve terms with values
+ * of about 10. */
 static const double ROUNDING = 1e-11;
 
-/* These kinds of mechanisms include every structure. The last two have a hub, which is a body that
- * has most of the joints. The block solver can handle the smaller hub, but not the larger one. */
+/* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
+ * coordinates, in structures without joints, without loops, and with many loops. The last two kinds
+ * have a hub, which is a body that has most of the joints. The block solver can handle the smaller
+ * hub, but not the larger one. */
 static const random_kind kinds[] = {
   {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
   {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},
@@ -208,8 +210,8 @@ static void blocks_agree_with_the_whole_system(void **state)
     }
   }
   /* For many random structures projection is impossible, because they cannot move. */
-  print_message("%d poses, %d singular, %d projections, %d mechanisms by blocks\n", p->solved,
-                p->singular, p->projected, p->by_blocks);
+  print_message("%d configurations, %d singular, %d projections, %d mechanisms by blocks\n",
+                p->solved, p->singular, p->projected, p->by_blocks);
   assert_true(p->solved > 2 * p->singular);
   assert_true(p->projected > 100);
   assert_true(p->by_blocks > 200);
@@ -217,7 +219,7 @@ static void blocks_agree_with_the_whole_system(void **state)
 
 /* ---- after a failure ---- */
 
-/* Makes one call of the first user constraint set NaN. This is the call whose number is `call`. */
+/* Arranges that call number `call` of the first user constraint returns NaN. */
 static void spoil(pair *p, int call)
 {
   random_rows *rows = &p->random->rows[0];
@@ -302,7 +304,8 @@ static baum_mechanism *make_light(double mass)
 }
 
 /* Without the weld, the acceleration of the light body would be 5 N / mass. The weld cancels almost
- * all of this acceleration. No digits may be lost by this. */
+ * all of this acceleration. This cancellation must not cost digits if the masses differ by more
+ * than a factor of 1e3. */
 static void loaded_light_bodies_keep_all_digits(void **state)
 {
   (void)state;
@@ -315,8 +318,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
     assert_non_null(w->path);
     assert_true(quad_acceleration(w, 0.0, m->design_q, v, NULL, a, lambda));
     assert_int_equal(baum_i_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0), BAUM_OK);
-    /* The solver notices lost digits only if the masses differ by more than a factor of 1e3. Below
-     * this, three digits may be lost. */
+    /* The solver notices lost digits only if the masses differ by more than a factor of 1e3. If
+     * they differ by less, up to three digits may be lost. */
     assert_true(quad_error(6, w->a, a) <= (mass > 0.5e-3 ? 1e-11 : 1e-14));
     assert_true(quad_error(5, w->lambda, lambda) <= 1e-14);
     baum_workspace_destroy(w);
@@ -326,8 +329,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* ---- random kinds ---- */
 
-/* Also compares configurations by random_judge(). bench_random tests more mechanisms in the same
- * way. */
+/* Lets random_judge() compare the accelerations of random mechanisms with quadruple precision.
+ * bench_random tests more mechanisms in the same way. */
 static void accelerations_are_met_or_rightly_refused(void **state)
 {
   pair *p = *state;
@@ -336,13 +339,14 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   for (uint64_t seed = 0; seed < MECHANISMS; seed++) {
     random_judge(p->random, seed, &tally);
   }
-  /* In this mechanism, several rows are dependent, and the first ones among them are nearly
-   * dependent on each other. */
+  /* In the mechanism of seed 3070, several rows are dependent, and the first of these rows are
+   * nearly dependent on each other. */
   random_judge(p->random, 3070, &tally);
   assert_int_equal(tally.counts[RANDOM_WRONG], 0);
   assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
   assert_int_equal(tally.counts[RANDOM_CONFLICT], 0);
-  /* Up to three configurations of each mechanism. */
+  /* Up to three configurations of each mechanism are tested. On average, more than two of them must
+   * have accurate accelerations. */
   assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS);
   assert_true(tally.counts[RANDOM_REFUSED] > 0);
   assert_true(tally.dependent > MECHANISMS / 10);

@@ -19,7 +19,8 @@ static void accelerations_and_reactions_are_met(void **state)
     spatial_judge(&room, seed, &tally);
   }
   assert_int_equal(spatial_bad(&tally), 0);
-  /* Up to two configurations of each mechanism. */
+  /* Up to two configurations of each mechanism are tested. On average, more than one of them must
+   * have accurate results. */
   assert_true(tally.counts[SPATIAL_MET] > MECHANISMS);
   assert_true(tally.dependent > MECHANISMS / 10);
   assert_true(tally.reactions > MECHANISMS);

@@ -164,7 +164,7 @@ static void check_reversal(build_fn *build, int nq, int nv)
   check(baum_simulation_set_state(run, 0.0, q[1], v));
   check(baum_simulation_step(run, 500));
   double back = apart(baum_simulation_q(run), q[0], nq);
-  print_message("back at the start within %.2g\n", back);
+  print_message("distance from the start after going back: %.2g\n", back);
   assert_true(back <= 1e-11);
   baum_simulation_destroy(run);
 }
@@ -294,7 +294,7 @@ static void the_symplectic_form_is_kept(void **state)
   (void)state;
   double kept = form_error(baum_rattle());
   double lost = form_error(baum_rk2());
-  print_message("the form changes by %.2g, with rk2 by %.2g\n", kept, lost);
+  print_message("the symplectic form changes by %.2g, with rk2 by %.2g\n", kept, lost);
   assert_true(kept <= 1e-5);
   assert_true(lost > 1e-2);
 }

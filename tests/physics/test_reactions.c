@@ -117,16 +117,16 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
     redundant_judge(HARD_SEEDS[k], &tally);
   }
   printf("largest imbalance %.2g\n", tally.worst);
-  for (int k = 0; k < REDUNDANT_STATES; k++) { /* all are right, and none was refused */
+  for (int k = 0; k < REDUNDANT_STATES; k++) { /* all results are right, and no call was refused */
     assert_int_equal(tally.workspace[k][REDUNDANT_MET], MECHANISMS + HARD);
     assert_int_equal(tally.run[k][REDUNDANT_MET], MECHANISMS + HARD);
   }
   assert_int_equal(tally.wrong_unique, 0);
 }
 
-/* A spatial body of 2 kg is welded to a planar body. The planar body stays in its plane. The planar
- * body has no velocity normal to its plane. The reaction of the weld must nevertheless contain the
- * weight in this direction. */
+/* A spatial body of 2 kg is welded to a planar body. The planar body cannot leave its plane, so it
+ * has no velocity normal to this plane. The reaction of the weld must nevertheless contain the
+ * component of the weight in this direction. */
 static void planar_bodies_bear_forces_across_their_plane(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows must not change anything. Two mechanisms are compared with the same bodies without
- * redundant rows. One has a third parallel crank, and the other a second guide on the same line. */
+/* Redundant rows must not change the motion. Two mechanisms with redundant rows are compared with
+ * the same mechanisms without these rows. The rows come from a third parallel crank in the first
+ * mechanism, and from a second guide on the same line in the second one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +14,9 @@
 
 enum { POSES = 8 };
 
-/* The limit of the difference between two results. Both have the accuracy of ordinary
- * configurations. In these configurations, redundant rows are satisfied only up to rounding. */
+/* The largest allowed difference between the results with and without redundant rows. Both results
+ * have the accuracy of ordinary configurations. The redundant rows are satisfied only up to
+ * rounding, which adds to the difference. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs of mechanisms ---- */

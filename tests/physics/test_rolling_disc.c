@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A disc that rolls on a plane: steady circular motion, and general motion against reduced
- * equations without constraints, integrated in quadruple precision. A ball on a turntable. */
+/* Tests the rolling disc. In steady motion, the centre of the disc must move on a circle. General
+ * motion is compared with reduced equations, which have no constraints and are integrated in
+ * quadruple precision. A ball on a turntable is compared with its closed form. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,14 +18,18 @@
 
 /* ---- reduced equations ----
  *
- * The contact point is at rho = -R u - t k from the centre, with u the unit vector of k - (k . n)
- * n. Rolling gives the velocity rho x w of the centre. The angular momentum about the contact point
- * gives
+ * The rim of the wheel is a torus whose cross section has the radius t. The distance from the
+ * centre of the wheel to the centre of the cross section is R = RADIUS - t. For a disc with a sharp
+ * edge, t = 0. Let n be the axis of the wheel, k the normal of the plane, and u the unit vector in
+ * the direction of k - (k . n) n. The vector from the centre to the contact point is rho = -R u - t
+ * k. Because the wheel rolls, the velocity of the centre is rho x w. The balance of the angular
+ * momentum about the contact point is
  *
- *   I w' - m rho x (rho x w') = -w x I w + m rho x (rho' x w) + m g rho x k, I = I_t + (I_a - I_t)
- *   n n^T, n' = w x n
+ *   I w' - m rho x (rho x w') = -w x I w + m rho x (rho' x w) + m g rho x k,
+ *   I = I_t + (I_a - I_t) n n^T,   n' = w x n
  *
- * in ground axes. The state is n, w and the horizontal place of the centre.
+ * in ground axes. The state consists of n, the angular velocity w, and the horizontal position of
+ * the centre.
  */
 
 static const double MASS = 1.2;
@@ -33,7 +38,7 @@ static const double AXIAL = 0.15;      /* I_a */
 static const double RADIUS = 0.5;
 static const double GRAVITY = 9.81; /* along -y; k = (0, 1, 0) */
 
-enum { STATE = 9 }; /* n, w, place */
+enum { STATE = 9 }; /* n, w, position */
 
 static wide dot(const wide *a, const wide *b)
 {
@@ -118,8 +123,8 @@ static void step_reduced(wide *x, wide h, double rim)
   }
 }
 
-/* Integrates to t by the classical Runge-Kutta method with `steps` and twice as many steps, and
- * extrapolates. */
+/* Integrates to t by the classical Runge-Kutta method, once with `steps` steps and once with twice
+ * as many. Extrapolates from both results. */
 static void reduce(const double start[STATE], double t, int steps, double rim, double out[STATE])
 {
   wide x[2][STATE];
@@ -139,7 +144,7 @@ static void reduce(const double start[STATE], double t, int steps, double rim, d
 
 /* ---- the mechanism ---- */
 
-/* Sets a quaternion that turns the z axis to n. */
+/* Computes a quaternion that rotates the z axis to n. */
 static void orient(const double n[3], double p[4])
 {
   double half = sqrt(0.5 * (1.0 + n[2]));
@@ -149,7 +154,8 @@ static void orient(const double n[3], double p[4])
   p[3] = 0.0;
 }
 
-/* Turns x (3) by the conjugate of p, from ground axes to body axes; by p if `back`. */
+/* Rotates x (3) by the conjugate of p, from ground axes to body axes. If `back` is set, rotates x
+ * by p instead. */
 static void turn(const double p[4], const double x[3], bool back, double out[3])
 {
   double sign = back ? 1.0 : -1.0;
@@ -186,8 +192,8 @@ static baum_mechanism *make_disc(const double start[STATE], double rim)
   return m;
 }
 
-/* Returns the largest difference between the state of a run and a state of the reduced equations;
- * the height of the centre is not part of it. */
+/* Returns the largest difference between the state of a run and a state of the reduced equations.
+ * The height of the centre is not compared. */
 static double difference_from(const baum_simulation *run, const double want[STATE])
 {
   const double z[3] = {0.0, 0.0, 1.0};
@@ -214,9 +220,10 @@ static baum_simulation *create(const baum_mechanism *m, double rtol)
 
 /* ---- steady motion ---- */
 
-/* Sets the state of a steady motion: the disc is tilted, its axis turns about the vertical with the
- * rate `turning`, and about itself with the rate at which w' = turning k x w. This is linear in the
- * spin, so two evaluations give it. */
+/* Computes the state of a steady motion. The disc is tilted, and its axis precesses about the
+ * vertical with the angular velocity `turning`. In steady motion, w' = turning k x w. This
+ * condition is linear in the spin of the disc about its axis. Two evaluations of the condition
+ * therefore determine the spin. */
 static void find_steady(double tilt, double turning, double out[STATE])
 {
   double missed[2];
@@ -250,7 +257,7 @@ static void steady_motion_stays_steady(void **state)
   baum_mechanism *m = make_disc(start, 0.0);
   baum_simulation *run = create(m, 1e-12);
   const double *v = baum_simulation_v(run);
-  /* The centre moves on a circle, v = turning k x (place - middle). */
+  /* The centre moves on a circle, so v = turning k x (position - middle). */
   const double middle[2] = {start[6] + v[2] / turning, start[8] - v[0] / turning};
   for (int k = 1; k <= 20; k++) {
     double t = 0.5 * k;
@@ -258,7 +265,7 @@ static void steady_motion_stays_steady(void **state)
     double s = sin(turning * t);
     check(baum_simulation_advance_to(run, t));
     double want[STATE];
-    for (int i = 0; i < STATE; i += 3) { /* a turn about y */
+    for (int i = 0; i < STATE; i += 3) { /* a rotation about y */
       double x = start[i] - (i == 6 ? middle[0] : 0.0);
       double z = start[i + 2] - (i == 6 ? middle[1] : 0.0);
       want[i] = c * x + s * z + (i == 6 ? middle[0] : 0.0);
@@ -289,7 +296,8 @@ static void general_motion_follows_the_reduced_equations(void **state)
     baum_simulation *run = create(m, 1e-12);
     check(baum_simulation_advance_to(run, 10.0));
     check(baum_simulation_counters(run, &counters, sizeof counters));
-    ASSERT_NEAR(difference_from(run, coarse), 0.0, 0.0, 1e-8); /* 32 times the error of `want` */
+    /* `coarse` is 32 times less accurate than `want` */
+    ASSERT_NEAR(difference_from(run, coarse), 0.0, 0.0, 1e-8);
     ASSERT_NEAR(difference_from(run, want), 0.0, 0.0, 1e-9);
     assert_true(fabs(want[6] - GENERAL[6]) + fabs(want[8] - GENERAL[8]) > 0.5);
     assert_true(fabs(counters.energy_change) <= 1e-9);
@@ -363,8 +371,8 @@ static void degrees_of_freedom(void **state)
 
 /* ---- a ball on a turntable ---- */
 
-/* A homogeneous ball on a plane that turns with the constant rate W moves on a circle with the rate
- * 2 W / 7 (S. Earnshaw, Dynamics, 1844). */
+/* If a plane rotates with the constant angular velocity W, a homogeneous ball that rolls on it
+ * moves on a circle with the angular velocity 2 W / 7 (S. Earnshaw, Dynamics, 1844). */
 static void a_ball_on_a_turntable_moves_on_a_circle(void **state)
 {
   (void)state;
@@ -411,7 +419,7 @@ static void a_ball_on_a_turntable_moves_on_a_circle(void **state)
     double s = sin(own * t);
     check(baum_simulation_advance_to(run, t));
     const double *at = baum_simulation_q(run) + 7;
-    /* v turns about y with the rate own */
+    /* v rotates about y with the angular velocity `own` */
     ASSERT_NEAR(at[0], 0.4 + (s * speed[0] + (1.0 - c) * speed[1]) / own, 0.0, 1e-9);
     ASSERT_NEAR(at[2], (s * speed[1] - (1.0 - c) * speed[0]) / own, 0.0, 1e-9);
     ASSERT_NEAR(at[1], r, 0.0, 1e-14);

@@ -131,11 +131,11 @@ static double error_now(const baum_simulation *run)
   return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
 }
 
-/* Returns the largest allowed error. For variable steps, it is ten times rtol, for angular
- * velocities of up to 6 rad/s. For Euler methods, it is (h/2) |torque| t in the angle. For
- * generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the first step
- * after a jump has a lower order. For all other methods, it is the rounding error of about 200
- * steps. */
+/* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
+ * largest angular velocity of 6 rad/s. For Euler methods, it is the error (h/2) |torque| t of the
+ * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
+ * first step after a jump has a lower order. For all other methods, it is the rounding error of
+ * about 200 steps. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -191,7 +191,7 @@ static void jumps_are_met_forward_and_backward(void **state)
     schedule(run, &d);
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
       assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
-      /* Rounding error of t. */
+      /* The limit is the rounding error of t. */
       ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP);
       assert_true(error_now(run) <= 2.0 * allowed(mode));
       double t = baum_simulation_time(run);
@@ -253,8 +253,9 @@ static void inputs_that_jump_together_are_all_reset_before_the_jump(void **state
   }
 }
 
-/* A schedule is given, changed or ended during a run. A run with variable steps has already
- * integrated beyond the time that it reports when this happens. */
+/* A schedule is given or replaced during a run. At this moment, a run with variable steps has
+ * already integrated beyond the time that it reports. The new schedule must nevertheless take
+ * effect at the reported time. */
 static void a_schedule_may_be_given_late(void **state)
 {
   (void)state;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The accuracy of accelerations and multipliers of spatial mechanisms by the solver that the
- * library chooses, compared with a solution in quadruple precision with the same M, J, g and gamma.
- * Every scene is met in several configurations on the constraints and off them, with and without
- * stabilization. Every case prints the largest errors of a and of lambda, each relative to its
- * largest element. */
+/* Tests the accuracy of accelerations and multipliers of spatial mechanisms. The solver that the
+ * library chooses is compared with a solution in quadruple precision for the same M, J, g and
+ * gamma. Every scene is evaluated in several configurations. Some of them satisfy the constraints,
+ * and others do not. Every configuration is evaluated with and without stabilization. For every
+ * case, the test prints the largest error of a and the largest error of lambda. Each is relative to
+ * the largest element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,14 +16,15 @@
 #include "posed.h"
 #include "spatial.h"
 
-/* About ten times rounding, amplified by condition numbers of a few hundred. */
+/* The limit for ordinary scenes. It is about ten times the rounding error, amplified by condition
+ * numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
-/* Masses or moments of inertia differ by a factor of 1e6. */
+/* The limit for scenes in which masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-10;
-/* The coupler of the RSSR spins freely about its own axis. At 1e-6 of its mass its moment of
- * inertia about this axis is 1e-10 kg m^2, and the torques of its two joints, 0.1 N m, cancel.
- * Rounding lambda to double precision alone changes this angular acceleration by 1e-7 rad/s^2,
- * which is 1e-9 of the largest acceleration. */
+/* The coupler of the RSSR spins freely about its own axis. If its mass is multiplied by 1e-6, its
+ * moment of inertia about this axis is 1e-10 kg m^2. Its two joints exert torques of 0.1 N m about
+ * this axis, which cancel. Rounding lambda to double precision alone changes this angular
+ * acceleration by 1e-7 rad/s^2, which is 1e-9 of the largest acceleration. */
 static const double SPINNING = 1e-7;
 
 enum { POSES = 5, LINKS = 10 };
@@ -32,7 +34,7 @@ typedef struct errors {
   double lambda;
 } errors;
 
-/* How a scene differs from that of spatial.h. */
+/* How a scene differs from the scene of spatial.h. */
 typedef struct change {
   double other; /* factor on mass and inertia of every other body */
   double thin;  /* factor on the smallest moment of inertia of every other body */
@@ -133,7 +135,8 @@ static void meet(posed *p, double gain, errors *worst)
   worst->lambda = worse(quad_error(p->nc, p->lambda, p->want_lambda), worst->lambda);
 }
 
-/* Includes the errors at a state, then at one off the constraints. */
+/* Updates `worst` with the errors at the state of p, and then with the errors at a nearby state off
+ * the constraints. */
 static void meet_all(posed *p, uint64_t *seed, errors *worst)
 {
   meet(p, 0.0, worst);
@@ -159,8 +162,9 @@ static errors measure_motion(model_spatial which, int links, double span)
   return worst;
 }
 
-/* Finds the largest errors of a changed scene in POSES configurations that lie around its start,
- * because the motion of a light body on a stiff spring takes very short steps. */
+/* Finds the largest errors of a changed scene in POSES random configurations near its start. They
+ * are not taken from a motion, because a light body on a stiff spring would require very short
+ * steps. */
 static errors measure_changed(model_spatial which, int links, change by)
 {
   errors worst = {0};

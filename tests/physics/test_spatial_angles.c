@@ -184,7 +184,8 @@ static void springs_wind_up_over_revolutions(void **state)
 }
 
 /* The angle includes revolutions. The potential energy of the spring and the work of the damper
- * must use this angle, also in the companion run and in the energy account. */
+ * must use this angle, also in the energy account and in the companion, which is the second
+ * integration that estimates the error. */
 static void energies_are_those_of_the_wound_spring(void **state)
 {
   (void)state;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A heavy top precesses steadily for a thousand revolutions. Its motion is compared with the closed
  * form. Let W be the angular velocity of the precession and n the tilt of the axle. Let C be the
- * moment of inertia about the axle, and A the moment of inertia about an axis through the joint
- * across the axle. The precession is steady if the angular velocity about the axle is
+ * moment of inertia about the axle. Let A be the moment of inertia about an axis that passes
+ * through the joint and is perpendicular to the axle. The precession is steady if the angular
+ * velocity about the axle is
  *
  *   w = (m g l + A W^2 cos(n)) / (C W)
  *
@@ -26,7 +27,8 @@ static const double MASS = 1.0;     /* [kg] */
 static const double GRAVITY = 9.81; /* [m/s^2] */
 /* [m] distance from the joint to the centre of mass. */
 static const double ARM = 0.1;
-/* [kg m^2] moment about an axis across the axle, at the centre of mass. */
+/* [kg m^2] moment of inertia about an axis through the centre of mass, perpendicular to the
+ * axle. */
 static const double ACROSS = 0.3;
 static const double PRECESSION = 0.5;         /* [rad/s] */
 static const double TILT = 0.9;               /* [rad] */

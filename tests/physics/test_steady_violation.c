@@ -137,7 +137,8 @@ static void follow(const baum_integrator *integrator, const motion *with, const 
 
 static void follow_all(const baum_integrator *integrator)
 {
-  printf("largest share by which |Phi|, |Phi'| are off, for (alpha h, beta h)\n");
+  printf(
+    "largest relative differences of |Phi| and |Phi'| from the formulas, for (alpha h, beta h)\n");
   for (int k = 0; k < 2 * PAIRS; k++) {
     const double *pair = GAINS[k % PAIRS];
     baum_amplification z;

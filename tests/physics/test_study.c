@@ -79,8 +79,8 @@ static void check_entry(const baum_catalog_entry *entry)
   assert_int_equal(
     baum_catalog_compare(&choice, m, common.t, common.n, common.q, common.v, &error, sizeof error),
     BAUM_OK);
-  print_message("%-22s %4.1f digits, stored with %4.1f, itself says %4.1f%s\n", entry->name,
-                -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
+  print_message("%-22s agrees to %4.1f digits; the catalogue states %4.1f, the study %4.1f%s\n",
+                entry->name, -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
                 r.trusted ? "" : ", untrusted");
   if (r.trusted) {
     /* The estimated error is the largest of three differences. The true error may be larger than
@@ -191,11 +191,12 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_int_equal(baum_study_run(study), BAUM_OK);
   baum_study_method method;
   assert_int_equal(baum_study_method_at(study, 0, &method, sizeof method), BAUM_OK);
-  /* This is the order of rk4, if the largest steps are disregarded. */
+  /* The slope must be the order of rk4. The tolerance allows for error terms of higher order, which
+   * matter at the largest steps. */
   assert_true(fabs(method.slope - 4.0) < 0.3);
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
   baum_study_entry entry = study_entry(study, 5);
-  /* The accuracy that was stated for the solution. */
+  /* At the floor, the reported error is the accuracy that was stated for the solution. */
   assert_true(entry.at_floor && entry.error == 1e-12);
   /* The error of the multipliers is unknown, because the solution gives no multipliers. */
   assert_true(isnan(entry.error_lambda));
@@ -222,8 +223,9 @@ static void two_threads_give_the_entries_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* An entry must be on the front, unless another entry on the front is at least as good in cost and
- * in error. The front must be ordered from cheap to accurate. */
+/* The front contains the entries that no other entry beats. An entry must be on it, unless another
+ * entry on it has at most the same cost and at most the same error. The front must be ordered from
+ * cheap to accurate. */
 static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
   for (int32_t k = 0; k < baum_study_entry_count(study); k++) {

@@ -170,7 +170,7 @@ static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 }
 
 #if BAUM_HAVE_SUNDIALS
-/* Five cranks fall through the horizontal twice. In this configuration they are singular. The
+/* Five cranks fall through the horizontal configuration twice. This configuration is singular. The
  * second time, the run continues on a branch on which all configurations are singular. The second
  * near-singular interval therefore does not end. */
 static void branches_of_singular_configurations_are_told(void **state)
@@ -180,9 +180,9 @@ static void branches_of_singular_configurations_are_told(void **state)
   const baum_catalog_choice choice = {"n_four_bar", data, 3};
   baum_status status = BAUM_OK;
   baum_counters counters = counters_of(&choice, baum_cvode_adams(), 0.932395316, &status);
-  /* On such a branch rounding errors decide whether the run can go on: if the rate is changed by
-   * multiples of 1e-13, about a third of the runs stop. A run that stops must say that the motion
-   * may be singular, and must have told the first interval. */
+  /* On such a branch, rounding errors decide whether the run can continue. If the initial angular
+   * velocity is changed by multiples of 1e-13, about a third of the runs stop. A run that stops
+   * must return BAUM_ERR_STEP, and must have reported the first interval. */
   assert_true(status >= BAUM_OK || status == BAUM_ERR_STEP);
   assert_in_range(counters.near_singular_intervals, status >= BAUM_OK ? 2 : 1, 2);
 }

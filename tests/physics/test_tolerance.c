@@ -53,9 +53,9 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
     {.samples = 9, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Returns by which factor the error falls when rtol decreases by a factor of 10. It is found from a
- * line through the logarithms. Single small errors influence this line less than they would
- * influence the ratio of the first to the last error. */
+/* Returns the factor by which the error falls when rtol decreases by a factor of 10. A line is
+ * fitted to the logarithms of the errors. Single small errors influence this line less than they
+ * would influence the ratio of the first to the last error. */
 static double fit_fall(const double error[TOLERANCES])
 {
   double sum = 0.0;
@@ -120,8 +120,8 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
     fits++;
   }
   double mean = pow(product, 1.0 / fits);
-  printf("%-12s mean of the fitted %.2f, least %.2f\n", baum_integrator_name(integrator), mean,
-         least);
+  printf("%-12s mean of the fitted factors %.2f, least factor %.2f\n",
+         baum_integrator_name(integrator), mean, least);
   assert_true(mean >= least_mean);
   assert_true(least >= LEAST_SINGLE_FALL);
 }

@@ -68,7 +68,7 @@ static void configurations_after_many_revolutions_keep_twelve_digits(void **stat
 {
   (void)state;
   int failures = 0;
-  printf("\n%-24s %10s %10s %20s\n", "after 10000 turns", "a", "lambda", "a without the turns");
+  printf("\n%-24s %10s %10s %20s\n", "after 10000 revolutions", "a", "lambda", "a without them");
   for (int which = 0; which < CASES; which++) {
     posed p = pose_case(which, TURNS * TURN);
     accelerate(&p);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of velocity level: Chaplygin's sleigh against its closed form, with every integrator and
- * formulation; stability of their gain; degrees of freedom, redundancy, work, save and restore. */
+/* Tests rows of velocity level, that is, non-holonomic constraints. Chaplygin's sleigh is compared
+ * with its closed form, with every integrator and formulation. Further tests cover the stability of
+ * the gain of such rows, degrees of freedom, redundancy, work, and save and restore. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,13 +17,15 @@
 
 /* ---- Chaplygin's sleigh (S. A. Chaplygin, 1911) ----
  *
- * A body on a plane with a blade along its x axis, the distance D behind its centre of mass. With
- * the velocity u of the blade along itself and the angular velocity w,
+ * A body on a plane has a blade, which is parallel to the x axis of the body. The blade is at the
+ * distance D behind the centre of mass. Let u be the velocity of the blade in its own direction,
+ * and w the angular velocity of the body. The equations of motion are
  *
  *   m u' = m D w^2,   (I + m D^2) w' = -m D u w
  *
- * m u^2 + (I + m D^2) w^2 is constant, so u = U tanh(k t + e), w = W sech(k t + e) with
- * k = m D U / (I + m D^2), U k = D W^2, and the angle is W / k times the Gudermannian of k t + e.
+ * The sum m u^2 + (I + m D^2) w^2 is constant. The solution is therefore u = U tanh(k t + e) and w
+ * = W sech(k t + e), with k = m D U / (I + m D^2) and U k = D W^2. The angle is W / k times the
+ * Gudermannian of k t + e, plus a constant.
  */
 
 static const double MASS = 2.0;
@@ -98,8 +101,9 @@ static sleigh_state exact_at(double t)
 
 static const double END = 4.0;
 
-/* Limits of the error at h = 1e-3 s or rtol = 1e-9, by order (0: variable step). Each is at least
- * three times the largest measured value. */
+/* Returns the largest allowed error at h = 1e-3 s or rtol = 1e-9. The limits are listed by order,
+ * and the first one is for variable steps. Each is at least three times the largest measured
+ * value. */
 static double allowed(step_mode mode)
 {
   static const double by_order[] = {1e-7, 5e-3, 1e-6, 1e-8, 2e-10, 1e-11, 1e-12, 1e-12, 1e-12};
@@ -167,8 +171,8 @@ enum { GRID = 40, STEPS = 400 };
 static const double STEP = 1e-3;
 static const double ACROSS = 1e-3; /* [m/s] initial violation */
 
-/* A body with its blade at the centre of mass, which does not rotate: J is constant, and only the
- * gain changes the velocity across the blade. */
+/* Makes a body that does not rotate and has its blade at the centre of mass. J is then constant,
+ * and only the gain changes the velocity across the blade. */
 static baum_mechanism *make_straight(void)
 {
   baum_mechanism *m = start_plane();
@@ -236,7 +240,7 @@ static int compare_boundary(const baum_mechanism *m, const baum_integrator *inte
       fail_msg("%s at alpha h = %g: predicted %g, simulated %g", baum_integrator_name(integrator),
                alpha_h, radius, growth);
     }
-    /* Simulated growth is 0 or 2 if the violation leaves the range of the test. */
+    /* growth_of() returns 0 or 2 if the violation leaves the range of the test. */
     assert_true(growth == 0.0 || growth == 2.0 || fabs(growth - radius) <= 1e-2 * radius);
     compared++;
   }
@@ -280,7 +284,8 @@ static void unstable_gains_are_refused(void **state)
     options = with_alpha(integrator, 1.01 * limit);
     assert_int_equal(baum_simulation_create(m, &options, &run), BAUM_ERR_UNSTABLE);
     assert_non_null(strstr(baum_message(), "violations of velocities grow"));
-    /* A factor of its own makes the same gain stable. */
+    /* A factor of 0.5 for the row does not make the same gain acceptable, because the gain is also
+     * checked without the factor. */
     const double half[1] = {0.5};
     options.row_gains = half;
     options.row_gain_count = 1;
@@ -292,8 +297,8 @@ static void unstable_gains_are_refused(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The default gains of every integrator are stable for rows of velocity level, alone and beside
- * rows of positions. */
+/* The default gains of every integrator must be stable for a mechanism that has both rows of
+ * velocity level and rows of positions. */
 static void default_gains_are_stable(void **state)
 {
   (void)state;
@@ -364,9 +369,9 @@ static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A guide along the blade makes the row of the blade redundant. Although the blade is added first,
- * its row is the one that is omitted, because only the guide also keeps positions: a projection
- * returns to the guide. */
+/* A guide along the blade makes the row of the blade redundant. The row of the blade must be
+ * omitted, although the blade is added first. Only the guide also constrains positions, so that a
+ * projection returns the body to the guide. */
 static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **state)
 {
   (void)state;
@@ -443,8 +448,8 @@ static int pushed(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A row with nu(t) works like a driver: the velocity across the body follows nu, and its work is
- * the change of energy. */
+/* A row of velocity level with nu(t) acts like a driver. The velocity across the body follows nu,
+ * and the work of the row equals the change of energy. */
 static void a_prescribed_velocity_does_work(void **state)
 {
   (void)state;

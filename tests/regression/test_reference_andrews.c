@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares Andrews' squeezing mechanism with the catalogue's samples. It is built by user functions
- * in 7 angles, with and without a Jacobian, and of 7 rigid bodies. The samples were computed for
- * this project, and are correct to 15 digits. The published values have only 10. */
+/* Compares Andrews' squeezing mechanism with the catalogue's samples. The mechanism is built in two
+ * ways. One is by user functions of 7 angles, with and without a Jacobian. The other is of 7 rigid
+ * bodies. The samples were computed for this project, and are correct to 15 digits. The published
+ * values have only 10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -117,7 +118,7 @@ static void multipliers_have_the_sign_of_the_equations(void **state)
   for (int i = 0; i < ANDREWS_SAMPLES; i++) {
     for (int k = 0; k < 7; k++) {
       /* The error of the positions was measured above to be 3e-12. The error of the velocities is
-       * larger by a rate of 1e3 1/s. */
+       * larger by a factor of about 1e3 1/s, because the crank rotates this fast. */
       ASSERT_NEAR(rows[i * ROW + k], ANDREWS_V[i][k], 0.0, 1e-8);
     }
     for (int k = 0; k < 6; k++) {

@@ -72,8 +72,8 @@ static void multipliers_are_the_negative_of_the_test_set(void **state)
     baum_simulation_sample(run, CAR_AXIS_T, CAR_AXIS_SAMPLES, channels, 2, rows, NULL), BAUM_OK);
   for (int i = 0; i < CAR_AXIS_SAMPLES; i++) {
     for (int k = 0; k < 4; k++) {
-      /* The error of the positions is below 1e-10, as tested above. Here it is multiplied by 45
-       * 1/s. */
+      /* The error of the positions is below 1e-10, as tested above. The error of the velocities is
+       * larger by a factor of 45 1/s. */
       ASSERT_NEAR(rows[i * ROW + k], CAR_AXIS_V[i][k], 0.0, 4.5e-9);
     }
     for (int k = 0; k < 2; k++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Problem A02 of IFToMM and A Coruna with 40 windows. It has 243 coordinates and 242 rows. It moves
- * from its upright to its first flat position, where J loses 40 rows of rank. The motion is
- * compared with tests/data. */
+ * from its upright configuration to its first flat configuration, where the rank of J falls by 40.
+ * The motion is compared with tests/data. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -40,8 +40,8 @@ static void angle_and_departure(const double *q, double *out)
   }
 }
 
-/* The last sample is 5e-6 rad before the flat position. In the flat position itself J loses rank,
- * so that the accuracy there would be accidental. */
+/* The last sample is 5e-6 rad before the flat configuration. In the flat configuration itself J
+ * loses rank, so that the accuracy there would be accidental. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -82,10 +82,10 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
   model_destroy(&m);
 }
 
-/* In ten seconds, the mechanism passes the flat position several times. There the motion may enter
- * other branches, as it does with INDEX2 and BAUMGARTE. On those branches the angles of the cranks
- * differ by radians. On the right branch all cranks remain parallel, even if their common angle is
- * inaccurate. The largest difference measured is 5e-8 rad. */
+/* In ten seconds, the mechanism passes through flat configurations several times. There the motion
+ * may enter other branches, as it does with INDEX2 and BAUMGARTE. On those branches the angles of
+ * the cranks differ by radians. On the right branch all cranks remain parallel, even if their
+ * common angle is inaccurate. The largest difference measured is 5e-8 rad. */
 static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
 {
   (void)state;

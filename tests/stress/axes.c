@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The axes of the grid. Most axes vary one number of an ordinary cell by powers of ten. They are
- * rows of the table DECADES. All other axes are functions. If the name of an axis begins with
- * "space", its cells are in space. */
+/* The axes of the stress grid. A cell of the grid is one run of one scene (cell.h). Most axes vary
+ * one number of an ordinary cell by powers of ten. These axes are rows of the table DECADES. All
+ * other axes are functions. If the name of an axis begins with "space", its cells are in space. */
 #include "axes.h"
 
 #include <math.h>
@@ -146,7 +146,7 @@ static const decades DECADES[] = {
    GAIN_WAYS, true, 0},
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio),
    KIND(CRANK) | KIND(WINDOWS) | KIND(SPATIAL_CRANK) | KIND(RSSR), -12, 12, 3, WAYS, false, 0},
-  /* This is the ratio of a rod's moments of inertia. It is at most 2. */
+  /* For Bricard's mechanism, this is the ratio of a rod's moments of inertia. It is at most 2. */
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio), KIND(BRICARD), -12, 0, 3, WAYS,
    false, 0},
   {"space_stiffness", "space: stiffness", NUMBER(scene.stiffness), KIND(SPATIAL_CRANK), 0, 12, 2,
@@ -233,7 +233,8 @@ static void sweep_space_violation(cell_list *list)
 }
 
 /* An N-four-bar starts at a distance of `gap` [rad] from a singular configuration, and moves
- * through it. For the slider-crank, `gap` [m] is by how much the rod is longer than the crank. */
+ * through it. For the slider-crank, `gap` [m] is the length of the rod minus the length of the
+ * crank. */
 static void sweep_singular(cell_list *list, const char *axis, const char *rod, int by)
 {
   for (int decade = 0; decade <= 16; decade += by) {

@@ -11,7 +11,7 @@ typedef struct cell_list {
   int room;
 } cell_list;
 
-/* Returns the cells of all axes. If `axis` is not NULL, returns only the values of axes whose names
+/* Returns the cells of all axes. If `axis` is not NULL, returns only the cells of axes whose names
  * begin with this text. */
 cell_list axes_cells(const char *axis);
 void axes_free(cell_list *list);

@@ -11,7 +11,7 @@ typedef struct way {
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
   bool fixed;   /* whether the step is fixed */
-  double order; /* for a fixed-step method: its order with its default gains */
+  double order; /* order of a fixed-step method with its default gains */
   bool built;   /* whether this build contains the method */
 } way;
 
@@ -24,7 +24,8 @@ typedef struct cell {
   double step;    /* fixed step divided by this period */
   double rtol;    /* tolerance, for variable steps */
   double gain;    /* [1/s] alpha = beta, or NaN for the default rule */
-  /* [-] is added to the permitted error because of inexact data; relative to the scale. */
+  /* [-] This number is added to the permitted error, because the data are not exact. It is relative
+   * to the characteristic length. */
   double share;
   baum_start begin; /* the option `start` of the run */
   int64_t most;     /* largest number of steps */
@@ -44,7 +45,7 @@ typedef enum outcome {
 typedef struct grade {
   outcome outcome;
   bool false_alarm;   /* the run was refused or warned, although its motion is right */
-  double error;       /* relative to the scale, or in rad; NaN if there is none */
+  double error;       /* relative to the characteristic length, or in rad; NaN if there is none */
   double promise;     /* the largest permitted error, in the same unit */
   double seconds;     /* [s] time of the run */
   double all_seconds; /* [s] time of the run and the oracle */

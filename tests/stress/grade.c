@@ -31,8 +31,9 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* No promise is larger than this, because a result with a larger error would be useless. The bound
- * is WORTHLESS. With variable steps it is TOLERANCES x rtol if that is larger. */
+/* No promise is larger than this, because a result with a larger error would be useless. With fixed
+ * steps, the bound is WORTHLESS. With variable steps, it is TOLERANCES x rtol if that is larger
+ * than WORTHLESS. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;

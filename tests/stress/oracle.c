@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The method is extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard,
+/* Integrates by extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard,
  * Numerische Mathematik 41 (1983) 373). Its error is a series in h^2 even if the Jacobian is
- * inaccurate. A Jacobian by differences is therefore sufficient. If the Jacobian is zero, this is
- * the method of Gragg, Bulirsch and Stoer.
+ * inaccurate. A Jacobian by differences is therefore sufficient. If the Jacobian is zero, the
+ * method is that of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 

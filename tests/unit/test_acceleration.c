@@ -150,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* For each moving body of the slider-crank, checks Newton's and Euler's equations: weight and the
- * reactions of both pins must give the acceleration. */
+/* Checks Newton's and Euler's equations for each moving body of the slider-crank. The weight and
+ * the reactions of both pins must produce the acceleration. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;
@@ -216,7 +216,8 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  /* The reaction carries the weight, and its moment about the pin. */
+  /* The reaction on the ground consists of the weight and of the moment of the weight about the
+   * weld. */
   ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12);
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);

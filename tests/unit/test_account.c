@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the energy account with motions that are known in closed form. The first tests have only
- * one kind of work each. The others test how the account starts and continues in a run. */
+/* Tests the energy account with motions that are known in closed form. In each of the first tests,
+ * only one kind of work is done. The others test how the account starts and continues in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -131,8 +131,9 @@ static void dampers_take_energy(void **state)
   ASSERT_NEAR(a.dampers, -4.5 * (1.0 - exp(-1.0)), 0.0, CLOSE);
 }
 
-/* The length is l = |2 cos 2t|. The spring force 4 l has done the work 8 - 2 l^2. The account lists
- * this work under `springs`, because the library knows no potential of a user's law. */
+/* The length of the spring is l = |2 cos 2t|. When its length is l, the spring force 4 l has done
+ * the work 8 - 2 l^2. The account lists this work under `springs`, because the library knows no
+ * potential of a user's law. */
 static void a_law_works_as_a_spring(void **state)
 {
   (void)state;

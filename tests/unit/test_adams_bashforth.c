@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods: their formulas, target times between grid points, and restarts. */
+/* Tests Adams-Bashforth methods: their formulas, target times between grid points, and restarts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -17,7 +17,7 @@ static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
   double *old = baum_i_alloc(1, sizeof *old);
   assert_non_null(old);
   *old = 3.0;
-  /* Overflows, because the size is rounded up to a power of two. */
+  /* The first size overflows when it is rounded up to a power of two. */
   assert_null(baum_i_grow(old, SIZE_MAX, 1));
   assert_null(baum_i_grow(old, SIZE_MAX / 4, sizeof *old));
   assert_true(*old == 3.0); /* a failure keeps the old block */

@@ -134,8 +134,8 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   }
 }
 
-/* The spectral radii published for the points (1, 1) and (1, 2). The second point belongs to the
- * Taylor gains. */
+/* Compares spectral radii at the points (1, 1) and (1, 2) with their closed forms. The second point
+ * belongs to the Taylor gains. */
 static void radii_are_those_of_the_table(void **state)
 {
   (void)state;
@@ -180,7 +180,7 @@ static void semi_implicit_step(const oscillator *o, double y[2])
   y[0] += y[1];
 }
 
-/* Set f to the rate of the state y + weight k. */
+/* Sets f to the time derivative at the state y + weight k. */
 static void stage(const oscillator *o, const double y[2], double weight, const double k[2],
                   double f[2])
 {

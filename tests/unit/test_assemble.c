@@ -289,7 +289,7 @@ static void contradicting_constraints_are_not_projected_and_the_state_stays(void
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  /* Cannot be assembled: two rods of 1 m, from ground points 5 m apart. */
+  /* Two rods of 1 m join one body to ground points that are 5 m apart. This cannot be assembled. */
   for (int k = 0; k < 2; k++) {
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;

@@ -98,7 +98,8 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  assert_int_equal(b->first_count, BODIES - 2); /* all of them are pairs, as there are no pins */
+  /* each is a pair of rows, because no joint is a pin */
+  assert_int_equal(b->first_count, BODIES - 2);
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
   assert_int_equal(b->entry_count, 0); /* none are stored, because all are read directly from J */

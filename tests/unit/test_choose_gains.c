@@ -46,7 +46,8 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
   return alpha;
 }
 
-/* A pendulum: a particle of 1 kg on a rod of 1 m, at rest at `angle` from the upward vertical. */
+/* Makes a pendulum from a particle of 1 kg on a rod of 1 m. It is at rest at `angle` from the
+ * upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
   baum_mechanism *m = NULL;
@@ -287,7 +288,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
     /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. Now the damping terms contribute as
-     * well, with the ratio 3 x 9 = 27. */
+     * well. The ratio of their values for the two rods is the ratio of the factors, 3, times the
+     * ratio of the velocities, 9. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);

@@ -67,7 +67,7 @@ static void the_advised_step_is_not_too_long(void **state)
     assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
     assert_true(advised > 0.0 && advised < 0.2);
     /* The warning recommended this step early in the run. Later parts of the motion need a smaller
-     * one, and a tenth suffices. */
+     * step. A tenth of the recommended step suffices. */
     assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
   }
 }

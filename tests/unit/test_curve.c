@@ -152,8 +152,8 @@ static void a_circle_is_a_rod(void **state)
   assert_int_equal(baum_mechanism_add_planar_distance(scene.mechanism, &rod, NULL), BAUM_OK);
   test_point p;
   test_point_open(&p, scene.mechanism);
-  /* The link is at (1, 0.5) with the angle 0.4 rad. The bead is 1 m, which is the length of the
-   * rod, from the point of the rod on the link. */
+  /* The link is at (1, 0.5) with the angle 0.4 rad. The rod is 1 m long. The bead is therefore
+   * placed 1 m from the point where the rod is joined to the link. */
   double *bead = p.q + p.mechanism->bodies[scene.bead.index1]->q;
   bead[0] = 1.0 + 0.3 * cos(0.4) + 0.2 * sin(0.4) + 0.6;
   bead[1] = 0.5 + 0.3 * sin(0.4) - 0.2 * cos(0.4) - 0.8;

@@ -119,8 +119,9 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
 
 /* The gains are 1000 1/s, for a pendulum that swings at 0.4 Hz. With fixed-point iteration, steps
  * could not be longer than 1 / gain, which would take 34000 evaluations. Newton's iteration uses
- * the derivatives of the terms with gains, and takes about 5000 evaluations. Small gains need still
- * fewer. Large gains amplify rounding errors, which then fail the error test. */
+ * the derivatives of the terms with gains, and takes about 5000 evaluations. With small gains, even
+ * fewer evaluations are needed. Large gains need more, because they amplify rounding errors so that
+ * steps fail the error test. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
   (void)state;

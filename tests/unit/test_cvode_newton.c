@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the linear systems of CVODE BDF. They are (I - gamma df/dy) x = r with f = (v, a). Each
- * test chooses a random right side r and solves the system with the sparse matrix. It then checks
- * the solution x in the system, with central differences of f in place of df/dy x. */
+ * test chooses a random right side r and solves the system with the sparse matrix. It then inserts
+ * the solution x into the system, where it computes df/dy x by central differences of f. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

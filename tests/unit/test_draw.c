@@ -84,7 +84,8 @@ static void every_kind_of_the_library_is_drawn(void **state)
   baum_i_drawing drawing;
   draw_design(parts.mechanism, &drawing);
   for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-    bool drawn = strcmp(kinds[k].name, "coordinates") == 0; /* user coordinates have no place */
+    /* user coordinates have no position that could be drawn */
+    bool drawn = strcmp(kinds[k].name, "coordinates") == 0;
     for (int i = 0; i < drawing.shape_count; i++) {
       drawn = drawn || drawing.shapes[i].element->definition == *kinds[k].definition;
     }
@@ -131,7 +132,7 @@ static void bodies_look_as_their_joints_make_them(void **state)
   assert_int_equal(shapes_of(&drawing, "rod", BAUM_I_BODY, BAUM_I_AREA), 1);
   assert_int_equal(shapes_of(&drawing, "block", BAUM_I_BODY, BAUM_I_AREA), 1);
   assert_int_equal(shapes_of(&drawing, DRAWN_HOSTILE, BAUM_I_WHEEL, BAUM_I_DISC), 1);
-  /* A foot and hatches. */
+  /* The ground at the pin O consists of two shapes, a foot and hatches. */
   assert_int_equal(shapes_of(&drawing, "O", BAUM_I_GROUND, BAUM_I_LINE), 2);
   assert_int_equal(shapes_of(&drawing, "A", BAUM_I_GROUND, BAUM_I_LINE), 0);
   assert_int_equal(shapes_of(&drawing, "guide", BAUM_I_GROUND, BAUM_I_LINE), 1);

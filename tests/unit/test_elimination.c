@@ -97,7 +97,7 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Computes the order of elimination. It gets the neighbours in decreasing order, because their
+/* Computes the order of elimination. The neighbours of a node are passed in decreasing order. Their
  * order must not matter. */
 static baum_status order(graph *g, int most, baum_i_elimination *out)
 {
@@ -252,8 +252,9 @@ static void chains_are_eliminated_from_both_ends_in_turn(void **state)
   baum_i_elimination_clear(&found);
 }
 
-/* The joints of an N-four-bar: bars 0 to N stand on the ground, and couplers join bar k with bar
- * k + 1. Node 3 k is the foot of bar k, nodes 3 k + 1 and 3 k + 2 are the ends of coupler k. */
+/* The joints of an N-four-bar: bars 0 to N stand on the ground, and couplers join bar k with bar k
+ * + 1. Node 3 k is the pin between bar k and the ground. Nodes 3 k + 1 and 3 k + 2 are the pins at
+ * the two ends of coupler k. */
 static graph make_ladder(int windows)
 {
   graph g = make_graph(3 * windows + 1);
@@ -268,8 +269,9 @@ static graph make_ladder(int windows)
   return g;
 }
 
-/* Four nodes at most are at the same distance from the root, two at each end, and a node is coupled
- * with nodes that are at most two nearer. */
+/* The library sorts the nodes by their distance from the root of the elimination tree. At most four
+ * nodes have the same distance, two at each end of the ladder. A node changes only nodes that are
+ * nearer to the root by at most two. The places of both therefore differ by less than 12. */
 static void nodes_come_shortly_before_those_they_change(void **state)
 {
   (void)state;
@@ -333,8 +335,8 @@ static void random_graphs_have_little_more_fill_than_by_greed(void **state)
     greed += couplings_by_greed(&g);
     unordered += couplings_in_order(&g);
   }
-  print_message("couplings %d, by greed %d, without an order %d, of edges %d\n", found, greed,
-                unordered, edges);
+  print_message("%d couplings, %d in the greedy order, %d in an arbitrary order; %d edges\n", found,
+                greed, unordered, edges);
   assert_true(found >= edges);
   assert_true(found < 1.1 * greed);
   assert_true(found - edges < 0.5 * (unordered - edges));

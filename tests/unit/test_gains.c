@@ -274,7 +274,7 @@ static void auto_is_capped_and_always_stable(void **state)
   }
 }
 
-/* Explicit Euler with a step five times as long is stable up to alpha h = beta h = 0.4. */
+/* `small` is explicit Euler with five times the step. It is stable up to alpha h = beta h = 0.4. */
 static void auto_keeps_inside_a_small_region(void **state)
 {
   (void)state;
@@ -419,7 +419,7 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
   has(chosen(baum_gains_fixed(2.0, 0.0), variable_step()).why, "warning: beta = 0");
 }
 
-/* No warning is needed: the error test of explicit and Adams methods lets violations decay. */
+/* Only BDF needs this warning. With other methods, the error test makes violations decay. */
 static void weak_damping_is_a_matter_of_bdf(void **state)
 {
   (void)state;

@@ -209,8 +209,8 @@ static void end_of(const model *m, baum_simulation_options *options, double *q)
   baum_simulation_destroy(run);
 }
 
-/* The doubled guide changes only the matrix of the iteration. The two motions therefore differ by
- * at most the tolerance of the iteration. */
+/* A second guide on the same line changes only the matrix of the iteration. The two motions
+ * therefore differ by at most the tolerance of the iteration. */
 static void redundant_rows_alter_nothing(void **state)
 {
   (void)state;

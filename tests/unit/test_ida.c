@@ -84,10 +84,12 @@ static void violation_is_as_the_formulation_says(void **state)
     index2[k] = largest_violation(BAUM_FORMULATION_INDEX2, k ? 50.0 : 5.0);
     ggl[k] = largest_violation(BAUM_FORMULATION_GGL, k ? 50.0 : 5.0);
   }
-  print_message("Phi: %.2g, %.2g, %.2g; index 2 %.2g and %.2g, GGL %.2g and %.2g\n",
+  print_message("Phi: unstabilized %.2g, Baumgarte %.2g, index 3 %.2g; after 5 s and 50 s: index 2 "
+                "%.2g and %.2g, GGL %.2g and %.2g\n",
                 unstabilized.phi, baumgarte.phi, index3.phi, index2[0].phi, index2[1].phi,
                 ggl[0].phi, ggl[1].phi);
-  print_message("Phi': %.2g, %.2g, %.2g; index 2 %.2g and %.2g, GGL %.2g and %.2g\n",
+  print_message("Phi': unstabilized %.2g, Baumgarte %.2g, index 3 %.2g; after 5 s and 50 s: index "
+                "2 %.2g and %.2g, GGL %.2g and %.2g\n",
                 unstabilized.rate, baumgarte.rate, index3.rate, index2[0].rate, index2[1].rate,
                 ggl[0].rate, ggl[1].rate);
   assert_true(index3.phi <= 5e-6 && baumgarte.phi <= 1e-4);
@@ -290,8 +292,8 @@ static void multipliers_may_vanish(void **state)
       setup.rtol = pow(10.0, -k);
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
       assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
-      /* No step has an error, so IDA doubles the length of every step. The first one is sqrt(rtol)
-       * s. */
+      /* No step has an error, so IDA doubles the length of every step. The first step is sqrt(rtol)
+       * s long. */
       assert_true(run.steps < 100);
       for (int i = 0; i < 2; i++) { /* rounding errors at 10 m, one in each step */
         ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
@@ -411,9 +413,9 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* The state at the start has Phi = 1e-2 m and Phi' = 0.3 m/s. The first step must remove those
- * violations that are zero by the equations of the formulation. With GGL and at index 3 these are
- * both, and at index 2 only Phi'. */
+/* The state at the start has Phi = 1e-2 m and Phi' = 0.3 m/s. The first step must remove the
+ * violations of those constraints that are part of the formulation's equations. With GGL and at
+ * index 3, it must remove both Phi and Phi', and at index 2 only Phi'. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
@@ -436,7 +438,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
      * of the pendulum. */
     ASSERT_NEAR(length, JUMPING[f] == BAUM_FORMULATION_INDEX2 ? 1.01 : 1.0, 0.0, 1e-5);
     ASSERT_NEAR(rate, 0.0, 0.0, JUMPING[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5);
-    /* The tangential part of v. */
+    /* The step must keep the tangential component of v, which is 1 m/s. */
     ASSERT_NEAR(hypot(run.state_v[0], run.state_v[1]), 1.0, 0.0, 0.05);
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);

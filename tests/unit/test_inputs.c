@@ -420,8 +420,8 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
   assert_true(baum_simulation_input(run, s.push) == 0.5);
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
-  /* The run continues with the old input. The first times lie inside the last step, and this must
-   * be true for them as well. */
+  /* The run continues with the old input. The first of the following times lie inside the last
+   * step. At these times, too, the motion must be that of the old input. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,

@@ -174,7 +174,8 @@ static void stop_at_once(const method *m)
   while (integrator_run_step(&run) == BAUM_OK) {
     fault.calls = 0;
   }
-  /* The calls in the failing step, up to the one that returned "stop". */
+  /* The calls that were counted are those of the failing step, up to the call that returned
+   * "stop". */
   assert_true(fault.calls <= 16);
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);

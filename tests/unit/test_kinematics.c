@@ -318,7 +318,7 @@ static void backward_in_time_is_the_same_motion(void **state)
     double x[3];
     advance(run, times[k]);
     slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
-    /* Rounding of 28 rad, times the velocity ratio 20. */
+    /* The tolerance is the rounding error of 28 rad, times the velocity ratio 20. */
     ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12);
     ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
   }

@@ -35,7 +35,7 @@ static void products_agree_with_the_dense_matrix(void **state)
     for (int j = 0; j < n; j++) {
       want += matrix[i * n + j] * (j < nv ? system.f[j] : system.r[j - nv]);
     }
-    /* Rounding errors of sums of about 20 numbers of up to 2. */
+    /* The limit is the rounding error of sums of about 20 numbers of up to 2. */
     ASSERT_NEAR(y[i], want, 0.0, 1e-14);
   }
   free(matrix);

@@ -398,7 +398,7 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    /* Tolerated, because it is below 1e-8 of r. */
+    /* A contradiction is tolerated if it is below 1e-8 of r. */
     saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10);
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);
@@ -414,9 +414,9 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* The contradictions have both signs and sizes from 1e-6 to 1e12. Beside the largest ones, the
- * other right sides are lost in rounding. Afterwards, the same factors must solve the system
- * without the contradiction. */
+/* The contradictions have both signs and sizes from 1e-6 to 1e12. Compared with the largest one,
+ * the other right sides are negligible. If the matrix was factored, the same factors must
+ * afterwards solve the system without the contradiction. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;

@@ -122,7 +122,7 @@ static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_CAREFUL), BAUM_OK);
   assert_true(solve(&klu, &system) < 1e-12);
   for (int j = 0; j < system.structure.nv; j++) {
-    /* About 10 times the rounding error divided by the distance. */
+    /* The limit is about 10 times the rounding error divided by the distance. */
     ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-5);
   }
   baum_i_klu_ops.destroy(klu.self);

@@ -36,7 +36,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_edge, false, check_rows_balance);
 }
 
-/* The row is the velocity of the blade's point, found by moving the body, to the left of the
+/* The row must be the velocity of the point of the blade in the direction to the left of the
  * blade. */
 static void the_row_is_the_velocity_across_the_blade(void **state)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* If max_step is given, integrators with variable steps must not step over a short force in a long
- * rest. */
+/* If max_step is given, integrators with variable steps must not step over a short force during a
+ * long rest. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

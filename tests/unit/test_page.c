@@ -109,7 +109,7 @@ static void names_stay_texts(void **state)
   for (const char *at = text; (at = strstr(at, "\\u003c/script>\\u003c/title>")) != NULL; at++) {
     found++;
   }
-  assert_true(found >= 4); /* in a body, the title, a label and a mark */
+  assert_true(found >= 4); /* in the name of a body, in the title, in a label and in a mark */
   baum_mechanism_destroy(m);
 }
 

@@ -68,7 +68,8 @@ static void motor(graph *d, int body_a, int body_b)
   value[5] = body_a >= 0 && body_b >= 0 ? -1.0 : 0.0;
 }
 
-/* Peels rows off the graph, and returns how many rows remain. */
+/* Removes the rows whose independence follows from the structure of the graph (see linear/peel.h).
+ * Returns how many rows remain. */
 static int peel(const graph *d, unsigned char peeled[2 * MOST_JOINTS])
 {
   int left = d->structure.nc;

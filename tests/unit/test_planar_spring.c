@@ -239,7 +239,7 @@ static void the_free_length_follows_from_the_design_unless_given(void **state)
   double force[TEST_SIZE_MAX];
   assert_int_equal(baum_i_mechanism_force(&p.point, force), BAUM_OK);
   for (int i = 0; i < p.nv; i++) {
-    /* Stiffness 100, times the rounding error of the length. */
+    /* The tolerance is the stiffness, 100 N/m, times the rounding error of the length. */
     ASSERT_NEAR(force[i], 0.0, 0.0, 1e-13);
   }
   test_point_close(&p);

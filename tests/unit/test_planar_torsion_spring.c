@@ -96,7 +96,8 @@ static void a_torsion_spring_rotates_the_bodies_back_and_damps(void **state)
 {
   (void)state;
   test_point p;
-  /* The relative angle is more than one revolution. The spring must not reduce it to less. */
+  /* The relative angle is more than one revolution. The spring must not subtract whole revolutions
+   * from it. */
   const double angles[2] = {-2.0, 10.0};
   const double rates[2] = {3.0, -4.0};
   open_at(&p, NULL, NULL, angles, rates);

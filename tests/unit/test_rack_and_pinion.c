@@ -57,8 +57,9 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_rack, false, check_rows_balance);
 }
 
-/* A wheel on the floor. The rack is the floor below the centre of the wheel. If one looks along the
- * axis (1, 0), this is on the right. */
+/* A wheel rolls on the floor, and the floor is the rack. An observer who looks along the axis (1,
+ * 0) of the rack has the floor on the right of the centre of the wheel. The radius is therefore
+ * negative. */
 static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **state)
 {
   (void)state;

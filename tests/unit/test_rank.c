@@ -48,7 +48,7 @@ static void assert_rank(const saddle *system, const double *column_scale, int wa
 {
   unsigned char independent[MOST];
   int rank = -1;
-  /* All marks are equal, so rows are chosen in their order. */
+  /* All rows have the same mark, so that they are chosen in their order. */
   memset(independent, 7, sizeof independent);
   assert_int_equal(baum_i_jacobian_rank(&system->structure, system->jacobian, column_scale,
                                         tolerance, &rank, independent),

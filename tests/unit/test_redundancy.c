@@ -58,8 +58,8 @@ static baum_mechanism *pendulum_with_pins(int pins)
   return m;
 }
 
-/* Makes parallel cranks of length 1 m. Their feet are at x = 0, 1, 2, ..., they have the same
- * angle, and one coupler joins them. */
+/* Makes parallel cranks of length 1 m. Their pins to ground are at x = 0, 1, 2, ... All cranks have
+ * the same angle, and one coupler joins them. */
 static baum_mechanism *parallelogram(int cranks, double angle)
 {
   static const char *const names[3] = {"first", "second", "third"};
@@ -107,7 +107,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* by the least norm, each pin has half of the force */
+  for (int i = 0; i < 2; i++) { /* if the norm is least, each pin carries half of the force */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
@@ -230,7 +230,7 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The multipliers are wrong by 1e-5, while forces are about 10 N. */
+/* The test makes multipliers wrong by 1e-5, while forces are about 10 N. */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -379,7 +379,7 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   }
   ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* a method of order 1 with h = 1e-5 s */
   ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* with rtol 1e-9 */
-  /* With rtol 1e-9; the error of IDA exceeds its tolerance. */
+  /* Also with rtol 1e-9. The error of IDA, however, exceeds this tolerance. */
   ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6);
   baum_mechanism_destroy(m);
 }

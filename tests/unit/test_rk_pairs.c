@@ -223,7 +223,7 @@ static void keep_below(const method *m)
     while (fabs(run.state.t) < 0.5) {
       assert_int_equal(integrator_run_step(&run), BAUM_OK);
       double h = sign * (run.state.t - before);
-      /* H is a difference of two times, which are rounded. */
+      /* The step h is a difference of two times, which are rounded. */
       assert_true(h > 0.0 && h <= 0.03 + 1e-16);
       before = run.state.t;
     }

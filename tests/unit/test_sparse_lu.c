@@ -29,7 +29,7 @@ static void check_solution(baum_i_sparse_lu *lu, double a, double b)
   double x[3] = {a * 1.0 + 2.0 * 3.0, 1.0 + b * 2.0, 3.0 * 2.0 + 4.0 * 3.0};
   baum_i_sparse_lu_solve(lu, x);
   for (int i = 0; i < 3; i++) {
-    /* Only rounding errors, as the matrix is well-conditioned. */
+    /* The errors are only rounding errors, because the matrix is well-conditioned. */
     ASSERT_NEAR(x[i], i + 1.0, 1e-14, 0.0);
   }
 }

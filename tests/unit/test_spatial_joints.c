@@ -125,7 +125,8 @@ ADD_POINTS(distance)
 ADD_AXIS(point_on_line)
 ADD_AXIS(point_on_plane)
 
-/* A wheel, of which the disc and the sphere are limits. */
+/* Adds a wheel that rolls on a plane. The disc and the sphere are the limits of the wheel for
+ * special values of the rim radius. */
 static void add_rolling(scene *s, int a, int b, double rim_radius)
 {
   static const double vectors[4][3] = {
@@ -228,7 +229,8 @@ static void check_bodies(test_point *p)
   for (int k = 1; k <= 2; k++) {
     const baum_i_body *body = p->mechanism->bodies[k];
     for (int j = 0; j < 6; j++) {
-      static const double step = 1e-3; /* any step is right, as the moments are quadratic in v */
+      /* differences are exact for any step, because the moments are quadratic in v */
+      static const double step = 1e-3;
       double f[2][TEST_SIZE_MAX];
       for (int side = 0; side < 2; side++) {
         double v = p->v[body->v + j];

@@ -35,9 +35,9 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* For explicit Euler, the boundary of the region is B = 2 A if zeta < 1, and B = 4 A - 4 if
- * zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together with B = (A / zeta)^2, this gives
- * the limits in closed form. */
+/* The damping ratio is zeta = alpha / beta. For explicit Euler, the boundary of the region is B = 2
+ * A if zeta < 1, and B = 4 A - 4 if zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together
+ * with B = (A / zeta)^2, this gives the limits in closed form. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
@@ -251,7 +251,7 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
     point w = {size * most.A * uniform(&seed, -0.2, 1.5),
                size * most.B * uniform(&seed, -0.1, 1.5)};
     point got = nearest(m, w.A, w.B);
-    /* The search uses the test of Schur and Cohn, which has other rounding errors than the
+    /* The search uses the test of Schur and Cohn. Its rounding errors differ from those of the
      * radius. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
     /* At a sharp tip of the region of RK3, the point that the search finds may be 1 % farther away

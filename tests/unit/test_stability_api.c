@@ -29,7 +29,7 @@ static const fact FACTS[] = {
   {baum_euler, 2.0},
   {baum_semi_implicit_euler, 0.8284271247461903}, /* 2 sqrt 2 - 2 */
   {baum_rk2, 2.0},
-  {baum_rk3, 2.5127453266183286}, /* this and the next: bisection of |R| - 1, in Python */
+  {baum_rk3, 2.5127453266183286}, /* this and the next number: by bisection of |R| - 1 in Python */
   {baum_rk4, 2.785293563405282},
   {baum_ab2, 1.0},
   {baum_ab3, 6.0 / 11.0},

@@ -250,7 +250,7 @@ static void *fail_by_number(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* the message would be that of another thread */
+      j->status = BAUM_ERR_INTEGRATOR; /* the message is not that of this thread */
     }
   }
   return NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The library's own evaluation of accelerations, with the block solver. For PHASE_WHOLE,
- * baum_i_acceleration() is called. For the other phases, the calls that this function contains are
- * made, in the same order. */
+/* Evaluates accelerations with the library's block solver. For PHASE_WHOLE, baum_i_acceleration()
+ * is called. For the other phases, the calls that this function contains are made, in the same
+ * order. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,7 +86,8 @@ static bool block_run(void *self, int last_phase)
   return accelerate(s->at);
 }
 
-/* The time of the eight assignments is negligible. */
+/* Replaces the kernels by those without wide vectors, and restores them afterwards. The time that
+ * this takes is negligible. */
 static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;

@@ -93,7 +93,8 @@ bool scene_make(scene_kind kind, int n, scene *out)
   }
   out->v = out->q + nq;
   return baum_workspace_design(out->workspace, out->q, out->v) == BAUM_OK &&
-         (!is_spatial(kind) || /* rssr has free velocities */
+         /* the velocities of the RSSR are not given, so assembly computes them */
+         (!is_spatial(kind) ||
           baum_workspace_assemble(out->workspace, 0.0, out->q, out->v, NULL, 0) == BAUM_OK);
 }
 
