@@ -18,10 +18,10 @@
 
 /* Rows are selected one after another. A row is selected if its distance from the span of the rows
  * selected before it, relative to its length, reaches a limit. Limits are tried from MOST down to
- * WORST, and each is STEP times the one before. The first limit at which as many rows are selected
- * as the rank gives the best set. The set counts as well separated if this limit is above LEAST. To
- * change as few rows as possible, the selection is then repeated with this limit divided by FACTOR,
- * beginning with the rows that are kept now. */
+ * WORST, and each is STEP times the one before. The best set is the one at the first limit for
+ * which the number of selected rows equals the rank. The set counts as well separated if this limit
+ * is above LEAST. To change as few rows as possible, the selection is then repeated with this limit
+ * divided by FACTOR, beginning with the rows that are kept now. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double WORST = 1e-3;

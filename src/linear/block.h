@@ -138,7 +138,7 @@ typedef struct baum_i_block {
   int motion_size; /* v, ground, and y of dense bodies */
   /* the solution is refined if the smallest ratio of det D to `size` of a node is below this */
   double weak_pivot;
-  bool leaves_v; /* a body block (of a dense body or particle) has numbers outside v */
+  bool leaves_v; /* a body block of a dense body or particle uses entries of motion[] after v */
   int hub;       /* mass block with too many sides; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A chart of the plane (A, B) = (alpha h, beta^2 h^2) with A >= 0 and B >= 0. In the coordinates of
- * the chart, regions of stability have no sharp tips. The coordinate m is the larger |mu|. The
- * coordinate s, from -1 to 1, describes the ratio of the two mu:
+ * the chart, regions of stability have no sharp tips. Let mu be the two roots of mu^2 + 2 A mu + B
+ * = 0. The coordinate m is the larger |mu|. The coordinate s, from -1 to 1, gives the ratio of the
+ * roots if they are real, or their phase if they are complex:
  *
  *   s < 0   mu = -m, -m u,  u = 1 + s         A = m (1 + u) / 2,  B = m^2 u        overdamped
  *   s >= 0  mu = -m e^(+-i phi), phi = s pi/2 A = m cos(phi),     B = m^2

@@ -5,8 +5,8 @@
 # Linux run in a bare Debian that has only Python; for aarch64 this Debian runs in an emulator. The
 # packages for Windows run in Wine, and the packages for WebAssembly run in Node. The packages for
 # macOS are built, but not run.
-# BAUM_TARGETS names some of the targets of build_wheels.py. The target linux-x86_64 is always
-# built.
+# The environment variable BAUM_TARGETS selects which targets of build_wheels.py are built and
+# tested. The default is all of them. The target linux-x86_64 is always built.
 set -eu
 cd "$1"
 project=$PWD

@@ -62,9 +62,9 @@ def row(*cells):
 
 
 def tables(project, formulations_program, bench_program):
-    """Return a list of all tables. For each table it has the document, the text with which the
-    table's first line begins, and the number of lines before its first row. Then comes a function
-    that returns the rows."""
+    """Return a list of all tables. Each entry contains the document, the beginning of the
+    table's first line, the number of lines of the table above its first row of data, and a function
+    that returns the rows of data."""
     ida, fixed = bench(bench_program), bench(bench_program, "generalized_alpha/index3", "rk4/projection")
 
     def cells(found, problem, method, rung, *which):

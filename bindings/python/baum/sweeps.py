@@ -246,7 +246,7 @@ def sweep(
         field have the shape (n x size).
     times, method, record, options: as in Mechanism.simulate().
     reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
-        keeps this result instead of the samples.
+        keeps this result instead of the recorded values of the run.
     samples: "rows" uses the first value of every parameter for the first run, the second value for
         the second run, and so on. "grid" uses all combinations of values. A sampler with a method
         random(count), such as scipy.stats.qmc.Sobol, draws `count` samples; the values of a

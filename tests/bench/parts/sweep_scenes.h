@@ -18,7 +18,7 @@ typedef struct sweep_scene {
   double gravity;   /* [m/s^2] */
   model m;
   int nq;
-  double unit[SWEEP_NQ]; /* unit of an error in q: [m] or 1 rad */
+  double unit[SWEEP_NQ]; /* an error in q is divided by this: a length [m], or 1 rad */
   double span;           /* [s] duration of the motion */
   double rate;           /* [rad/s] initial angular velocity of the crank */
   double energy;         /* [J] initial kinetic energy */
