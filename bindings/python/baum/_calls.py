@@ -107,7 +107,8 @@ class _Task:
         self.finished = True
         self._done.release()
 
-    def wait(self, seconds: float = -1) -> None:
+    def wait(self, seconds: float) -> None:
+        """Wait until the call has returned, for at most this time [s]."""
         self._done.acquire(timeout=seconds)
 
     def result(self) -> Any:
@@ -170,7 +171,10 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
     task = _Task(function, arguments)
     try:
         _worker.put(task)
-        task.wait()
+        # A signal that comes immediately before a wait does not end this wait, so each wait is
+        # short.
+        while not task.finished:
+            task.wait(0.2)
     except BaseException:
         _come_back(task, cancel)
         raise

@@ -10,6 +10,7 @@ the run waits.
 
 from __future__ import annotations
 
+import contextlib
 import html
 import queue
 import threading
@@ -154,8 +155,9 @@ class Live:
     # ---- in the threads of pages -----------------------------------------------------------------
 
     def pause(self) -> None:
-        while not self._steps.empty():
-            self._steps.get()
+        with contextlib.suppress(queue.Empty):
+            while True:
+                self._steps.get_nowait()
         self._held_at = float("nan")
         self.paused = True
 
