@@ -132,6 +132,10 @@ class Scenes:
         """Write the scene into a file, which baum.load() can read. functions: as in scene()."""
         Path(path).write_text(self.scene(functions), encoding="utf-8", newline="\n")
 
+    def function_names(self: Any) -> list[str]:
+        """Return the names of the functions and `user` objects that a scene would contain."""
+        return list(_Hooks(self, {}).objects)
+
     def _comparable(self: Any) -> tuple[str, dict[str, Any]]:
         hooks = _Hooks(self, {})
         return _print(self, hooks), hooks.objects
