@@ -141,6 +141,14 @@ class SceneTest(FileTest):
         self.assertIs(bob.mechanism, m)
         self.assertEqual(bob, m["bob"])
 
+    def test_a_run_with_functions_carries_its_scene(self):
+        m = pendulum().freeze()
+        back = pickle.loads(pickle.dumps(m.simulate([0, 0.1], "rk8", rtol=1e-8)))
+        self.assertIsNone(back.mechanism)
+        self.assertEqual(baum.parse(back.scene, globals()), m)
+        with self.assertRaisesRegex(ValueError, "a mechanism that has functions"):
+            back.figure(0.05)
+
     def test_addresses_are_not_pickled(self):
         m = baum.Mechanism()
         m.planar_particle("a", position=(1, 0))
