@@ -112,8 +112,6 @@ class Run:
     bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
     there.
 
-    mechanism: the mechanism; None for a run that was pickled with a mechanism that has functions.
-    scene: the mechanism as a JSON text, also in a pickled run; see Mechanism.scene().
     """
 
     def __init__(
@@ -165,6 +163,7 @@ class Run:
 
     @property
     def mechanism(self) -> Mechanism | None:
+        """The mechanism. It is None if the run was pickled with a mechanism that has functions."""
         if self._mechanism is None and self._pickled and not self._pickled.has_functions:
             self._mechanism = scenes.parse(self._pickled.scene).freeze()
             first = next(one for one in self._mechanism if one.family == "body")
@@ -174,6 +173,7 @@ class Run:
 
     @property
     def scene(self) -> str:
+        """The mechanism as a JSON text, also after pickling; see Mechanism.scene()."""
         if self._pickled is not None:
             return self._pickled.scene
         assert self._mechanism is not None  # a run has its mechanism or was pickled
