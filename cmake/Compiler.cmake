@@ -56,6 +56,8 @@ check_linker_flag(C LINKER:-z,defs BAUM_KNOWS_z_defs)
 if(BAUM_KNOWS_z_defs AND NOT BAUM_SANITIZE)
   set(BAUM_NO_UNDEFINED LINKER:-z,defs)
 endif()
+set(BAUM_FMU_EXPORTS LINKER:--version-script=${PROJECT_SOURCE_DIR}/src/fmu/exports.map)
+check_linker_flag(C ${BAUM_FMU_EXPORTS} BAUM_KNOWS_version_script)
 set(BAUM_AS_NEEDED $<$<BOOL:${BAUM_KNOWS_as_needed}>:LINKER:--as-needed>)
 
 if(BAUM_SANITIZE)

@@ -21,6 +21,10 @@ foreach(library baum baum_static)
     DESTINATION ${config_dir})
 endforeach()
 
+if(TARGET baum_fmu)
+  install(TARGETS baum_fmu LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/baum COMPONENT runtime)
+endif()
+
 configure_package_config_file(cmake/baum-config.cmake.in baum-config.cmake
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(baum-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -206,6 +206,7 @@ stage_random() {
   build release random -DBAUM_TESTS=ON
   build/random/tests/bench_random 10000
   build/random/tests/bench_random_spatial 10000
+  build/random/tests/test_scene 5000
   build/random/tests/bench_reactions 1000
   build/random/tests/bench_doubts -n 2000 -f 10000 -j 2
   build/random/tests/bench_doubts -n 2000 -f 10000 -j 2 -e

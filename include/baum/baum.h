@@ -22,6 +22,7 @@
 #include <baum/stabilization.h>
 #include <baum/status.h>
 #include <baum/study.h>
+#include <baum/sweep.h>
 #include <baum/version.h>
 
 #endif

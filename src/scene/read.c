@@ -224,7 +224,8 @@ static baum_status check_top(const baum_i_scene_reader *r)
 {
   static const char *const keys[] = {BAUM_I_SCENE_KEY, "gravity",         "characteristic_length",
                                      "break_times",    "ground_outlines", "inputs",
-                                     "bodies",         "joints",          "forces"};
+                                     "bodies",         "joints",          "forces",
+                                     "units"};
   const size_t count = sizeof keys / sizeof *keys;
   BAUM_I_TRY(check_version(r));
   for (const baum_i_json_node *node = baum_i_json_first(r->json, r->json->nodes); node;
@@ -257,8 +258,13 @@ static baum_status read_breaks(const baum_i_scene_reader *r, const baum_i_json_n
 static baum_status read_settings(const baum_i_scene_reader *r)
 {
   const baum_i_json_node *whole = r->json->nodes;
-  const baum_i_json_node *node = baum_i_json_find(r->json, whole, "gravity");
+  const baum_i_json_node *node = baum_i_json_find(r->json, whole, "units");
+  const char *note = NULL; /* for people who read the scene */
   double g[3];
+  if (node) {
+    BAUM_I_TRY(baum_i_scene_read_text(r, node, &note));
+  }
+  node = baum_i_json_find(r->json, whole, "gravity");
   if (node) {
     BAUM_I_TRY(baum_i_scene_read_numbers(r, node, 3, g));
     BAUM_I_TRY(

@@ -108,6 +108,32 @@ static void end_scene(scene *s)
   model_destroy(&s->pendulum);
 }
 
+/* ---- a call that needs a function ---- */
+
+static baum_status change_nothing(baum_mechanism *copy, int64_t run, void *user)
+{
+  (void)copy;
+  (void)run;
+  (void)user;
+  return BAUM_OK;
+}
+
+static baum_status call_baum_sweep(scene *s)
+{
+  const baum_simulation_options o = rk4_options(1e-3);
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
+  const double time = 0.0;
+  double rows[4];
+  baum_sweep_def def = baum_sweep_def_default();
+  def.count = 2;
+  def.change = change_nothing;
+  def.times = &time;
+  def.time_count = 1;
+  def.channels = &energy;
+  def.channel_count = 1;
+  return baum_sweep(s->parts.mechanism, &o, &def, rows, NULL);
+}
+
 /* A small scene as text. It is used because a scene of the parts above would need hooks for all
  * functions. */
 static const char SCENE_TEXT[] =

@@ -77,8 +77,7 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* Returns the digest of a scene. If the scene is a run, the digest covers its state, or everything
- * that it saves if `all` is set. */
+/* Returns the digest of a scene. Of a run, it covers the state, or all that it saves. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};
@@ -429,6 +428,7 @@ static const call CALLS[] = {
   ROW(baum_simulation_schedule_input, RUNNING),
   ROW(baum_simulation_add_event, RUNNING),
   WORKS(baum_simulation_continue),
+  ROW(baum_sweep, FROZEN),
   ROW(baum_study_create, FROZEN),
   ROW(baum_study_set_options, STUDIED),
   ROW(baum_study_add, STUDIED),

@@ -61,6 +61,7 @@ typedef struct scene {
   baum_amplification amplification;
   baum_simulation_options options;
   baum_study_options study_options;
+  baum_sweep_def sweep;
   baum_study_grid grid;
   baum_study_entry study_entry;
   baum_study_method method;
@@ -225,6 +226,7 @@ typedef struct scene {
   X(baum_catalog_count, ())                                                                      \
   X(baum_catalog_solution, (0.0, s->catalog_x, s->catalog_x + WIDTH / 2, s->lambda, &s->choice)) \
   X(baum_study_options_init, (&s->study_options, sizeof s->study_options))                       \
+  X(baum_sweep_def_init, (&s->sweep, sizeof s->sweep))                                           \
   X(baum_study_grid_init, (&s->grid, sizeof s->grid))                                            \
   X(baum_study_destroy, (NULL))                                                                  \
   X(baum_study_cancel, (NULL))                                                                   \

@@ -24,7 +24,10 @@
 #include "random_mechanism.h"
 #include "random_spatial.h"
 
-enum { HOOKS = 4096, RANDOM = 200 };
+enum { HOOKS = 4096 };
+
+/* How many random mechanisms of each kind are tested; the first argument of the program. */
+static long random_count = 200;
 
 /* ---- hooks for everything that a mechanism uses ---- */
 
@@ -172,7 +175,7 @@ static void random_mechanisms_survive(void **state)
                             .span = 10.0,
                             .loads = 3,
                             .springs = 3};
-  for (uint64_t seed = 0; seed < RANDOM; seed++) {
+  for (uint64_t seed = 0; seed < (uint64_t)random_count; seed++) {
     random_mechanism planar;
     random_mechanism_make(&planar, seed, &kind);
     baum_mechanism *back = round_trip(planar.mechanism);
@@ -384,6 +387,7 @@ static const char *const WRONG[][2] = {
   {HEAD "\"gravity\": [0, 1, 1.00000000000000000000000000000000000000000000000000000]}",
    "more than 40 characters"},
   {HEAD "\"gravity\": [0, 1, 2,]}", "not JSON"},
+  {HEAD "\"units\": 3}", "\"units\" is a number, must be a text"},
   {HEAD "\"characteristic_length\": -1}", "-1 m"},
   {HEAD "\"break_times\": 3}", "\"break_times\" is a number, must be a list"},
   {HEAD "\"inputs\": [{\"name\": \"a\"}]}", "an input must be an object"},
@@ -526,8 +530,9 @@ static void failing_allocations_lose_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
+  random_count = count > 1 ? strtol(arguments[1], NULL, 10) : random_count;
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_kind_of_element_survives),
     cmocka_unit_test(every_mechanism_of_the_catalogue_survives),

@@ -98,6 +98,11 @@ awk -v main="$build/main" '
 "$cc" -std=c11 "$build/tutorial.c" -o "$build/tutorial" $(pkg-config --cflags --libs baum)
 LD_LIBRARY_PATH=$libraries "$build/tutorial"
 
+echo "the binary of FMUs exports only functions of FMI"
+if nm -D --defined-only "$libraries/baum/baum_fmu.so" | grep -v ' fmi3'; then
+  fail "baum_fmu.so exports these"
+fi
+
 echo "every example, with the installed libraries"
 for example in "$project"/examples/*.c; do
   # shellcheck disable=SC2046

@@ -100,6 +100,7 @@ test_linux() {
   unpack linux-x86_64 "$(package manylinux*x86_64)"
   needs "$test/baum/libbaum.so" "$c_library"
   needs "$test/baum/libbaum_catalog.so" "$c_library"
+  needs "$test/baum/baum_fmu.so" "$c_library"
   compile linux-x86_64 "" -L"$test/baum" -lbaum -lbaum_catalog -Wl,-rpath,"\$ORIGIN/baum"
   "$test/first" >"$test/first.txt"
   run linux-x86_64 "$test/@ $test/out"
@@ -146,6 +147,7 @@ END
 test_aarch64() {
   unpack linux-aarch64 "$(package manylinux*aarch64)"
   needs "$test/baum/libbaum.so" "$c_library"
+  needs "$test/baum/baum_fmu.so" "$c_library"
   compile linux-aarch64 "" -L"$test/baum" -lbaum -lbaum_catalog -Wl,-rpath,"\$ORIGIN/baum"
   arm=$work/root-aarch64
   make_root "$arm" bookworm --arch=arm64 --foreign --include=python3
@@ -174,9 +176,12 @@ test_aarch64() {
 
 test_windows() {
   unpack windows-x86_64 "$(package win_amd64)"
-  if objdump -p "$test/baum/libbaum.dll" | sed -n 's/.*DLL Name: //p' | grep -vE '^(KERNEL32|api-ms-win-crt-.*)\.dll$'; then
-    fail "libbaum.dll needs these"
-  fi
+  for library in libbaum baum_fmu; do
+    if objdump -p "$test/baum/$library.dll" | sed -n 's/.*DLL Name: //p' |
+      grep -vE '^(KERNEL32|api-ms-win-crt-.*)\.dll$'; then
+      fail "$library.dll needs these"
+    fi
+  done
   compile windows-x86_64 .exe "$work/windows-x86_64/cmake/libbaum.dll.a" \
     "$work/windows-x86_64/cmake/libbaum_catalog.dll.a"
   cp "$test"/baum/*.dll "$test"

@@ -33,6 +33,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     below["draw"] = "simulate " below["simulate"]
     below["study"] = "draw " below["draw"]
     below["scene"] = "mechanism base"
+    below["fmu"] = "scene mechanism base"
     below["catalog"] = "" # it includes only public headers, as users do
     n = split("assert complex ctype errno fenv float inttypes limits locale math setjmp signal " \
               "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string " \

@@ -45,6 +45,7 @@ def right() -> None:
     run.figure(0.5, traces=[body.pose], size=(300, 200)).save("x.pdf")
     run.movie("x.gif", fps=25, speed=0.5, forces=True, progress=print)
     m.page(run.t, run.q, "x.html", plots={"y [m]": run.q[:, 1]}, marks=[(0.5, "half")])
+    m.export_fmu("a.fmu", "rk8", step=1e-3, outputs=[pin.phi, "energy"], parameters=["a.mass"])
     assert_type(baum.stability("rk4", 1, 1).roots, "tuple[complex, complex]")
     assert_type(baum.AccuracyWarning.code, int)
 

@@ -62,9 +62,9 @@ class Pages(unittest.TestCase):
         record = ["B.reaction", "slider.velocity", "energy"]
         cls.run_ = cls.m.simulate(np.linspace(0, 0.5, 51), "rk4", step=1e-3, record=record)
 
-    def page(self, **options):
+    def page(self, run=None, **options):
         with mock.patch("webbrowser.open") as opened:
-            page = self.run_.show(**options)
+            page = (run or self.run_).show(**options)
             address = opened.call_args[0][0]
         os.remove(address[len("file://") :])
         return page
@@ -112,8 +112,11 @@ class Pages(unittest.TestCase):
             self.run_.show(traces=["nobody.pose"])
         with self.assertRaises(baum.Error):
             self.run_.show(traces=["energy"])
-        with self.assertRaises(ValueError):
-            pickle.loads(pickle.dumps(self.run_)).show()
+
+    def test_a_pickled_run_has_the_same_page(self):
+        back = pickle.loads(pickle.dumps(self.run_))
+        pages = [data_of(self.page(run, traces="rod")) for run in (back, self.run_)]
+        self.assertEqual(*pages)
 
     def test_warnings_are_marked(self):
         with self.assertWarns(baum.Warning):

@@ -103,8 +103,10 @@ class Figures(unittest.TestCase):
         for size in ((0, 100), (100,), (100, float("nan"))):
             with self.assertRaises(ValueError):
                 self.run_.figure(1, size=size)
-        with self.assertRaises(ValueError):
-            pickle.loads(pickle.dumps(self.run_)).figure(1)
+
+    def test_a_pickled_run_has_the_same_figures(self):
+        back = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(self.run_))))
+        self.assertEqual(str(back.figure(1, forces=True)), str(self.run_.figure(1, forces=True)))
 
     def test_other_formats_are_refused(self):
         with self.assertRaisesRegex(ValueError, ".svg, .pdf or .png"):

@@ -56,7 +56,8 @@ class Pickled(unittest.TestCase):
     def test_a_run_comes_back_whole(self):
         run, back = self.run_, pickle.loads(pickle.dumps(self.run_))
         back = pickle.loads(pickle.dumps(back))
-        self.assertIsNone(back.mechanism)
+        self.assertEqual(back.scene, run.scene)
+        self.assertEqual(back.mechanism, self.m)
         self.assertEqual((list(back), back.status, back.explain), (list(run), run.status, run.explain))
         self.assertEqual([str(w) for w in back.warnings], [str(w) for w in run.warnings])
         for key in (*run, "slider.pose", "crank.velocity", self.m["B"].phi):

@@ -3,7 +3,10 @@
 
 import contextlib
 import io
+import json
 import pickle
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -110,6 +113,13 @@ class SceneTest(FileTest):
             with self.assertRaises(baum.Error):
                 baum.parse(text)
 
+    def test_a_note_on_units_is_ignored(self):
+        text = crank().scene(units="mm, t, s")
+        self.assertIn('"units": "mm, t, s"', text)
+        self.assertEqual(baum.parse(text).scene(), crank().scene())
+        with self.assertRaisesRegex(baum.Error, 'line 3: "units" is a number, must be a text'):
+            baum.parse(text.replace('"mm, t, s"', "3"))
+
     def test_differences_are_named(self):
         a, b = crank(), crank()
         self.assertEqual(a.difference(b), "")
@@ -141,6 +151,14 @@ class SceneTest(FileTest):
         self.assertIs(bob.mechanism, m)
         self.assertEqual(bob, m["bob"])
 
+    def test_a_run_with_functions_carries_its_scene(self):
+        m = pendulum().freeze()
+        back = pickle.loads(pickle.dumps(m.simulate([0, 0.1], "rk8", rtol=1e-8)))
+        self.assertIsNone(back.mechanism)
+        self.assertEqual(baum.parse(back.scene, globals()), m)
+        with self.assertRaisesRegex(ValueError, "a mechanism that has functions"):
+            back.figure(0.05)
+
     def test_addresses_are_not_pickled(self):
         m = baum.Mechanism()
         m.planar_particle("a", position=(1, 0))
@@ -152,6 +170,87 @@ class SceneTest(FileTest):
     def test_a_mechanism_of_the_library_is_written(self):
         m = baum.catalog.build("slider_crank")
         self.assertEqual(baum.parse(m.scene()), m)
+
+
+def problems(value, schema, whole):
+    """List the violations of a schema, for the part of JSON schema that the schema of scenes
+    uses."""
+    if "$ref" in schema:
+        schema = {**whole["$defs"][schema["$ref"].split("/")[-1]], "$ref": None}
+    if "oneOf" in schema:
+        fits = [not problems(value, one, whole) for one in schema["oneOf"]]
+        return [] if sum(fits) == 1 else [f"{value} fits {sum(fits)} kinds"]
+    types = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None),
+             "integer": int, "number": (int, float)}  # fmt: skip
+    wanted = schema.get("type", list(types))
+    wanted = [wanted] if isinstance(wanted, str) else wanted
+    found = []
+    if not any(isinstance(value, types[one]) for one in wanted):
+        found.append(f"{value} is not {wanted}")
+    if "const" in schema and value != schema["const"]:
+        found.append(f"{value} is not {schema['const']}")
+    if "enum" in schema and value not in schema["enum"]:
+        found.append(f"{value} is not one of {schema['enum']}")
+    if isinstance(value, list):
+        if not schema.get("minItems", 0) <= len(value) <= schema.get("maxItems", len(value)):
+            found.append(f"{value} has a wrong length")
+        for one in value:
+            found += problems(one, schema.get("items", {}), whole)
+    if isinstance(value, dict):
+        found += [f"{key} is missing" for key in schema.get("required", ()) if key not in value]
+        known = schema.get("properties", dict.fromkeys(value, {}))
+        found += [f"{key} is unknown" for key in value if key not in known]
+        for key in set(value) & set(known):
+            found += problems(value[key], known[key], whole)
+    return found
+
+
+class SchemaTest(unittest.TestCase):
+    ROOT = Path(__file__).parents[2]
+
+    @classmethod
+    def setUpClass(cls):
+        cls.schema = json.loads((cls.ROOT / "docs" / "scene.schema.json").read_text())
+
+    def problems(self, text):
+        """List the violations in a scene. If jsonschema is installed, it must agree."""
+        found = problems(json.loads(text), self.schema, self.schema)
+        try:
+            import jsonschema
+        except ImportError:
+            return found
+        validator = jsonschema.Draft202012Validator(self.schema)
+        self.assertEqual(validator.is_valid(json.loads(text)), not found, found)
+        return found
+
+    def test_generating_it_again_changes_nothing(self):
+        tool = self.ROOT / "bindings" / "python" / "tools" / "generate_schema.py"
+        subprocess.run([sys.executable, str(tool), "--check"], check=True)
+
+    @unittest.skipUnless(hasattr(baum, "catalog"), "the catalogue is missing")
+    def test_all_mechanisms_of_the_library_are_valid(self):
+        for entry in baum.catalog.entries():
+            text = baum.catalog.build(entry.name).scene()
+            self.assertEqual(self.problems(text), [], entry.name)
+
+    def test_functions_outlines_and_units_are_valid(self):
+        self.assertEqual(self.problems(pendulum().scene(units="m, kg, s")), [])
+        m = crank()
+        m["crank"].outline = [baum.Circle(0.1), [(0, 0), (1, 0), (0, 1)]]
+        self.assertEqual(self.problems(m.scene()), [])
+
+    def test_wrong_scenes_are_not_valid(self):
+        for old, new in (
+            ('"baum_scene": 1', '"baum_scene": 2'),
+            ('"inertia": 0.1', '"inertia": "0.1"'),
+            ('"inertia": 0.1', '"inertias": 0.1'),
+            ("planar_revolute", "planar_revolut"),
+            ('"point": [0, 0]', '"point": [0]'),
+            ('"body_b": "crank"', '"body_b": -1.5'),
+        ):
+            text = crank().scene()
+            self.assertIn(old, text)
+            self.assertTrue(self.problems(text.replace(old, new)), new)
 
 
 class CommandTest(FileTest):

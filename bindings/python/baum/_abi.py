@@ -1130,6 +1130,23 @@ class baum_spline_driver_def(Structure):
     ]
 
 
+baum_sweep_change_fn = CFUNCTYPE(c_int, c_void_p, c_int64, c_void_p)
+
+
+class baum_sweep_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("count", c_int64),
+        ("change", baum_sweep_change_fn),
+        ("user", c_void_p),
+        ("times", c_void_p),
+        ("time_count", c_int64),
+        ("channels", POINTER(baum_channel)),
+        ("channel_count", c_int32),
+        ("threads", c_int32),
+    ]
+
+
 class baum_catalog_entry(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1796,6 +1813,11 @@ PROTOTYPES = {
     "baum_mechanism_set_spline_driver": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_spline_driver_def),
     ]),
+    "baum_sweep_def_init": (None, [POINTER(baum_sweep_def), c_size_t]),
+    "baum_sweep": (c_int, [
+        c_void_p, POINTER(baum_simulation_options), POINTER(baum_sweep_def), c_void_p,
+        POINTER(c_int32),
+    ]),
     "baum_version": (c_char_p, []),
     "baum_has": (c_bool, [c_char_p]),
 }
@@ -1863,6 +1885,7 @@ DEFAULTS = {
     baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
     baum_spatial_rolling_disc_def: "baum_spatial_rolling_disc_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
+    baum_sweep_def: "baum_sweep_def_init",
 }
 
 STRUCTS = [
@@ -1928,6 +1951,7 @@ STRUCTS = [
     baum_spatial_point_on_plane_def,
     baum_spatial_rolling_disc_def,
     baum_spline_driver_def,
+    baum_sweep_def,
     baum_catalog_entry,
     baum_catalog_parameter,
     baum_catalog_setting,

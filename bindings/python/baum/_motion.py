@@ -138,7 +138,10 @@ def of_run(
     """Make the motion of a run."""
     mechanism = run.mechanism
     if mechanism is None:
-        raise ValueError("this run was pickled; only a run with its mechanism can be shown")
+        raise ValueError(
+            "this run was pickled with a mechanism that has functions; only a run with its "
+            "mechanism can be shown"
+        )
     if len(run.t) == 0:
         raise ValueError("this run has no samples to show")
     shown = [WHOLE["q"], *_chosen(mechanism, recorded, forces)]

@@ -36,6 +36,15 @@ class Channel:
         for field, value in {"quantity": quantity, **fields}.items():
             setattr(self.struct, field, value)
 
+    @classmethod
+    def of_bytes(cls, key: str, struct: bytes, tag: int) -> Channel:
+        """Make a channel from the bytes of a struct, whose ids get the tag of a mechanism."""
+        made = cls(key, 0)
+        made.struct = _abi.baum_channel.from_buffer_copy(struct)
+        for id in (made.struct.body, made.struct.joint):
+            id.tag = tag if id.index1 > 0 else id.tag
+        return made
+
     def __repr__(self) -> str:
         return f"<channel {self.key}>"
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, S
 
 import numpy as np
 
-from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings
+from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings, fmu
 from ._lib import lib, text
 from ._motion import TraceLike
 from ._values import number, numbers, vector
@@ -567,3 +567,28 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         recorded so far.
         """
         return Simulation(self, integrator, **options).sample(times, record)
+
+    @takes_options
+    def export_fmu(
+        self,
+        path: str | os.PathLike[str],
+        integrator: str | Integrator | None = None,
+        *,
+        outputs: Sequence[ChannelLike],
+        inputs: Sequence[InputLike] | None = None,
+        parameters: Sequence[str] = (),
+        **options: Unpack[SimulationOptions],
+    ) -> None:
+        """Write the mechanism as an FMU for co-simulation by FMI 3.0. No compiler is needed.
+
+        outputs: channels, such as "slider.pose"; each of their columns is an output of the FMU.
+        inputs: inputs of the mechanism that are inputs of the FMU, by default all.
+        parameters: numbers that users of the FMU can change, as "element.field", such as
+            "rod.mass". The initial configuration consists of such numbers, too.
+        integrator, options: as for simulation(), without progress, row_gains, max_steps and
+            start_time. Choose a fixed step for control loops.
+
+        Raises ValueError if the mechanism contains functions, because a binary cannot contain
+        Python.
+        """
+        fmu.export(self, path, integrator, outputs, inputs, parameters, options)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Iterator, NamedTuple, NoReturn, Sequence
 
 import numpy as np
 
-from . import _html, _motion, _records, drawings, movies, units
+from . import _html, _motion, _records, drawings, movies, scenes, units
 from ._motion import Forces, TraceLike
 from ._rotation import matrix
 from ._values import number
@@ -84,6 +84,15 @@ class Account(NamedTuple):
     energy_account: EnergyAccount | None
 
 
+class _Pickled(NamedTuple):
+    """What a pickled run knows about its mechanism: its scene, whether it has functions, and its
+    recorded channels as bytes."""
+
+    scene: str
+    has_functions: bool
+    channels: dict[str, bytes]
+
+
 class Run:
     """The samples of a run.
 
@@ -103,7 +112,6 @@ class Run:
     bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
     there.
 
-    A run can be pickled. Its `mechanism` is then None.
     """
 
     def __init__(
@@ -115,7 +123,8 @@ class Run:
         status: Status,
         account: Account,
     ) -> None:
-        self.mechanism: Mechanism | None = mechanism
+        self._mechanism: Mechanism | None = mechanism
+        self._pickled: _Pickled | None = None
         self.t = times
         self.status = status
         self.failure: str | None = None
@@ -130,13 +139,15 @@ class Run:
         self.v = self["v"]
 
     def __getstate__(self) -> dict[str, Any]:
-        bodies = self._bodies
-        if bodies is None and self.mechanism is not None:
-            bodies = {one.name: _place(one) for one in self.mechanism if one.family == "body"}
+        bodies, pickled, mechanism = self._bodies, self._pickled, self._mechanism
+        if bodies is None and mechanism is not None:
+            bodies = {one.name: _place(one) for one in mechanism if one.family == "body"}
+        if pickled is None and mechanism is not None:
+            structs = {key: bytes(channel.struct) for key, channel in self._channels.items()}
+            pickled = _Pickled(mechanism.scene(), bool(mechanism.function_names()), structs)
         known = {key: self._units_of(key) for key in self}
-        return dict(
-            vars(self), mechanism=None, _bodies=bodies, _units=known, _channels={}, q=None, v=None
-        )
+        own: dict[str, Any] = dict(_mechanism=None, _pickled=pickled, _channels={})
+        return dict(vars(self), **own, _bodies=bodies, _units=known, q=None, v=None)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         vars(self).update(state)
@@ -146,8 +157,27 @@ class Run:
     def __deepcopy__(self, memo: Any) -> Run:
         copied = type(self).__new__(type(self))
         own = {name: copy.deepcopy(value, memo) for name, value in self.__getstate__().items()}
-        copied.__setstate__(dict(own, mechanism=self.mechanism, _bodies=self._bodies))
+        kept = dict(_mechanism=self._mechanism, _channels=self._channels, _bodies=self._bodies)
+        copied.__setstate__(dict(own, **kept))
         return copied
+
+    @property
+    def mechanism(self) -> Mechanism | None:
+        """The mechanism. It is None if the run was pickled with a mechanism that has functions."""
+        if self._mechanism is None and self._pickled and not self._pickled.has_functions:
+            self._mechanism = scenes.parse(self._pickled.scene).freeze()
+            first = next(one for one in self._mechanism if one.family == "body")
+            for key, struct in self._pickled.channels.items():
+                self._channels[key] = Channel.of_bytes(key, struct, first.id.tag)
+        return self._mechanism
+
+    @property
+    def scene(self) -> str:
+        """The mechanism as a JSON text, also after pickling; see Mechanism.scene()."""
+        if self._pickled is not None:
+            return self._pickled.scene
+        assert self._mechanism is not None  # a run has its mechanism or was pickled
+        return self._mechanism.scene()
 
     def __array__(self, *how: Any, **also: Any) -> NoReturn:
         raise TypeError(
@@ -206,8 +236,8 @@ class Run:
 
     def _ipython_key_completions_(self) -> list[str]:
         bodies = list(self._bodies or ())
-        if self.mechanism is not None:
-            bodies = [one.name for one in self.mechanism if one.family == "body"]
+        if self._bodies is None and self._mechanism is not None:
+            bodies = [one.name for one in self._mechanism if one.family == "body"]
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
@@ -223,9 +253,9 @@ class Run:
         """Return where the coordinates of a body are in q and v, or None."""
         if self._bodies is not None:
             return self._bodies.get(body)
-        if self.mechanism is None or body not in self.mechanism:
+        if self._mechanism is None or body not in self._mechanism:
             return None
-        element = self.mechanism[body]
+        element = self._mechanism[body]
         return None if element.family != "body" or element.kind is None else _place(element)
 
     # ---- tables and plots ------------------------------------------------------------------------
@@ -249,8 +279,8 @@ class Run:
             found = self._of_body(key)
             if found is not None:
                 return self._units_of(found[0])[found[1]]
-            assert self.mechanism is not None  # a run without a mechanism knows its units
-            self._units[key] = units.of_channel(self.mechanism, self._channels[key])
+            assert self._mechanism is not None  # a run without a mechanism knows its units
+            self._units[key] = units.of_channel(self._mechanism, self._channels[key])
         return self._units[key]
 
     def to_dict(self) -> dict[str, Array]:
@@ -342,6 +372,10 @@ class Run:
             made.open()
         return made
 
+    def _recorded(self) -> list[Channel]:
+        """Return the recorded channels. There are none if the run has no mechanism."""
+        return list(self._channels.values()) if self.mechanism is not None else []
+
     def _page(
         self,
         title: str | None,
@@ -349,15 +383,15 @@ class Run:
         forces: Forces,
         plots: Sequence[ChannelLike] | None,
     ) -> Page:
+        known = self._recorded()
         if plots is None:
-            others = [key for key, x in self._channels.items() if not _motion.is_reaction(x)]
+            others = [channel.key for channel in known if not _motion.is_reaction(channel)]
             plots = [key for key in others if key not in ("q", "v")]
         columns = []
         for plot in _motion.listed(plots):
             key = plot.key if isinstance(plot, Channel) else plot
             for name, unit, values in zip(self._names(key), self._units_of(key), self[key].T):
                 columns.append((f"{name} [{unit}]" if unit else name, values))
-        known = self._channels.values()
         return drawings.page(_motion.of_run(self, known, traces, forces, title, columns))
 
     def figure(
@@ -381,7 +415,7 @@ class Run:
         m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a time outside
         of the run, and for a run without its mechanism.
         """
-        motion = _motion.of_run(self, self._channels.values(), traces, forces)
+        motion = _motion.of_run(self, self._recorded(), traces, forces)
         time = number(t, "t")
         first, last = sorted(self.t[[0, -1]])
         if not first <= time <= last:
@@ -413,7 +447,7 @@ class Run:
         Raises ImportError without Matplotlib, RuntimeError without ffmpeg, and ValueError for other
         suffixes and for a run without its mechanism.
         """
-        motion = _motion.of_run(self, self._channels.values(), traces, forces)
+        motion = _motion.of_run(self, self._recorded(), traces, forces)
         movies.write(self, motion, path, fps, speed, size, progress)
 
 

@@ -121,17 +121,32 @@ class Scenes:
         @property
         def frozen(self) -> bool: ...
 
-    def scene(self: Any, functions: Functions | None = None) -> str:
+    def scene(self: Any, functions: Functions | None = None, units: str | None = None) -> str:
         """Return the mechanism as a JSON text, which baum.parse() can read.
 
         functions: names for functions and objects, such as {"drag": drag}. A function that is not
             listed is written by its own name, or as "element.field" if it has none.
+        units: a note on the units, such as "mm, t, s". It has no effect on baum, which does not
+            keep it when it reads the scene.
         """
-        return _print(self, _Hooks(self, functions or {}))
+        text = _print(self, _Hooks(self, functions or {}))
+        first, rest = text.split(",\n", 1)
+        note = f',\n  "units": {json.dumps(units)}' if units is not None else ""
+        return f"{first}{note},\n{rest}"
 
-    def save(self, path: str | os.PathLike[str], functions: Functions | None = None) -> None:
-        """Write the scene into a file, which baum.load() can read. functions: as in scene()."""
-        Path(path).write_text(self.scene(functions), encoding="utf-8", newline="\n")
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        functions: Functions | None = None,
+        units: str | None = None,
+    ) -> None:
+        """Write the scene into a file, which baum.load() can read. The other arguments are those
+        of scene()."""
+        Path(path).write_text(self.scene(functions, units), encoding="utf-8", newline="\n")
+
+    def function_names(self: Any) -> list[str]:
+        """Return the names of the functions and `user` objects that a scene would contain."""
+        return list(_Hooks(self, {}).objects)
 
     def _comparable(self: Any) -> tuple[str, dict[str, Any]]:
         hooks = _Hooks(self, {})

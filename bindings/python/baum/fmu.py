@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Export of mechanisms as FMUs: co-simulation by FMI 3.0 with a binary that reads the scene, so
+that no compiler is needed."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import importlib.metadata
+import json
+import os
+import platform
+import sys
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
+
+from . import _abi
+from ._lib import default, lib
+from ._lib import path as library
+from ._lib import version as library_version
+from .channels import Channel, Layout
+from .integrators import lookup
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+MODEL = "baum_fmu"  # the name of the binary in every FMU
+SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
+MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
+# Options that an FMU does not keep. Its simulator gives the start time.
+REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
+
+
+class _Variable(NamedTuple):
+    """A number of an FMU. start is None for outputs."""
+
+    name: str
+    causality: str
+    variability: str
+    start: float | None = None
+
+
+# ---- the binary --------------------------------------------------------------------------------
+
+
+class _Place(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_void_p) for name in ("file", "base", "symbol", "address")]
+
+
+def _library_file() -> Path:
+    """Return the file of the loaded library. Where the dynamic loader has searched for it, ask the
+    loader."""
+    if os.path.dirname(library) or sys.platform == "win32":
+        return Path(library)
+    found = _Place()
+    ctypes.CDLL(None).dladdr(ctypes.cast(lib.baum_version, ctypes.c_void_p), ctypes.byref(found))
+    return Path(os.fsdecode(ctypes.string_at(found.file)))
+
+
+def _binary() -> tuple[str, Path]:
+    """Return the path of the binary in an FMU, and its file. The file is beside the library, or in
+    the folder baum there."""
+    system, suffix = SYSTEMS.get(sys.platform, ("linux", ".so"))
+    machine = platform.machine().lower()
+    inside = f"binaries/{MACHINES.get(machine, machine)}-{system}/{MODEL}{suffix}"
+    folder = _library_file().parent
+    for file in (folder / (MODEL + suffix), folder / "baum" / (MODEL + suffix)):
+        if file.exists():
+            return inside, file
+    raise FileNotFoundError(f"{MODEL}{suffix} is neither in {folder} nor in {folder / 'baum'}")
+
+
+def _licenses() -> Iterator[tuple[str, bytes]]:
+    """Return the licenses of the installed package, which apply to the binary, too."""
+    try:
+        files = importlib.metadata.files("baum") or []
+    except importlib.metadata.PackageNotFoundError:
+        return
+    for file in files:
+        if "licenses" in file.parts:
+            place = Path(str(file.locate()))
+            if place.is_file():
+                below = "/".join(file.parts[file.parts.index("licenses") + 1 :])
+                yield f"documentation/licenses/{below}", place.read_bytes()
+
+
+# ---- resources/fmu.json ------------------------------------------------------------------------
+
+
+def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that differ from their defaults, as fmu.json contains them."""
+    from .simulation import make_options
+
+    for name in REFUSED:
+        if given.get(name) is not None:
+            raise TypeError(f"export_fmu: an FMU cannot have the option {name}")
+    struct, usual = make_options(method, given), default(_abi.baum_simulation_options)
+    changed: dict[str, Any] = {}
+    for name in given:
+        value = getattr(struct, name)
+        if name == "gains":
+            if given[name] is not None:
+                changed["gains.rule"] = value.rule
+                changed["gains.value"] = list(value.value)
+        elif value != getattr(usual, name) and value == value:
+            changed[name] = value
+    return changed
+
+
+def _channel(channel: Channel) -> dict[str, Any]:
+    """Return a channel as fmu.json contains it: elements by their numbers."""
+    struct = channel.struct
+    found: dict[str, Any] = {"quantity": struct.quantity, "point": list(struct.point)}
+    for family in ("body", "joint"):
+        if getattr(struct, family).index1 > 0:
+            found[family] = getattr(struct, family).index1 - 1
+    if struct.coordinate:
+        found["coordinate"] = struct.coordinate
+    return found
+
+
+# ---- variables ---------------------------------------------------------------------------------
+
+
+def _numbered(name: str, count: int) -> list[str]:
+    """Name the numbers of a parameter or the columns of a channel, like Run.to_dict()."""
+    return [name] if count == 1 else [f"{name}[{k}]" for k in range(count)]
+
+
+def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
+    element, _, field = name.rpartition(".")
+    found = mechanism[element] if element in mechanism else None
+    struct: Any = mechanism.read(found) if found is not None and found.kind is not None else None
+    kind = dict(pair[:2] for pair in struct._fields_).get(field) if struct else None
+    if ctypes.c_double not in (kind, getattr(kind, "_type_", None)):
+        raise ValueError(f'{name!r}: "element.field" with a field of numbers is wanted')
+    value = getattr(struct, field)
+    numbers = [value] if kind is ctypes.c_double else list(value)
+    for one, start in zip(_numbered(name, len(numbers)), numbers):
+        yield _Variable(one, "parameter", "fixed", start)
+
+
+def _description(
+    name: str, token: str, variables: Sequence[_Variable], rtol: float | None
+) -> bytes:
+    """Write modelDescription.xml."""
+    root = ElementTree.Element(
+        "fmiModelDescription",
+        fmiVersion="3.0",
+        modelName=name,
+        instantiationToken=token,
+        generationTool=f"baum {library_version}",
+        variableNamingConvention="flat",
+    )
+    ElementTree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=MODEL,
+        canHandleVariableCommunicationStepSize="true",
+        canGetAndSetFMUState="true",
+        canSerializeFMUState="true",
+    )
+    logs = ElementTree.SubElement(root, "LogCategories")
+    for category in ("warning", "error"):
+        ElementTree.SubElement(logs, "Category", name=category)
+    if rtol is not None:
+        ElementTree.SubElement(root, "DefaultExperiment", tolerance=repr(rtol))
+    listed = ElementTree.SubElement(root, "ModelVariables")
+    structure = ElementTree.SubElement(root, "ModelStructure")
+    for k, one in enumerate(variables):
+        place = {"name": one.name, "valueReference": str(k)}
+        place.update(causality=one.causality, variability=one.variability)
+        if one.start is not None:
+            place["start"] = "NaN" if one.start != one.start else repr(one.start)
+        ElementTree.SubElement(listed, "Float64", place)
+    outputs = [str(k) for k, one in enumerate(variables) if one.causality == "output"]
+    for kind in ("Output", "InitialUnknown"):
+        for reference in outputs:
+            ElementTree.SubElement(structure, kind, valueReference=reference)
+    text: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
+    return text
+
+
+# ---- export ------------------------------------------------------------------------------------
+
+
+def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
+    """Copy a mechanism. In the copy, parameters that move a body do not move its joints on the
+    body: their places are numbers in body axes, as after Mechanism.copy()."""
+    changes: dict[str, dict[str, Any]] = {}
+    for name in parameters:
+        element, _, field = name.rpartition(".")
+        if field in ("position", "angle", "orientation"):
+            changes.setdefault(element, {})[field] = mechanism[element].definition[field]
+    return mechanism.thawed(**changes)
+
+
+def export(
+    mechanism: Mechanism,
+    path: str | os.PathLike[str],
+    method: Any,
+    outputs: Sequence[Any],
+    inputs: Sequence[Any] | None,
+    parameters: Sequence[str],
+    options: Mapping[str, Any],
+) -> None:
+    """Write an FMU; see Mechanism.export_fmu()."""
+    inside, binary = _binary()
+    chosen = _options(method, options)
+    for name in parameters:
+        list(_parameter(mechanism, name))  # refuse wrong names
+    copy = _with_fixed_joints(mechanism, parameters)
+    functions = copy.function_names()
+    if functions:
+        raise ValueError(f"export_fmu: an FMU cannot contain functions: {', '.join(functions)}")
+    scene = copy.scene()
+    copy.freeze()
+    layout = Layout(copy, [copy.channel(one) for one in outputs])
+    with copy.simulation(method, **options) as run:
+        run.get(*layout.channels.values())  # refuse what the FMU could not simulate
+    read = copy.inputs if inputs is None else [copy.find("input", one) for one in inputs]
+    variables = [_Variable("time", "independent", "continuous")]
+    variables += [_Variable(one.name, "input", "continuous", one.initial) for one in read]
+    for name in parameters:
+        variables += _parameter(copy, name)
+    for key, columns in layout.slices.items():
+        names = _numbered(key, columns.stop - columns.start)
+        variables += [_Variable(name, "output", "continuous") for name in names]
+    pairs = [name.rpartition(".") for name in parameters]
+    interface: dict[str, Any] = {
+        "integrator": lookup(method).name,
+        "options": chosen,
+        "inputs": [one.id.index1 - 1 for one in read],
+        "parameters": [{"element": pair[0], "field": pair[2]} for pair in pairs],
+        "outputs": [_channel(channel) for channel in layout.channels.values()],
+    }
+    names = [one.name for one in variables]
+    token = hashlib.sha256(json.dumps([scene, interface, names]).encode()).hexdigest()
+    interface["token"] = token
+    description = _description(Path(path).stem, token, variables, chosen.get("rtol"))
+    files = [
+        ("modelDescription.xml", description),
+        ("resources/scene.json", scene.encode()),
+        ("resources/fmu.json", json.dumps(interface, indent=1).encode()),
+        (inside, binary.read_bytes()),
+    ]
+    _write(Path(path), [*files, *_licenses()])
+
+
+def _write(path: Path, files: Sequence[tuple[str, bytes]]) -> None:
+    """Write the archive. Equal mechanisms give equal archives: times of files are omitted."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, data in files:
+            archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)

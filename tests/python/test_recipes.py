@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Executes the programs in docs/scenes.md that use SciPy, SALib and Optuna."""
+
+import contextlib
+import importlib.util
+import io
+import re
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import baum
+
+PAGE = Path(__file__).parents[2] / "docs" / "scenes.md"
+
+
+def slider_crank():
+    m = baum.Mechanism()
+    m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(0.0765, 0), angular_velocity=150)
+    m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(0.306, 0))
+    m.planar_body("slider", mass=0.076, position=(0.459, 0))
+    m.revolute("A", "ground", "crank", point_a=(0, 0), point_b=(-0.0765, 0))
+    m.revolute("B", "crank", "rod", point_a=(0.0765, 0), point_b=(-0.153, 0))
+    m.revolute("C", "rod", "slider", point_a=(0.153, 0), point_b=(0, 0))
+    m.translational("guide", "ground", "slider", axis=(1, 0), point_a=(0, 0), point_b=(0, 0))
+    return m.freeze()
+
+
+class Recipes(unittest.TestCase):
+    def run_block(self, text, *packages):
+        """Execute the block of the page that contains this text, and return its variables."""
+        for package in packages:
+            if importlib.util.find_spec(package) is None:
+                self.skipTest(f"{package} is missing")
+        blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.S)
+        (block,) = [block for block in blocks if text in block]
+        names = {"baum": baum, "m": slider_crank()}
+        with contextlib.redirect_stdout(io.StringIO()) as out, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # those of the other packages
+            exec(block, names)
+        return names, out.getvalue()
+
+    def test_scipy_finds_the_masses(self):
+        names, _ = self.run_block("least_squares", "scipy")
+        np.testing.assert_allclose(names["fit"].x, [0.038, 0.076], rtol=1e-6)
+
+    def test_salib_finds_the_most_important_mass(self):
+        names, _ = self.run_block("SALib", "SALib")
+        self.assertTrue(np.isfinite(names["indices"]["ST"]).all())
+        self.assertEqual(names["swept"].messages, {})
+
+    def test_optuna_finds_a_mass_that_is_at_least_as_good_as_both_ends(self):
+        names, _ = self.run_block("optuna", "optuna")
+        m, best = slider_crank(), names["search"].best_value
+        for mass in (0.05, 0.1):
+            run = m.copy(slider={"mass": mass}).simulate([0, 0.05], "rk8", step=2e-4)
+            self.assertGreater(best, run["slider.pose"][-1, 0] - 1e-4)
+
+    @unittest.skipUnless(baum.has("sundials"), "no SUNDIALS")
+    def test_differences_over_a_fixed_step_are_smooth_and_others_are_not(self):
+        names, out = self.run_block("Richardson")
+        errors = np.array(re.findall(r"rk8 (\S+)   ida (\S+)", out), dtype=float)
+        self.assertEqual(errors.shape, (3, 2))
+        # rk8: error of central differences; rounding at the smallest step. ida: noise, which was
+        # 1e-2 in the worst case.
+        self.assertLess(errors[:, 0].max(), 1e-6)
+        self.assertGreater(errors[:, 1].max(), 1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()
