@@ -55,16 +55,41 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   return smallest;
 }
 
+static double pivot_in_space(const baum_i_space *space, int k)
+{
+  const double *det = space->measures[k].det;
+  double whole[2];
+  baum_i_space_undivided(space, k, whole);
+  return fabs(det[0] / whole[0] * (det[1] / whole[1]));
+}
+
+/* Return a number below the pivot of a node. A determinant is at most the product of the diagonal
+ * entries (J. Hadamard, 1893). */
+static double least_in_space(const baum_i_space *space, int k)
+{
+  const baum_i_space_measure *of = &space->measures[k];
+  return fabs(of->det[0] / of->size[0] * (of->det[1] / of->size[1]));
+}
+
+/* Determinants are computed only at nodes whose pivot may be the smallest. */
 static double smallest_in_space(const baum_i_space *space, int *row)
 {
   double smallest = 1.0;
+  double least = (double)INFINITY;
+  int first = 0;
   *row = -1;
   for (int k = 0; k < space->node_count; k++) {
-    const double *det = space->measures[k].det;
-    double whole[2];
-    baum_i_space_undivided(space, k, whole);
-    double pivot = fabs(det[0] / whole[0] * (det[1] / whole[1]));
-    compare_pivot(pivot, space->list[k].row[0], &smallest, row);
+    double at = least_in_space(space, k);
+    first = at < least ? k : first;
+    least = at < least ? at : least;
+  }
+  if (space->node_count > 0) {
+    compare_pivot(pivot_in_space(space, first), space->list[first].row[0], &smallest, row);
+  }
+  for (int k = 0; k < space->node_count; k++) {
+    if (k != first && !(least_in_space(space, k) >= smallest)) {
+      compare_pivot(pivot_in_space(space, k), space->list[k].row[0], &smallest, row);
+    }
   }
   return smallest;
 }
