@@ -24,7 +24,7 @@ static const double SAME_TIME = 1e-9;
 
 static void keep_trial(baum_simulation *run)
 {
-  (void)baum_i_run_follow_angles(run, &run->trial);
+  baum_i_run_follow_step(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
   if (run->account) {
@@ -155,7 +155,7 @@ static baum_status internal_step(baum_simulation *run)
   if (run->account) {
     baum_i_account_step(run);
   }
-  (void)baum_i_run_follow_angles(run, &run->trial);
+  baum_i_run_follow_step(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->counters.steps++;
   BAUM_I_TRY(baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v));
