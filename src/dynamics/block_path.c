@@ -360,7 +360,20 @@ static baum_status refine_space(baum_i_block_path *path, bool fair, double settl
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last)
+/* With good pivots and even masses the relative error of a solution is far below 1e-8. A change of
+ * velocities below this fraction of the velocities therefore needs no refinement. */
+static const double SMALL_CHANGE = 1e-8;
+
+static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
+{
+  double size = SMALL_CHANGE * baum_i_scaled_size(w->mechanism, v);
+  return !path->uneven && path->space_kernel->read_motion(path->space, w->a) &&
+         baum_i_scaled_size(w->mechanism, w->a) <= size;
+}
+
+/* `last` as in solve(); then v are the velocities that the solution corrects. */
+static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
+                               const double *v)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
   baum_i_space *space = path->space;
@@ -369,6 +382,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(space, w->lambda);
+  last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
   /* If masses are uneven, a rounding error of the multipliers that does not matter for heavy bodies
    * may accelerate light ones, also along the constraints, where J a does not show it. Such
    * mechanisms are always refined. */
@@ -423,7 +437,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   w->solved_by = path;
   if (path->space) {
     BAUM_I_TRY(set_space(w, path, t, q, v, right));
-    BAUM_I_TRY(solve_space(w, path, last));
+    BAUM_I_TRY(solve_space(w, path, last, v));
     finite = path->space_kernel->read_motion(path->space, w->a);
   } else {
     BAUM_I_TRY(set_state(w, path, t, q, v, right));
