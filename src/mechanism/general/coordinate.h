@@ -84,8 +84,8 @@ void baum_i_hold_angles(baum_i_point *point, double t);
  * prediction, in rad. It is at most pi. */
 double baum_i_follow_angles(baum_i_point *point);
 
-/* Tell whether all angles are so near to their last values that they need not be updated at the time
- * t. `rate` is the largest angular velocity of a body; joints may move faster. `angles` must not be
+/* Tell whether all angles are so near to their last values that they need not be updated at time t.
+ * `rate` is the largest angular velocity of a body; joints may move faster. `angles` must not be
  * NULL. */
 bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate);
 
