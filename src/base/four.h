@@ -63,6 +63,11 @@ BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
   return x * y;
 }
 
+BAUM_I_INLINE baum_i_four baum_i_four_over(baum_i_four x, baum_i_four y)
+{
+  return x / y;
+}
+
 /* Return `product` rounded to double. The compiler then cannot fuse the multiplication with an
  * addition that follows. */
 BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
@@ -146,6 +151,11 @@ BAUM_I_INLINE baum_i_four baum_i_four_minus(baum_i_four x, baum_i_four y)
 BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
 {
   return (baum_i_four){x.low * y.low, x.high * y.high};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_over(baum_i_four x, baum_i_four y)
+{
+  return (baum_i_four){x.low / y.low, x.high / y.high};
 }
 
 BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)

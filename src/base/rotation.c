@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "base/rotation.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
+
+#include "base/sincos.h"
 
 /* For angles x below this, sin(x) / x is 1 up to rounding. The quotient is not computed then,
  * because it could be 0 / 0. */
@@ -11,8 +14,10 @@ static const double TINY = 1e-12;
 void baum_i_quaternion_exp(const double rotation[3], double p[4])
 {
   double half = 0.5 * sqrt(baum_i_dot3(rotation, rotation));
-  double factor = half > TINY ? 0.5 * sin(half) / half : 0.5;
-  p[0] = cos(half);
+  bool small = half <= 0.7; /* as most rotations in a step */
+  double sine = small ? baum_i_sine_kernel(half, 0.0) : sin(half);
+  double factor = half > TINY ? 0.5 * sine / half : 0.5;
+  p[0] = small ? baum_i_cosine_kernel(half, 0.0) : cos(half);
   for (int i = 0; i < 3; i++) {
     p[1 + i] = factor * rotation[i];
   }

@@ -147,19 +147,40 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
   set_omitted_rates(w, path, v);
 }
 
+/* A residual is also at rounding level if it is below the rounding errors of the violation that the
+ * motion a corrects. They are proportional to the terms of J x with x = beside * scale, where
+ * `beside` is the scaled size of the state, and an eighth leaves a margin. For accelerations
+ * `beside` is 0. */
+static const double MARGIN = 0.125;
+
+static bool check(const baum_workspace *w, const baum_i_block_path *path, double beside)
+{
+  const baum_i_block *block = path->block;
+  if (beside == 0.0 || block->leaves_v) {
+    return path->kernel->check(block, NULL);
+  }
+  int nv = w->mechanism->nv;
+  memset(block->pull + nv, 0, (size_t)(block->motion_size - nv) * sizeof *block->pull);
+  for (int i = 0; i < nv; i++) {
+    block->pull[i] = MARGIN * beside * w->mechanism->scale[i];
+  }
+  return path->kernel->check(block, block->pull);
+}
+
 /* Refine the solution. Unless pivots are bad, every refinement gains at least six digits. Close to
  * a singular configuration the multipliers may be wrong although the residual of J a is small.
  * Therefore solutions with weak pivots are always refined, and those with good pivots only if the
  * residual is large. */
-static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
+static baum_status refine(const baum_workspace *w, baum_i_block_path *path, baum_i_pivots pivots,
+                          double beside)
 {
-  bool done = path->kernel->check(path->block) && pivots == BAUM_I_PIVOTS_GOOD;
+  bool done = check(w, path, beside) && pivots == BAUM_I_PIVOTS_GOOD;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     path->refinements++;
     baum_i_block_find_residual(path->block);
     change = path->kernel->correct(path->block);
-    done = path->kernel->check(path->block) || change <= SETTLED;
+    done = check(w, path, beside) || change <= SETTLED;
   }
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
@@ -186,8 +207,9 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* `last` means that no later solution corrects this one, so the residual must be checked. */
-static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
+/* `last` means that no later solution corrects this one, so the residual must be checked. `beside`
+ * is the argument of check(). */
+static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, double beside)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
@@ -201,7 +223,7 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
   if (!check) {
     return BAUM_OK;
   }
-  baum_status status = refine(path, pivots);
+  baum_status status = refine(w, path, pivots, beside);
   kernel->read_lambda(block, w->lambda);
   return status;
 }
@@ -341,7 +363,20 @@ static baum_status refine_space(baum_i_block_path *path, bool fair, double settl
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last)
+/* With good pivots and even masses the relative error of a solution is far below 1e-8. A change of
+ * velocities below this fraction of the velocities therefore needs no refinement. */
+static const double SMALL_CHANGE = 1e-8;
+
+static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
+{
+  double size = SMALL_CHANGE * baum_i_scaled_size(w->mechanism, v);
+  return !path->uneven && path->space_kernel->read_motion(path->space, w->a) &&
+         baum_i_scaled_size(w->mechanism, w->a) <= size;
+}
+
+/* `last` as in solve(); then v are the velocities that the solution corrects. */
+static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
+                               const double *v)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
   baum_i_space *space = path->space;
@@ -350,6 +385,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(space, w->lambda);
+  last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
   /* If masses are uneven, a rounding error of the multipliers that does not matter for heavy bodies
    * may accelerate light ones, also along the constraints, where J a does not show it. Such
    * mechanisms are always refined. */
@@ -387,6 +423,12 @@ baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path,
   return BAUM_OK;
 }
 
+/* Return the scaled size of the state that a projection corrects: of v, or of q if v is NULL. */
+static double size_of_state(const baum_workspace *w, const double *q, const double *v)
+{
+  return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
+}
+
 baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right)
@@ -398,11 +440,11 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   w->solved_by = path;
   if (path->space) {
     BAUM_I_TRY(set_space(w, path, t, q, v, right));
-    BAUM_I_TRY(solve_space(w, path, last));
+    BAUM_I_TRY(solve_space(w, path, last, v));
     finite = path->space_kernel->read_motion(path->space, w->a);
   } else {
     BAUM_I_TRY(set_state(w, path, t, q, v, right));
-    BAUM_I_TRY(solve(w, path, last));
+    BAUM_I_TRY(solve(w, path, last, right->force ? 0.0 : size_of_state(w, q, v)));
     finite = path->kernel->read_motion(path->block, w->a);
   }
   for (int i = 0; i < path->omitted_count; i++) {

@@ -14,6 +14,7 @@
  */
 #include <math.h>
 
+#include "base/hot.h"
 #include "dynamics/block_path.h"
 
 /* Return the determinant of the block of S of a pin. If an inertia is small, the product of the
@@ -27,46 +28,69 @@ static double size_of_pin(const baum_i_block *block, int k)
   return node->size - off * off;
 }
 
-/* Update *smallest and *row if the pivot of a node is smaller. NaN, which results from an earlier
- * zero pivot, counts as zero. */
-static void compare_pivot(double pivot, int first_row, double *smallest, int *row)
+/* The reciprocal of the smallest pivot, and the first row of its node, or -1 if no pivot is below
+ * 1. */
+typedef struct weakest {
+  double inverse;
+  int row;
+} weakest;
+
+/* Compare with the reciprocal pivot of a node. NaN, which results from an earlier zero pivot,
+ * counts as infinity. */
+BAUM_I_INLINE void compare_pivot(double inverse, int first_row, weakest *of)
 {
-  pivot = isnan(pivot) ? 0.0 : pivot;
-  if (pivot < *smallest) {
-    *smallest = pivot;
-    *row = first_row;
+  inverse = fabs(inverse);
+  if (!(inverse <= of->inverse)) {
+    of->inverse = isnan(inverse) ? (double)INFINITY : inverse;
+    of->row = first_row;
   }
 }
 
-/* Return the smallest pivot. *row is the first row of its node, or -1 if no pivot is below 1. */
-static double smallest_of_blocks(const baum_i_block *block, int *row)
+static weakest smallest_of_blocks(const baum_i_block *block)
 {
-  double smallest = 1.0;
-  *row = -1;
+  weakest found = {1.0, -1};
   for (int k = 0; k < block->pin_count; k++) {
-    const baum_i_node *node = &block->nodes[block->pins[k].node];
-    compare_pivot(1.0 / fabs(node->inverse * size_of_pin(block, k)), block->pins[k].row, &smallest,
-                  row);
+    double inverse = block->nodes[block->pins[k].node].inverse;
+    compare_pivot(inverse * size_of_pin(block, k), block->pins[k].row, &found);
   }
   for (int k = 0; k < block->full_count; k++) {
     const baum_i_node *node = &block->nodes[block->fulls[k].node];
-    compare_pivot(1.0 / fabs(node->inverse * node->size), block->fulls[k].row[0], &smallest, row);
+    compare_pivot(node->inverse * node->size, block->fulls[k].row[0], &found);
   }
-  return smallest;
+  return found;
 }
 
-static double smallest_in_space(const baum_i_space *space, int *row)
+/* Return a bound of the reciprocal pivot of a node. A determinant is at most the product of the
+ * diagonal entries (J. Hadamard, 1893). */
+static double bound_in_space(const baum_i_space *space, int k)
 {
-  double smallest = 1.0;
-  *row = -1;
-  for (int k = 0; k < space->node_count; k++) {
-    const double *det = space->measures[k].det;
-    double whole[2];
-    baum_i_space_undivided(space, k, whole);
-    double pivot = fabs(det[0] / whole[0] * (det[1] / whole[1]));
-    compare_pivot(pivot, space->list[k].row[0], &smallest, row);
+  const baum_i_space_measure *of = &space->measures[k];
+  return fabs(of->size[0] / of->det[0] * (of->size[1] / of->det[1]));
+}
+
+static void compare_in_space(const baum_i_space *space, int k, weakest *of)
+{
+  const double *det = space->measures[k].det;
+  double whole[2];
+  baum_i_space_undivided(space, k, whole);
+  compare_pivot(whole[0] / det[0] * (whole[1] / det[1]), space->list[k].row[0], of);
+}
+
+/* Determinants are computed only for nodes whose pivot may be the smallest. */
+static weakest smallest_in_space(const baum_i_space *space)
+{
+  weakest found = {1.0, -1};
+  int first = 0;
+  for (int k = 1; k < space->node_count; k++) {
+    first = bound_in_space(space, k) > bound_in_space(space, first) ? k : first;
   }
-  return smallest;
+  for (int i = 0; i < space->node_count; i++) {
+    int k = i == 0 ? first : i == first ? 0 : i;
+    if (!(bound_in_space(space, k) <= found.inverse)) {
+      compare_in_space(space, k, &found);
+    }
+  }
+  return found;
 }
 
 /* Find the pivot of the last elimination by blocks, even if the block solver then gave up. Returns
@@ -79,7 +103,10 @@ static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *ro
     return false;
   }
   const baum_i_block_path *path = w->eliminated_by;
-  *pivot = path->space ? smallest_in_space(path->space, row) : smallest_of_blocks(path->block, row);
+  const weakest found =
+    path->space ? smallest_in_space(path->space) : smallest_of_blocks(path->block);
+  *pivot = 1.0 / found.inverse;
+  *row = found.row;
   return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
 }
 

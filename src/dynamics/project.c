@@ -68,7 +68,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
     BAUM_I_TRY(baum_i_solve_motion(w, t, q, NULL, &right));
     baum_i_move(m, 1.0, w->a, q);
     size = baum_i_scaled_size(m, w->a);
-    if (size <= fmax(CONVERGED, rounding_of(m, q))) {
+    if (size <= CONVERGED || size <= rounding_of(m, q)) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * last)) {

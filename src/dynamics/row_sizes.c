@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hot.h"
+#include "base/measure.h"
 #include "dynamics/dynamics.h"
 
 /* Set rows[i] to the sum of weight_j J_ij^2 over all columns j. */
@@ -78,20 +80,14 @@ int baum_i_largest(const double *values, int count, double *largest)
 
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x)
 {
-  double size = 0.0;
-  for (int i = 0; i < mechanism->nv; i++) {
-    size = fmax(size, fabs(x[i]) / mechanism->scale[i]);
-  }
-  return size;
+  const baum_i_measure_kernel *kernel = BAUM_I_HOT_TABLE(mechanism->wide, baum_i_measure_kernel);
+  return kernel->largest_scaled(mechanism->nv, x, mechanism->scale);
 }
 
 double baum_i_position_size(const baum_mechanism *mechanism, const double *q)
 {
-  double size = 0.0;
-  for (int i = 0; i < mechanism->nq; i++) {
-    size = fmax(size, fabs(q[i]) / mechanism->position_scale[i]);
-  }
-  return size;
+  const baum_i_measure_kernel *kernel = BAUM_I_HOT_TABLE(mechanism->wide, baum_i_measure_kernel);
+  return kernel->largest_scaled(mechanism->nq, q, mechanism->position_scale);
 }
 
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a)

@@ -71,6 +71,8 @@ struct baum_integrator {
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
+  /* true if the last evaluation of `advance` is that of the accelerations at the end of the step */
+  bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
   const char *why_no_projection; /* reason, for the message; NULL: none */

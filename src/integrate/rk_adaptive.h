@@ -64,6 +64,7 @@ void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out);
 /* clang-format off */
 #define BAUM_I_RK_ADAPTIVE_OPERATIONS                                                 \
   BAUM_I_RK_CHOICES,                                                                  \
+  .evaluates_end = true,                                                              \
   .memory = sizeof(baum_i_rk_adaptive),                                               \
   .open = baum_i_rk_adaptive_open,                                                    \
   .close = baum_i_rk_close, /* baum_i_rk is the first member */                      \

@@ -332,68 +332,83 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-/* Returns by how much the residuals of two pins exceed rounding level. `second` is the index of the
- * second pin relative to `pin`: 1, or 0 if there is only one pin left, which is then processed
- * twice. */
-BAUM_I_INLINE baum_i_four excess_of(const baum_i_block *b, const baum_i_pin_node *pin,
-                                    const double *arm, ptrdiff_t second)
+/* The terms of J x at two pins, for motion x. second: index of the second pin, or 0 for one pin. */
+typedef struct terms {
+  baum_i_four term[4];
+} terms;
+
+BAUM_I_INLINE terms terms_of(const double *motion, const baum_i_pin_node *pin, const double *arm,
+                             ptrdiff_t second)
 {
-  const double *x = b->motion + pin[0].place[0];
-  const double *y = b->motion + pin[0].place[1];
-  const double *z = b->motion + pin[second].place[0];
-  const double *u = b->motion + pin[second].place[1];
+  const double *x = motion + pin[0].place[0];
+  const double *y = motion + pin[0].place[1];
+  const double *z = motion + pin[second].place[0];
+  const double *u = motion + pin[second].place[1];
   const double *other = arm + 4 * second;
+  return (terms){
+    {baum_i_four_gathered(x, z),
+     baum_i_four_minus(baum_i_four_all(0.0), baum_i_four_gathered(y, u)),
+     baum_i_four_times(baum_i_four_spread(x + 2, z + 2), baum_i_four_gathered(arm, other)),
+     baum_i_four_times(baum_i_four_spread(y + 2, u + 2),
+                       baum_i_four_gathered(arm + 2, other + 2))}};
+}
+
+/* Returns by how much the residuals of two pins exceed rounding level. */
+BAUM_I_INLINE baum_i_four excess_of(const baum_i_block *b, const double *beside,
+                                    const baum_i_pin_node *pin, const double *arm, ptrdiff_t second)
+{
   baum_i_four right = baum_i_four_gathered(b->right + 2 * (ptrdiff_t)pin[0].node,
                                            b->right + 2 * (ptrdiff_t)pin[second].node);
-  baum_i_four terms[4] = {
-    baum_i_four_gathered(x, z), baum_i_four_minus(baum_i_four_all(0.0), baum_i_four_gathered(y, u)),
-    baum_i_four_times(baum_i_four_spread(x + 2, z + 2), baum_i_four_gathered(arm, other)),
-    baum_i_four_times(baum_i_four_spread(y + 2, u + 2), baum_i_four_gathered(arm + 2, other + 2))};
   baum_i_four rest = right;
   baum_i_four size = baum_i_four_magnitude(right);
+  terms own = terms_of(b->motion, pin, arm, second);
+  terms more = beside ? terms_of(beside, pin, arm, second) : own;
   for (int k = 0; k < 4; k++) {
-    rest = baum_i_four_minus(rest, terms[k]);
-    size = baum_i_four_plus(size, baum_i_four_magnitude(terms[k]));
+    rest = baum_i_four_minus(rest, own.term[k]);
+    size = baum_i_four_plus(size, baum_i_four_magnitude(own.term[k]));
+    size = beside ? baum_i_four_plus(size, baum_i_four_magnitude(more.term[k])) : size;
   }
   return baum_i_four_minus(baum_i_four_magnitude(rest),
                            baum_i_four_times(baum_i_four_all(rounding), size));
 }
 
-static bool check_pins(const baum_i_block *b)
+BAUM_I_INLINE bool check_pins(const baum_i_block *b, const double *beside)
 {
   baum_i_four worst = baum_i_four_all(0.0);
   const baum_i_pin_node *pin = b->pins;
   const double *arm = b->arm;
   for (int left = b->pin_count; left > 1; left -= 2, pin += 2, arm += 8) {
-    worst = baum_i_four_larger(excess_of(b, pin, arm, 1), worst);
+    worst = baum_i_four_larger(excess_of(b, beside, pin, arm, 1), worst);
   }
   if (b->pin_count % 2 != 0) {
-    worst = baum_i_four_larger(excess_of(b, pin, arm, 0), worst);
+    worst = baum_i_four_larger(excess_of(b, beside, pin, arm, 0), worst);
   }
   baum_i_pair most = baum_i_larger(baum_i_four_low(worst), baum_i_four_high(worst));
   return most[0] <= 0.0 && most[1] <= 0.0;
 }
 
-static bool check_full(const baum_i_block *b, const baum_i_full_node *full)
+static bool check_full(const baum_i_block *b, const double *beside, const baum_i_full_node *full)
 {
   baum_i_pair rest = baum_i_load(b->right + 2 * (size_t)full->node);
   baum_i_pair size = baum_i_magnitude(rest);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
     baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-    const double *x = b->motion + b->place[b->side_body_block[s]];
+    int32_t place = b->place[b->side_body_block[s]];
+    const double *x = b->motion + place;
     for (int c = 0; c < 3; c++) {
       rest -= x[c] * g.c[c];
       size += baum_i_magnitude(x[c] * g.c[c]);
+      size += beside ? baum_i_magnitude(beside[place + c] * g.c[c]) : baum_i_both(0.0);
     }
   }
   return fabs(rest[0]) <= rounding * size[0] && fabs(rest[1]) <= rounding * size[1];
 }
 
-static bool check(const baum_i_block *b)
+static bool check(const baum_i_block *b, const double *beside)
 {
-  bool fine = check_pins(b);
+  bool fine = beside ? check_pins(b, beside) : check_pins(b, NULL);
   for (int i = 0; i < b->full_count && fine; i++) {
-    fine = check_full(b, &b->fulls[i]);
+    fine = check_full(b, beside, &b->fulls[i]);
   }
   return fine;
 }

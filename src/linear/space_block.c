@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/hot.h"
+#include "base/pair.h"
 #include "linear/arrays.h"
 
 /* The limits have the same values and the same meaning as in block.c. Here they refer to the two
@@ -216,39 +218,58 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
 
 /* ---- pivots ---- */
 
-static double entry(const baum_i_space *b, int32_t part, int row, int column)
+enum { MOST = BAUM_I_SPACE_ROWS };
+
+/* Add w G G^T of a part G, of three columns, to the lower triangle of s, column by column. */
+BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double s[MOST][MOST])
 {
-  return b->sides[part + (row < 4 ? 4 * column + row : 12 + 2 * column + row - 4)];
+  const int rows = tall ? 6 : 4;
+  for (int c = 0; c < 3; c++) {
+    const double *high = part + 4 * (ptrdiff_t)c;
+    const double *low = part + 12 + 2 * (ptrdiff_t)c;
+    BAUM_I_UNROLL(6)
+    for (int j = 0; j < rows; j++) {
+      baum_i_pair factor = baum_i_both(w * (j < 4 ? high[j] : low[j - 4]));
+      BAUM_I_UNROLL(3)
+      for (int i = j - j % 2; i < rows; i += 2) {
+        baum_i_pair g = baum_i_load(i < 4 ? high + i : low);
+        baum_i_store(s[j] + i, baum_i_load(s[j] + i) + factor * g);
+      }
+    }
+  }
+}
+
+BAUM_I_INLINE void add_sides(const baum_i_space *b, const baum_i_space_node *node, bool tall,
+                             double s[MOST][MOST])
+{
+  for (int k = node->first_side; k < node->first_side + node->side_count; k++) {
+    const baum_i_space_side *side = &b->side_list[k];
+    add_products(b->sides + side->move, b->bodies[side->body].weight[0], tall, s);
+    add_products(b->sides + side->turn, 1.0, tall, s);
+  }
 }
 
 void baum_i_space_undivided(const baum_i_space *space, int node, double det[2])
 {
   const baum_i_space_node *at = &space->list[node];
   int n = at->rows;
-  double s[BAUM_I_SPACE_ROWS][BAUM_I_SPACE_ROWS] = {{0.0}};
-  for (int i = 0; i < n; i++) {
-    s[i][i] = at->omitted >> i & 1u;
+  double s[MOST][MOST] = {{0.0}};
+  if (n > 4) {
+    add_sides(space, at, true, s);
+  } else {
+    add_sides(space, at, false, s);
   }
-  for (int k = at->first_side; k < at->first_side + at->side_count; k++) {
-    const baum_i_space_side *side = &space->side_list[k];
-    double w = space->bodies[side->body].weight[0];
-    for (int i = 0; i < n; i++) {
-      for (int j = 0; j <= i; j++) {
-        for (int c = 0; c < 3; c++) {
-          s[i][j] += w * entry(space, side->move, i, c) * entry(space, side->move, j, c) +
-                     entry(space, side->turn, i, c) * entry(space, side->turn, j, c);
-        }
-      }
-    }
+  for (int i = 0; i < n; i++) {
+    s[i][i] += at->omitted >> i & 1u;
   }
   det[0] = 1.0;
   det[1] = 1.0;
   for (int k = 0; k < n; k++) {
     det[k < 3 ? 0 : 1] *= s[k][k];
     for (int i = k + 1; i < n; i++) {
-      double factor = s[i][k] / s[k][k];
+      double factor = s[k][i] / s[k][k];
       for (int j = k + 1; j <= i; j++) {
-        s[i][j] -= factor * s[j][k];
+        s[j][i] -= factor * s[k][j];
       }
     }
   }

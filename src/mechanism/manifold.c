@@ -51,6 +51,10 @@ static const double STEP = 1e-5;
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
                          const double *dq, double *dx, double *work)
 {
+  if (body->manifold->tangent) {
+    body->manifold->tangent(body, q, dq, dx);
+    return;
+  }
   double size = 0.0;
   for (int i = 0; i < body->nq; i++) {
     size = fmax(size, fabs(dq[i]) / scale[i]);
@@ -97,6 +101,10 @@ static void rate_later(const baum_i_body *body, double h, const double *q, const
 static void second_rate_body(const baum_mechanism *m, const baum_i_body *body, const double *q,
                              const double *v, const double *a, double *ddq, double *work)
 {
+  if (body->manifold->second_rate) {
+    body->manifold->second_rate(body, q, v, a, ddq);
+    return;
+  }
   double speed = 0.0;
   for (int i = 0; i < body->nv; i++) {
     double scale = m->scale[body->v + i];

@@ -290,6 +290,11 @@ struct baum_i_manifold {
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
   /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
+  /* Set ddq = N a + N' v, and dx so that N dx is the tangential part of dq. NULL: they are computed
+   * by differences. */
+  void (*second_rate)(const baum_i_body *body, const double *q, const double *v, const double *a,
+                      double *ddq);
+  void (*tangent)(const baum_i_body *body, const double *q, const double *dq, double *dx);
 };
 
 struct baum_i_body_type {

@@ -471,12 +471,12 @@ static void examine_between(baum_simulation *run, double t)
 }
 
 /* Failures are not reported here. They occur again in the next step, which reports them. */
-void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
+bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
   baum_i_crossings *p = run->crossings;
   baum_workspace *w = run->workspace;
   if (!p) {
-    return;
+    return false;
   }
   baum_i_probe probe;
   baum_i_probe_begin(&probe, w);
@@ -493,6 +493,7 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
     note_state(run, end, pivot, joint);
   }
   (void)baum_i_probe_end(&probe, BAUM_OK);
+  return run->integrator->solves_residuals || pieces > 1;
 }
 
 /* ---- public ---- */

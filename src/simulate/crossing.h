@@ -69,9 +69,9 @@ void baum_i_crossings_renew(baum_simulation *run);
  * reported. */
 void baum_i_crossings_look(baum_simulation *run);
 
-/* Note a variable step that has just been taken. May evaluate. Call baum_i_crossings_look() for the
- * end of the step afterwards. */
-void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
+/* Note a variable step that has just been taken. Returns whether it evaluated. Call
+ * baum_i_crossings_look() for the end of the step afterwards. */
+bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: decide on which branch the motion has left the singular configuration: compare the
  * newest state with continuations of the clear states. Write the result to *out. */

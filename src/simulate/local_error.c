@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/hot.h"
+#include "base/measure.h"
 
 static const double SAME_STEP = 1e-6; /* relative difference up to which steps are equal */
 
@@ -31,11 +32,6 @@ void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m
   }
 }
 
-BAUM_I_INLINE double error_of(double change, const double rates[3], const double bends[2], double h)
-{
-  return change - 0.5 * h * (rates[0] + rates[1] - rates[2]) - h * h / 12.0 * (bends[0] - bends[1]);
-}
-
 /* For q that is not a vector, compute dq without its last term (h/2) N dv, as a displacement
  * (nv). */
 static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
@@ -51,41 +47,26 @@ static const double *find_position_errors(const baum_i_local_error *e, const bau
   const double *a0 = baum_i_second_rates(m, e->q, e->v, e->a[0], room + 2 * nq);
   const double *a1 = baum_i_second_rates(m, now->q, now->v, run->workspace->a, room + 3 * nq);
   for (int i = 0; i < m->nq; i++) {
-    dq[i] =
-      error_of(now->q[i] - e->q[i], (double[3]){v0[i], v1[i], 0.0}, (double[2]){a0[i], a1[i]}, h);
+    dq[i] = now->q[i] - e->q[i] - 0.5 * h * (v0[i] + v1[i]) - h * h / 12.0 * (a0[i] - a1[i]);
   }
   return baum_i_tangent(m, now->q, dq, room);
 }
 
-/* Return the largest scaled error of a step by h. Errors of velocities are multiplied by `period`.
- * turned is the result of find_position_errors(), or NULL if q is a vector. */
-BAUM_I_INLINE double largest_with(const baum_i_local_error *e, const baum_simulation *run, double h,
-                                  double period, const double *turned)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  const baum_i_state *now = &run->state;
-  const double *a = run->workspace->a;
-  double largest = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    double sum = 251.0 * a[i] + 646.0 * e->a[0][i] - 264.0 * e->a[1][i] + 106.0 * e->a[2][i] -
-                 19.0 * e->a[3][i];
-    double dv = now->v[i] - e->v[i] - h / 720.0 * sum;
-    double dq = turned ? turned[i] + 0.5 * h * dv
-                       : error_of(now->q[i] - e->q[i], (double[3]){e->v[i], now->v[i], dv},
-                                  (double[2]){e->a[0][i], a[i]}, h);
-    double error = (fabs(dq) + period * fabs(dv)) / m->scale[i];
-    largest = error > largest ? error : largest;
-  }
-  return largest;
-}
-
+/* Return the largest scaled error of a step by h. Errors of velocities are multiplied by
+ * `period`. */
 static double largest_error(const baum_i_local_error *e, const baum_simulation *run, double h,
                             double period)
 {
-  if (run->workspace->mechanism->flat) {
-    return largest_with(e, run, h, period, NULL);
-  }
-  return largest_with(e, run, h, period, find_position_errors(e, run, h));
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_state *now = &run->state;
+  const baum_i_step_samples samples = {.q = {e->q, now->q},
+                                       .v = {e->v, now->v},
+                                       .a = {run->workspace->a, e->a[0], e->a[1], e->a[2], e->a[3]},
+                                       .dq = m->flat ? NULL : find_position_errors(e, run, h),
+                                       .scale = m->scale,
+                                       .h = h,
+                                       .period = period};
+  return BAUM_I_HOT_TABLE(m->wide, baum_i_measure_kernel)->local_error(m->nv, &samples);
 }
 
 static void remember(baum_i_local_error *e, const baum_simulation *run, double h)

@@ -4,20 +4,28 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/hot.h"
+#include "base/measure.h"
 #include "base/sized.h"
 #include "simulate/account.h"
 #include "simulate/crossing.h"
 
 /* ---- observations at every step ---- */
 
+static const baum_i_measure_kernel *kernel_of(const baum_mechanism *m)
+{
+  return BAUM_I_HOT_TABLE(m->wide, baum_i_measure_kernel);
+}
+
 static void observe_row(const baum_simulation *run, const double *rows, double *largest,
                         baum_joint_id *joint)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  double size = 0.0;
-  int row = baum_i_largest(rows, m->nc, &size);
-  if (row >= 0 && !(size <= *largest)) {
-    *largest = size;
+  if (kernel_of(m)->largest(m->nc, rows) <= *largest) {
+    return;
+  }
+  int row = baum_i_largest(rows, m->nc, largest);
+  if (row >= 0) {
     *joint = baum_i_joint_id(m, baum_i_row_joint(m, row));
   }
 }
@@ -210,8 +218,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
     /* The steady violation is proportional to |gamma| (docs/theory/stabilization.md). */
-    double size = 0.0;
-    (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
+    double size = kernel_of(w->mechanism)->largest(w->mechanism->nc, w->gamma);
     run->largest_gamma = fmax(run->largest_gamma, size);
   }
   observe_large(run, t);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/hot.h"
+#include "base/measure.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
@@ -18,20 +19,12 @@ static baum_status fail_not_finite(const baum_simulation *run, const baum_i_stat
                      run->state.t, state->t);
 }
 
-BAUM_I_INLINE baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
+static baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  for (int i = 0; i < m->nv; i++) {
-    if (!isfinite(state->q[i]) || !isfinite(state->v[i])) {
-      return fail_not_finite(run, state);
-    }
-  }
-  for (int i = m->nv; i < m->nq; i++) {
-    if (!isfinite(state->q[i])) {
-      return fail_not_finite(run, state);
-    }
-  }
-  return BAUM_OK;
+  const baum_i_measure_kernel *kernel = BAUM_I_HOT_TABLE(m->wide, baum_i_measure_kernel);
+  bool is_finite = kernel->is_finite(m->nq, state->q) && kernel->is_finite(m->nv, state->v);
+  return is_finite ? BAUM_OK : fail_not_finite(run, state);
 }
 
 /* Add the time to the message of a callback, which does not contain it. */

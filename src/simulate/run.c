@@ -30,6 +30,17 @@ double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state)
   return baum_i_follow_angles(point);
 }
 
+void baum_i_run_follow_step(baum_simulation *run, const baum_i_state *end)
+{
+  const baum_i_point *point = &run->workspace->point;
+  if (point->angles) {
+    double rate = baum_i_scaled_size(point->mechanism, end->v);
+    if (!baum_i_angles_are_near(point, end->t, rate)) {
+      (void)baum_i_run_follow_angles(run, end);
+    }
+  }
+}
+
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own)
 {
   baum_workspace *w = own->workspace;

@@ -27,10 +27,13 @@ static double find_pivot(const baum_simulation *run)
  * direction of the velocity. A step of order k causes errors of about (h w)^(k+1) / 100. */
 static bool is_below_rounding(const baum_simulation *run, double h)
 {
+  double pivot = find_pivot(run);
+  if (!(pivot < 1e-4)) {
+    return false;
+  }
   double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);
   double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
-  double pivot = find_pivot(run);
-  return pivot < 1e-4 && pivot * error < DBL_EPSILON;
+  return pivot * error < DBL_EPSILON;
 }
 
 baum_status baum_i_run_project(baum_simulation *run, double t)

@@ -174,6 +174,17 @@ double baum_i_follow_angles(baum_i_point *point)
   return farthest;
 }
 
+bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate)
+{
+  static const double NEAR = 0.1; /* [rad] */
+  int size = baum_i_angles_size(point->mechanism);
+  for (int k = 1; k < size; k += 2) {
+    double own = fabs(point->angles[k]);
+    rate = own > rate ? own : rate;
+  }
+  return rate * fabs(t - *time_of(point)) <= NEAR;
+}
+
 void baum_i_hold_angles(baum_i_point *point, double t)
 {
   for (int k = 1; point->angles && k < baum_i_angles_size(point->mechanism); k += 2) {

@@ -6,7 +6,7 @@
  * the possible values of the angle, the one nearest to an expected angle is used. The expected
  * angle is a linear function of time. At the time angles[2 n] it is angles[2 k], and its rate is
  * angles[2 k + 1]. Here k is the index of the coordinate among the n = BAUM_I_COORDINATES *
- * joint_count coordinates of all joints. A run updates `angles` after every step. If `angles` is
+ * joint_count coordinates of all joints. A run updates `angles` after steps. If `angles` is
  * NULL or all zeros, the angle is between -pi and pi.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
@@ -83,5 +83,10 @@ void baum_i_hold_angles(baum_i_point *point, double t);
  * nearest to the prediction is stored. Returns the largest difference between an angle and its
  * prediction, in rad. It is at most pi. */
 double baum_i_follow_angles(baum_i_point *point);
+
+/* Tell whether all angles are so near to their last values that they need not be updated at time t.
+ * `rate` is the largest angular velocity of a body; joints may move faster. `angles` must not be
+ * NULL. */
+bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate);
 
 #endif

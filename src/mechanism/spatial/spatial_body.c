@@ -172,10 +172,37 @@ static void normalize(const baum_i_body *body, double *q)
   baum_i_quaternion_normalize(q + 3);
 }
 
+/* p'' = p alpha / 2 - |omega|^2 p / 4, because p' = p omega / 2 */
+static void second_rate(const baum_i_body *body, const double *q, const double *v, const double *a,
+                        double *ddq)
+{
+  rate(body, q, a, ddq);
+  for (int i = 3; i < 7; i++) {
+    ddq[i] -= 0.25 * baum_i_dot3(v + 3, v + 3) * q[i];
+  }
+}
+
+static void tangent(const baum_i_body *body, const double *q, const double *dq, double *dx)
+{
+  (void)body;
+  double square = q[3] * q[3] + baum_i_dot3(q + 4, q + 4);
+  const double back[4] = {q[3] / square, -q[4] / square, -q[5] / square, -q[6] / square};
+  double half[4];
+  baum_i_quaternion_product(back, dq + 3, half);
+  for (int i = 0; i < 3; i++) {
+    dx[i] = dq[i];
+    dx[3 + i] = 2.0 * half[1 + i];
+  }
+}
+
 static const baum_i_manifold *manifold(const void *def)
 {
-  static const baum_i_manifold rotations = {
-    .rate = rate, .move = move, .difference = difference, .normalize = normalize};
+  static const baum_i_manifold rotations = {.rate = rate,
+                                            .move = move,
+                                            .difference = difference,
+                                            .normalize = normalize,
+                                            .second_rate = second_rate,
+                                            .tangent = tangent};
   (void)def;
   return &rotations;
 }
