@@ -26,31 +26,17 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* With masses that differ by 1e6, accelerations of light bodies by the solver of space are wrong by
- * up to 1e-9 (test_spatial_accuracy.c). If the ratio of masses is larger than this, the solver of
- * two rows is used. */
-static const double MOST_UNEVEN = 300.0;
-
-/* Tell whether the solver of space suits: a body is in space, M of every body is known, and the
- * masses do not differ too much. */
+/* Tell whether the solver of space suits: a body is in space, and M of every body is known. */
 static bool is_in_space(const baum_mechanism *m)
 {
   bool found = false;
   bool known = true;
-  double least = (double)INFINITY;
-  double most = 0.0;
   for (int i = 1; i <= m->body_count; i++) {
-    const baum_i_body *body = m->bodies[i];
-    baum_i_frame_kind kind = body->type->frame;
+    baum_i_frame_kind kind = m->bodies[i]->type->frame;
     found = found || baum_i_is_spatial(kind);
     known = known && kind != BAUM_I_FRAME_NONE;
-    if (known) {
-      double mass = m->parameters[body->element.parameter];
-      least = fmin(least, mass);
-      most = fmax(most, mass);
-    }
   }
-  return found && known && most <= MOST_UNEVEN * least;
+  return found && known;
 }
 
 static baum_i_space_kind kind_of(const baum_i_body *body)

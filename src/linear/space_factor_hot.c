@@ -353,6 +353,7 @@ static baum_i_pivots eliminate(baum_i_space *b)
     const baum_i_space_measure *m = &b->measures[k];
     fine = fine && m->det[0] > weak * m->size[0] && m->det[1] > weak * m->size[1];
   }
+  b->weakest = weak;
   if (fine) {
     return BAUM_I_PIVOTS_GOOD;
   }
