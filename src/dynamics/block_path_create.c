@@ -58,7 +58,7 @@ static bool stays_whole(const baum_mechanism *m, const baum_i_joint *joint,
                         const unsigned char *omitted)
 {
   baum_i_space_shape shape = baum_i_shape_of(m, joint);
-  bool coincide = shape <= BAUM_I_SHAPE_PDDD;
+  bool coincide = shape <= BAUM_I_SHAPE_PDED;
   int left = 0;
   for (int i = 0; i < joint->rows; i++) {
     left += omitted[i] ? 0 : 1;

@@ -10,18 +10,22 @@
 
 enum { NUMBERS = BAUM_I_JOINT_AXES + 8 * BAUM_I_SPACE_ROWS };
 
-static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppdd", "pppddd", "ddss",
-                                                  "ddssd", "dds",  "ss",    "s"};
+static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppde", "pppded", "dess",
+                                                  "dessd", "des",  "ss",    "s"};
 
-static char kind_of(baum_i_spatial_row row)
+/* before: the row before, or NULL */
+static char kind_of(const baum_i_spatial_row *row, const baum_i_spatial_row *before)
 {
-  if (row.x >= BAUM_I_X_GROUND) {
+  if (row->x >= BAUM_I_X_GROUND) {
     return 'p';
   }
-  if (row.x >= BAUM_I_X_B) {
+  if (row->x >= BAUM_I_X_B) {
     return '?';
   }
-  return row.y == BAUM_I_APART ? 's' : 'd';
+  if (row->y == BAUM_I_APART) {
+    return 's';
+  }
+  return before && before->x < BAUM_I_X_B && before->y == row->y ? 'e' : 'd';
 }
 
 baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *joint)
@@ -33,7 +37,7 @@ baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *
   }
   char kinds[BAUM_I_SPACE_ROWS + 1] = {0};
   for (int i = 0; rows && i < joint->rows; i++) {
-    kinds[i] = kind_of(rows[i]);
+    kinds[i] = kind_of(&rows[i], i > 0 ? &rows[i - 1] : NULL);
   }
   int shape = 0;
   while (shape < BAUM_I_SHAPES && strcmp(kinds, SHAPES[shape]) != 0) {

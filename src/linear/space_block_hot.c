@@ -421,21 +421,24 @@ static double correct(baum_i_space *b)
 
 static bool read_motion(const baum_i_space *b, double *a)
 {
-  double sum = 0.0; /* of 0 x: 0, or NaN if a number is not finite */
+  four sum = baum_i_four_zero(); /* of 0 x: 0, or NaN if a number is not finite */
   for (int t = 1; t < b->body_count; t++) {
     const baum_i_space_body *body = &b->bodies[t];
-    const double *x = b->motion + (ptrdiff_t)MOTION * t;
-    double six[6] = {x[0], x[1], x[2]};
-    for (int i = 0; i < 3; i++) {
-      const double *w = body->whiten + 4 * (ptrdiff_t)i;
-      six[3 + i] = w[0] * x[4] + w[1] * x[5] + w[2] * x[6];
-    }
-    for (int c = 0; c < body->size; c++) {
-      a[body->first + c] = six[body->slots[c]];
-      sum += 0.0 * a[body->first + c];
+    const double *from = b->motion + (ptrdiff_t)MOTION * t;
+    double *to = a + body->first;
+    four x = baum_i_four_load(from);
+    four w = unwhitened(body, baum_i_four_load(from + 4));
+    sum = baum_i_four_add(baum_i_four_add(sum, x, 0.0), w, 0.0);
+    baum_i_store(to, baum_i_four_low(x));
+    if (body->size == 6) {
+      to[2] = baum_i_four_high(x)[0];
+      baum_i_store(to + 3, baum_i_four_low(w));
+      to[5] = baum_i_four_high(w)[0];
+    } else if (body->size == 3) {
+      to[2] = baum_i_four_high(body->slots[2] == 5 ? w : x)[0];
     }
   }
-  return sum == 0.0;
+  return baum_i_four_sum(sum) == 0.0;
 }
 
 const baum_i_space_kernel BAUM_I_HOT(baum_i_space_kernel) = {
