@@ -299,8 +299,11 @@ BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
     const baum_i_space_side *side = &b->side_list[s];
     const baum_i_space_body *body = &b->bodies[side->body];
-    four push = transposed_times(b->sides + side->move, lambda, tall);
     four turn = transposed_times(b->sides + side->turn, lambda, tall);
+    four push = lambda.low; /* up to its sign, if E is not stored; weight[3] is 0 */
+    if (side->sign == 0) {
+      push = transposed_times(b->sides + side->move, lambda, tall);
+    }
     most = larger(baum_i_four_times(push, baum_i_four_load(body->weight)), most);
     most = larger(unwhitened(body, turn), most);
   }
