@@ -176,6 +176,11 @@ static void compare_residuals(const pair *p)
   for (int i = 0; i < motion; i++) { /* residuals that are not small */
     a->motion[i] *= 1.0 + chance_number(&c, -0.1, 0.1);
   }
+  for (int k = 0; k < a->node_count; k++) {
+    for (int i = 0; i < a->list[k].rows; i++) {
+      a->nodes[a->list[k].at + i] *= 1.0 + chance_number(&c, -0.1, 0.1);
+    }
+  }
   copy_numbers(p);
   for (int k = 0; k < 2; k++) {
     p->path[k]->residual_kernel->find(p->space[k]);
