@@ -363,7 +363,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest;
     simple = amplified <= CANCELLED;
   }
-  if (good && !last && !path->always_check) {
+  if (good && !last) {
     return BAUM_OK;
   }
   baum_status status =

@@ -8,8 +8,6 @@
 #include "dynamics/block_path.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-enum { NUMBERS = BAUM_I_JOINT_AXES + 8 * BAUM_I_SPACE_ROWS };
-
 static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppde", "pppded", "dess",
                                                   "dessd", "des",  "ss",    "s"};
 
@@ -85,6 +83,15 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   }
 }
 
+static int32_t count_numbers(int shape)
+{
+  int32_t count = BAUM_I_JOINT_AXES;
+  for (const char *kind = SHAPES[shape]; *kind; kind++) {
+    count += *kind == 'p' ? 0 : 8;
+  }
+  return count;
+}
+
 static int32_t side_on(const baum_i_space *space, const baum_i_space_node *node, int32_t body)
 {
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
@@ -138,13 +145,17 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
 baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space *space,
                                     baum_i_space_joints *joints)
 {
-  joints->numbers = baum_i_alloc(NUMBERS * (size_t)joints->count, sizeof *joints->numbers);
+  int32_t next = 0;
+  for (int i = 0; i < joints->count; i++) {
+    joints->list[i].numbers = next;
+    next += count_numbers(joints->list[i].shape);
+  }
+  joints->numbers = baum_i_alloc((size_t)next, sizeof *joints->numbers);
   if (!joints->numbers) {
     return BAUM_ERR_MEMORY;
   }
   for (int i = 0; i < joints->count; i++) {
-    joints->list[i].numbers = NUMBERS * i;
-    set_numbers(w, space, &joints->list[i], joints->numbers + (ptrdiff_t)NUMBERS * i);
+    set_numbers(w, space, &joints->list[i], joints->numbers + joints->list[i].numbers);
   }
   return BAUM_OK;
 }

@@ -211,8 +211,8 @@ BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_s
   return d;
 }
 
-/* Puts into row i of both sides (t_k)^T B_k, and into Phi, Phi' and gamma the sums of the numbers of
- * terms[0] and terms[1] and minus that of terms[2]. */
+/* Puts (t_k)^T B_k into row i of both sides. Sets Phi and Phi' to the sums of the numbers of
+ * terms[0] and terms[1], and gamma to minus that of terms[2]. */
 BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                            const four t[2], const four terms[3], int i, rows *out)
 {

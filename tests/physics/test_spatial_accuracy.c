@@ -17,6 +17,8 @@
 
 /* About ten times rounding, amplified by condition numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
+/* A chain of 1000 links on revolute joints moves slowly compared with the forces in it. */
+static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
 /* If large moments of joints on a light body nearly cancel, rounding the positions or J changes its
@@ -269,6 +271,37 @@ static void ordinary_configurations_keep_twelve_digits(void **state)
   assert_int_equal(failures, 0);
 }
 
+/* Finds the errors in the design configuration of a chain that is too long for dense matrices. */
+static errors measure_long(model_spatial which, int links)
+{
+  model m;
+  errors found;
+  baum_status status = model_spatial_build(which, links, &m);
+  posed p = pose_model(status, m);
+  check(baum_i_acceleration(p.workspace, 0.0, p.q, p.v, 0.0, 0.0));
+  memcpy(p.a, p.workspace->a, (size_t)p.nv * sizeof *p.a);
+  memcpy(p.lambda, p.workspace->lambda, (size_t)p.nc * sizeof *p.lambda);
+  assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.want_a, p.want_lambda));
+  found.a = quad_error(p.nv, p.a, p.want_a);
+  found.lambda = quad_error(p.nc, p.lambda, p.want_lambda);
+  unpose(&p);
+  return found;
+}
+
+static void errors_do_not_grow_with_the_length_of_chains(void **state)
+{
+  (void)state;
+  int failures = 0;
+  print_head("long chains");
+  for (int links = 1000; links <= 10000; links *= 10) {
+    for (int k = MODEL_SPHERICAL_CHAIN; k <= MODEL_REVOLUTE_CHAIN; k++) {
+      model_spatial which = (model_spatial)k;
+      failures += note(which, links, measure_long(which, links), LONG, ORDINARY);
+    }
+  }
+  assert_int_equal(failures, 0);
+}
+
 static void uneven_masses_keep_eleven_digits(void **state)
 {
   (void)state;
@@ -294,6 +327,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_start_on_their_constraints),
     cmocka_unit_test(ordinary_configurations_keep_twelve_digits),
+    cmocka_unit_test(errors_do_not_grow_with_the_length_of_chains),
     cmocka_unit_test(uneven_masses_keep_eleven_digits),
     cmocka_unit_test(thin_shafts_between_heavy_rods_keep_eleven_digits),
   };
