@@ -22,8 +22,7 @@ static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
 /* If large moments of joints on a light body nearly cancel, rounding the positions or J changes its
- * acceleration by more than any solver does. With bodies lighter by 1e3 and thinner by 1e4 the
- * change reaches 1e-8 of the largest acceleration. For uneven masses, this many times the change by
+ * acceleration by more than the solver does. For uneven masses, this many times the change by
  * rounded positions is subtracted from the errors. */
 static const double ROUNDED = 4.0;
 enum { ROUNDINGS = 3 };
