@@ -14,17 +14,17 @@ enum { MOST_REFINEMENTS = 3 };
  * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
-/* The limit SETTLING for mechanisms in space, where refinements gain fewer digits if inertias are
- * uneven. */
+/* In space changes of accelerations count too, and each refinement gains at least four digits, or
+ * the next one shows that it does not. */
+static const double SETTLED_IN_SPACE = 1e-9;
 static const double SETTLING_IN_SPACE = 1e-12;
-/* In space, refinements end when the relative change of the multipliers is below this; only
- * projections of velocities use SETTLED. A refinement that converges gains at least four digits, so
- * the next change would be below 1e-15. */
-static const double SETTLED_IN_SPACE = 1e-11;
 
-/* In space, an acceleration with weak pivots above this is accepted if its residual is at rounding
- * level. A thin shaft that carries heavy bodies has such pivots at all times. */
-static const double FAIR_PIVOT = 1e-6;
+/* In space, the error of a is about the rounding error times the amplification of errors of lambda
+ * by a = a0 - W J^T lambda, over the weakest pivot. Solutions with pivots above FAIR_PIVOT are not
+ * refined if this factor is at most MOST_LOST. Their errors against quadruple precision were below
+ * 1e-10 in 1500 random mechanisms, and below 1e-12 in all scenes of test_spatial_accuracy.c. */
+static const double FAIR_PIVOT = 1e-4;
+static const double MOST_LOST = 1e5;
 
 /* The residual is checked if masses are uneven and the largest a0 exceeds the largest a by more
  * than this factor, because then digits have cancelled in a = a0 - W J^T lambda (W: inverse masses;
@@ -349,16 +349,20 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
-static baum_status refine_space(baum_i_block_path *path, bool fair, double settled)
+/* simple: a residual of the rows in working precision is enough for the first refinement. */
+static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
-  bool done = kernel->check(path->space) && fair;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     path->refinements++;
-    path->residual_kernel->find(path->space);
+    if (simple && k == 0) {
+      kernel->find_rest(path->space);
+    } else {
+      path->residual_kernel->find(path->space);
+    }
     change = kernel->correct(path->space);
-    done = kernel->check(path->space) || change <= settled;
+    done = change <= settled || (!path->uneven && kernel->check(path->space));
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
@@ -386,16 +390,20 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   }
   kernel->substitute(space, w->lambda);
   last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
-  /* If masses are uneven, a rounding error of the multipliers that does not matter for heavy bodies
-   * may accelerate light ones, also along the constraints, where J a does not show it. Such
-   * mechanisms are always refined. */
-  bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check || path->uneven;
-  if (!check) {
+  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
+  bool simple = false;
+  if (!good && !last) {
+    /* If masses are uneven, a rounding error of lambda that does not matter for heavy bodies may
+     * accelerate light ones, also along the constraints, where J a does not show it. */
+    double amplified = kernel->amplification(space);
+    good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest;
+    simple = amplified <= CANCELLED;
+  }
+  if (good && !last) {
     return BAUM_OK;
   }
-  bool fair =
-    !path->uneven && (pivots == BAUM_I_PIVOTS_GOOD || (!last && space->weakest > FAIR_PIVOT));
-  baum_status status = refine_space(path, fair, last ? SETTLED : SETTLED_IN_SPACE);
+  baum_status status =
+    refine_space(path, good && kernel->check(space), simple, last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;
 }

@@ -8,20 +8,22 @@
 #include "dynamics/block_path.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-enum { NUMBERS = BAUM_I_JOINT_AXES + 8 * BAUM_I_SPACE_ROWS };
+static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppde", "pppded", "dess",
+                                                  "dessd", "des",  "ss",    "s"};
 
-static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppdd", "pppddd", "ddss",
-                                                  "ddssd", "dds",  "ss",    "s"};
-
-static char kind_of(baum_i_spatial_row row)
+/* before: the row before, or NULL */
+static char kind_of(const baum_i_spatial_row *row, const baum_i_spatial_row *before)
 {
-  if (row.x >= BAUM_I_X_GROUND) {
+  if (row->x >= BAUM_I_X_GROUND) {
     return 'p';
   }
-  if (row.x >= BAUM_I_X_B) {
+  if (row->x >= BAUM_I_X_B) {
     return '?';
   }
-  return row.y == BAUM_I_APART ? 's' : 'd';
+  if (row->y == BAUM_I_APART) {
+    return 's';
+  }
+  return before && before->x < BAUM_I_X_B && before->y == row->y ? 'e' : 'd';
 }
 
 baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *joint)
@@ -33,7 +35,7 @@ baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *
   }
   char kinds[BAUM_I_SPACE_ROWS + 1] = {0};
   for (int i = 0; rows && i < joint->rows; i++) {
-    kinds[i] = kind_of(rows[i]);
+    kinds[i] = kind_of(&rows[i], i > 0 ? &rows[i - 1] : NULL);
   }
   int shape = 0;
   while (shape < BAUM_I_SHAPES && strcmp(kinds, SHAPES[shape]) != 0) {
@@ -79,6 +81,15 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
       axes += 8;
     }
   }
+}
+
+static int32_t count_numbers(int shape)
+{
+  int32_t count = BAUM_I_JOINT_AXES;
+  for (const char *kind = SHAPES[shape]; *kind; kind++) {
+    count += *kind == 'p' ? 0 : 8;
+  }
+  return count;
 }
 
 static int32_t side_on(const baum_i_space *space, const baum_i_space_node *node, int32_t body)
@@ -134,13 +145,17 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
 baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space *space,
                                     baum_i_space_joints *joints)
 {
-  joints->numbers = baum_i_alloc(NUMBERS * (size_t)joints->count, sizeof *joints->numbers);
+  int32_t next = 0;
+  for (int i = 0; i < joints->count; i++) {
+    joints->list[i].numbers = next;
+    next += count_numbers(joints->list[i].shape);
+  }
+  joints->numbers = baum_i_alloc((size_t)next, sizeof *joints->numbers);
   if (!joints->numbers) {
     return BAUM_ERR_MEMORY;
   }
   for (int i = 0; i < joints->count; i++) {
-    joints->list[i].numbers = NUMBERS * i;
-    set_numbers(w, space, &joints->list[i], joints->numbers + (ptrdiff_t)NUMBERS * i);
+    set_numbers(w, space, &joints->list[i], joints->numbers + joints->list[i].numbers);
   }
   return BAUM_OK;
 }

@@ -19,15 +19,16 @@ typedef struct baum_i_space_frame {
   double w[4]; /* angular velocity in ground axes */
 } baum_i_space_frame;
 
-/* Kinds of rows, in their order: p: points coincide (3 rows), d: directions, s: slides. */
+/* Kinds of rows, in their order: p: points coincide (3 rows), d: directions, e: the same, with the
+ * axis on body_b of the row before, s: slides. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_P,
   BAUM_I_SHAPE_PD,
-  BAUM_I_SHAPE_PDD,
-  BAUM_I_SHAPE_PDDD,
-  BAUM_I_SHAPE_DDSS,
-  BAUM_I_SHAPE_DDSSD,
-  BAUM_I_SHAPE_DDS,
+  BAUM_I_SHAPE_PDE,
+  BAUM_I_SHAPE_PDED,
+  BAUM_I_SHAPE_DESS,
+  BAUM_I_SHAPE_DESSD,
+  BAUM_I_SHAPE_DES,
   BAUM_I_SHAPE_SS,
   BAUM_I_SHAPE_S,
   BAUM_I_SHAPES
@@ -38,7 +39,8 @@ enum {
   BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
   BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
-  BAUM_I_JOINT_AXES = 40   /* for each row of kind d or s: the axis on a, and for d that on b */
+  BAUM_I_JOINT_AXES =
+    40 /* for each row of kind d, e or s: the axis on a, and for d and e that on b */
 };
 
 typedef struct baum_i_space_joint {

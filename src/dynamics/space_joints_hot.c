@@ -5,11 +5,11 @@
  *
  *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
  *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
+ *   row e    a row d with the same y as the row before
  *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
  *
- * gamma is -Phi'' computed with zero accelerations. W is the angular velocity in ground axes. For
- * row d, with z = x' - W_b x x and x' = W_a x x, it is -(W_a x x' + (x' + z) x W_b) . y, and Phi' =
- * z . y.
+ * gamma = -Phi'' without accelerations. For row d, with z = y' - W_a x y and y' = W_b x y, it is
+ * -(W_b x y' + (y' + z) x W_a) . x, and Phi' = z . x.
  */
 #include <float.h>
 #include <math.h>
@@ -181,69 +181,98 @@ typedef struct rows {
   column gamma;
 } rows;
 
-BAUM_I_INLINE void put(column *x, int i, double s)
+/* Sets number i of a column to number c of y. */
+BAUM_I_INLINE void put(column *x, int i, four y, int c)
 {
+  double s = i < 4 ? 0.0 : baum_i_four_get(y, c);
   if (i < 4) {
-    x->low = baum_i_four_put(x->low, i, s);
+    x->low = baum_i_four_move(x->low, i, y, c);
   } else {
     x->high = i == 4 ? (baum_i_pair){s, x->high[1]} : (baum_i_pair){x->high[0], s};
   }
 }
 
-/* Sets row i, which is of kind d or s. */
-BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                           const double *axes, double keep, bool slides, const marker m[2], int i,
-                           rows *out)
+/* A direction y on body b and its first and second derivatives as they appear from body a. */
+typedef struct direction {
+  four y;
+  four z;
+  four bend;
+} direction;
+
+BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                                     const double *axis)
 {
   four w = baum_i_four_load(f->w);
   four u = baum_i_four_load(g->w);
-  four x = turned(f->axes, axes);
-  four x1 = baum_i_four_cross(w, x);
-  four x2 = baum_i_four_cross(w, x1);
-  four t[2];
+  direction d = {.y = turned(g->axes, axis)};
+  four y1 = baum_i_four_cross(u, d.y);
+  d.z = baum_i_four_minus(y1, baum_i_four_cross(w, d.y));
+  d.bend =
+    baum_i_four_plus(baum_i_four_cross(u, y1), baum_i_four_cross(baum_i_four_plus(y1, d.z), w));
+  return d;
+}
+
+/* Puts (t_k)^T B_k into row i of both sides. Sets Phi and Phi' to the sums of the numbers of
+ * terms[0] and terms[1], and gamma to minus that of terms[2]. */
+BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                           const four t[2], const four terms[3], int i, rows *out)
+{
   four sums[2][4];
-  four bend;
-  if (slides) {
-    four e = baum_i_four_minus(m[1].place, m[0].place);
-    four e1 = baum_i_four_minus(m[1].rate, m[0].rate);
-    four e2 = baum_i_four_minus(m[1].bend, m[0].bend);
-    t[0] = baum_i_four_cross(x, baum_i_four_plus(e, m[0].arm));
-    t[1] = baum_i_four_cross(m[1].arm, x);
-    sums[0][3] = baum_i_four_times(x, e);
-    sums[1][3] = baum_i_four_plus(baum_i_four_times(x1, e), baum_i_four_times(x, e1));
-    bend = baum_i_four_plus(baum_i_four_times(x2, e), baum_i_four_times(x, e2));
-    bend = baum_i_four_plus(bend, baum_i_four_times(baum_i_four_plus(x1, x1), e1));
-    four kept = baum_i_four_times(x, baum_i_four_all(keep));
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      put(&out->move[c], i, baum_i_four_get(kept, c));
-    }
-  } else {
-    four y = turned(g->axes, axes + 4);
-    four z = baum_i_four_minus(x1, baum_i_four_cross(u, x));
-    four v = baum_i_four_plus(x2, baum_i_four_cross(baum_i_four_plus(x1, z), u));
-    t[0] = baum_i_four_cross(x, y);
-    t[1] = baum_i_four_minus(baum_i_four_zero(), t[0]);
-    sums[0][3] = baum_i_four_times(x, y);
-    sums[1][3] = baum_i_four_times(z, y);
-    bend = baum_i_four_times(v, y);
-  }
   BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
     const double *b = (k == 0 ? f : g)->turned;
-    t[k] = baum_i_four_times(t[k], baum_i_four_all(keep));
     BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       sums[k][c] = baum_i_four_times(t[k], baum_i_four_load(b + 4 * c));
     }
+    sums[k][3] = terms[k];
     four row = baum_i_four_sums(sums[k]);
     BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
-      put(&out->turn[k][c], i, baum_i_four_get(row, c));
+      put(&out->turn[k][c], i, row, c);
     }
-    put(k == 0 ? &out->phi : &out->rate, i, baum_i_four_get(row, 3));
+    put(k == 0 ? &out->phi : &out->rate, i, row, 3);
   }
-  put(&out->gamma, i, -baum_i_four_sum(bend));
+  put(&out->gamma, i, baum_i_four_all(-baum_i_four_sum(terms[2])), 0);
+}
+
+/* Row i of kind d: x . y */
+BAUM_I_INLINE void set_direction_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                                     const direction *d, const double *axis, double keep, int i,
+                                     rows *out)
+{
+  four x = turned(f->axes, axis);
+  four t = baum_i_four_times(baum_i_four_cross(x, d->y), baum_i_four_all(keep));
+  const four both[2] = {t, baum_i_four_minus(baum_i_four_zero(), t)};
+  const four terms[3] = {baum_i_four_times(x, d->y), baum_i_four_times(x, d->z),
+                         baum_i_four_times(x, d->bend)};
+  put_row(f, g, both, terms, i, out);
+}
+
+/* Row i of kind s: x . e */
+BAUM_I_INLINE void set_slide_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                                 const marker m[2], const double *axis, double keep, int i,
+                                 rows *out)
+{
+  four w = baum_i_four_load(f->w);
+  four x = turned(f->axes, axis);
+  four x1 = baum_i_four_cross(w, x);
+  four x2 = baum_i_four_cross(w, x1);
+  four e = baum_i_four_minus(m[1].place, m[0].place);
+  four e1 = baum_i_four_minus(m[1].rate, m[0].rate);
+  four e2 = baum_i_four_minus(m[1].bend, m[0].bend);
+  four kept = baum_i_four_times(x, baum_i_four_all(keep));
+  const four t[2] = {baum_i_four_cross(kept, baum_i_four_plus(e, m[0].arm)),
+                     baum_i_four_cross(m[1].arm, kept)};
+  four bend = baum_i_four_plus(baum_i_four_times(x2, e), baum_i_four_times(x, e2));
+  const four terms[3] = {baum_i_four_times(x, e),
+                         baum_i_four_plus(baum_i_four_times(x1, e), baum_i_four_times(x, e1)),
+                         baum_i_four_plus(bend, baum_i_four_times(baum_i_four_plus(x1, x1), e1))};
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    put(&out->move[c], i, kept, c);
+  }
+  put_row(f, g, t, terms, i, out);
 }
 
 /* Stores the first n numbers of a column. */
@@ -332,7 +361,7 @@ BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
     d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
-    put(&d[j], j, (points && j < 3 ? weight : 0.0) + 1.0 - keep[j]);
+    put(&d[j], j, baum_i_four_all((points && j < 3 ? weight : 0.0) + 1.0 - keep[j]), 0);
     BAUM_I_UNROLL(3)
     for (int c = 0; slides && c < 3; c++) {
       double s = sign * move[baum_i_column_entry(3, j, c)];
@@ -383,10 +412,10 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   store_pivot(b, joint->node, n, d);
 }
 
-/* Sets all numbers of a joint of n rows. points: the first three are of kind p; slides: a bit for
- * each row of kind s. */
+/* A joint of n rows. points: the first three are of kind p; slides: a bit for each row of kind s;
+ * again: the row of kind e, or 0. */
 BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                             bool points, unsigned slides, const baum_i_space_pass *at)
+                             bool points, unsigned slides, int again, const baum_i_space_pass *at)
 {
   const baum_i_space_frame *f = &at->joints.frames[joint->body[0]];
   const baum_i_space_frame *g = &at->joints.frames[joint->body[1]];
@@ -396,6 +425,7 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   const column zero = {baum_i_four_zero(), {0.0, 0.0}};
   rows row = {{{zero, zero, zero}, {zero, zero, zero}}, {zero, zero, zero}, zero, zero, zero};
   const marker m[2] = {marker_on(f, numbers), marker_on(g, numbers + 4)};
+  direction d;
   if (points) {
     row.phi.low = baum_i_four_minus(m[1].place, m[0].place);
     row.rate.low = baum_i_four_minus(m[1].rate, m[0].rate);
@@ -409,7 +439,12 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   }
   BAUM_I_UNROLL(6)
   for (int i = points ? 3 : 0; i < n; i++) {
-    set_row(f, g, axes, keep[i], (slides >> i & 1u) != 0, m, i, &row);
+    if ((slides >> i & 1u) != 0) {
+      set_slide_row(f, g, m, axes, keep[i], i, &row);
+    } else {
+      d = i == again && i > 0 ? d : direction_on(f, g, axes + 4);
+      set_direction_row(f, g, &d, axes, keep[i], i, &row);
+    }
     axes += 8;
   }
   store_sides(b, joint, n, slides != 0, &row);
@@ -423,15 +458,15 @@ static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
   const baum_i_space_joint *end = at.joints.list + at.joints.count;
   for (const baum_i_space_joint *joint = at.joints.list; joint < end; joint++) {
     switch ((baum_i_space_shape)joint->shape) {
-    case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, &at); break;
-    case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, &at); break;
-    case BAUM_I_SHAPE_PDD: set_joint(b, joint, 5, true, 0, &at); break;
-    case BAUM_I_SHAPE_PDDD: set_joint(b, joint, 6, true, 0, &at); break;
-    case BAUM_I_SHAPE_DDSS: set_joint(b, joint, 4, false, 0xc, &at); break;
-    case BAUM_I_SHAPE_DDSSD: set_joint(b, joint, 5, false, 0xc, &at); break;
-    case BAUM_I_SHAPE_DDS: set_joint(b, joint, 3, false, 0x4, &at); break;
-    case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, &at); break;
-    case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, &at); break;
+    case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, 0, &at); break;
+    case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, 0, &at); break;
+    case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, true, 0, 4, &at); break;
+    case BAUM_I_SHAPE_PDED: set_joint(b, joint, 6, true, 0, 4, &at); break;
+    case BAUM_I_SHAPE_DESS: set_joint(b, joint, 4, false, 0xc, 1, &at); break;
+    case BAUM_I_SHAPE_DESSD: set_joint(b, joint, 5, false, 0xc, 1, &at); break;
+    case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, false, 0x4, 1, &at); break;
+    case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, 0, &at); break;
+    case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, 0, &at); break;
     case BAUM_I_SHAPES:
     default: break;
     }

@@ -10,9 +10,9 @@
 #include "base/pair.h"
 #include "linear/arrays.h"
 
-/* The limits have the same values and the same meaning as in block.c. Here they refer to the two
- * determinants of each node. */
+/* As in block.c, but with a lower bound, because evaluations in space do not check the residual. */
 static const double weak_pivot = 1e-3;
+static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
 /* ---- memory ---- */
@@ -66,7 +66,7 @@ baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, bau
     return status;
   }
   double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
-  b->weak_pivot = weak_pivot * few * sqrt(few);
+  b->weak_pivot = fmax(weak_pivot * few * sqrt(few), least_weak_pivot);
   baum_i_space_use_force(b, true);
   *out = b;
   return BAUM_OK;

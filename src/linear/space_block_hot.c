@@ -11,6 +11,7 @@
 
 enum { MOST = BAUM_I_SPACE_ROWS, MOTION = BAUM_I_SPACE_MOTION };
 
+typedef baum_i_four four;
 typedef baum_i_space_column column;
 
 /* A residual of up to this fraction of its terms is at rounding level. */
@@ -143,75 +144,104 @@ static void substitute(baum_i_space *b, double *lambda)
   read_lambda(b, lambda);
 }
 
-/* lambda = D^-1 L^-1 lambda with the present factors. */
-static void forward_node(const baum_i_space *b, int k)
+/* Subtracts U x, for a matrix of n columns, from the numbers of a later node. */
+BAUM_I_INLINE void subtract_columns(int n, const double *u, const double *x, bool tall, double *to)
 {
-  const baum_i_space_node *node = &b->list[k];
-  int n = node->rows;
+  column sum = baum_i_column_load(to, 1, 0, tall);
+  BAUM_I_UNROLL(6)
+  for (int c = 0; c < n; c++) {
+    sum = baum_i_column_subtract(sum, baum_i_column_load(u, n, c, tall), x[c], tall);
+  }
+  baum_i_column_store(to, 1, 0, tall, sum);
+}
+
+/* lambda = D^-1 L^-1 lambda at node k of n rows, with the present factors. */
+BAUM_I_INLINE void forward_node(int n, const baum_i_space *b, int k)
+{
+  bool tall = n > 4;
   int n1 = n < 3 ? n : 3;
-  double *numbers = b->nodes + node->at;
+  double *numbers = b->nodes + b->list[k].at;
   const double *d = numbers + baum_i_space_pivot(n);
   double right[MOST];
-  double out[MOST] = {0.0};
   memcpy(right, numbers, (size_t)n * sizeof *right);
+  BAUM_I_UNROLL(3)
   for (int c = 3; c < n; c++) {
-    for (int i = 0; i < 3; i++) {
-      right[c] -= d[4 * c + i] * right[i];
-    }
+    right[c] -= d[4 * c] * right[0] + d[4 * c + 1] * right[1] + d[4 * c + 2] * right[2];
   }
   for (int e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
     const baum_i_space_node *later = &b->list[b->couplings[e].later];
     const double *u = b->off + b->couplings[e].at;
-    double *to = b->nodes + later->at;
-    for (int i = 0; i < later->rows; i++) {
-      for (int c = 0; c < n; c++) {
-        to[i] -= u[baum_i_column_entry(n, i, c)] * right[c];
-      }
+    if (later->rows > 4) {
+      subtract_columns(n, u, right, true, b->nodes + later->at);
+    } else {
+      subtract_columns(n, u, right, false, b->nodes + later->at);
     }
   }
-  for (int i = 0; i < n1; i++) {
-    for (int c = 0; c < n1; c++) {
-      out[i] += d[4 * c + i] * right[c];
+  four first = baum_i_four_zero();
+  four second = baum_i_four_zero();
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < n1; c++) {
+    first = baum_i_four_add(first, baum_i_four_load(d + 4 * c), right[c]);
+  }
+  BAUM_I_UNROLL(3)
+  for (int c = 3; c < n; c++) {
+    second = baum_i_four_add(second, baum_i_four_load(d + 4 * n + 4 * (c - 3)), right[c]);
+  }
+  column out = {.low = baum_i_four_put(first, 3, baum_i_four_get(second, 0))};
+  out.high = (baum_i_pair){baum_i_four_get(second, 1), baum_i_four_get(second, 2)};
+  baum_i_column_store(numbers, 1, 0, tall, out);
+}
+
+static void forward(const baum_i_space *b)
+{
+  for (int k = 0; k < b->node_count; k++) {
+    switch (b->list[k].rows) {
+    case 1: forward_node(1, b, k); break;
+    case 2: forward_node(2, b, k); break;
+    case 3: forward_node(3, b, k); break;
+    case 4: forward_node(4, b, k); break;
+    case 5: forward_node(5, b, k); break;
+    default: forward_node(6, b, k); break;
     }
   }
-  for (int i = 0; i < n - n1; i++) {
-    for (int c = 0; c < n - n1; c++) {
-      out[3 + i] += d[4 * n + 4 * c + i] * right[3 + c];
-    }
-  }
-  memcpy(numbers, out, (size_t)n * sizeof *out);
 }
 
 /* ---- residual and refinement ---- */
 
-static column magnitude(column x)
+BAUM_I_INLINE column magnitude(column x)
 {
-  double low[4];
-  double high[2];
-  baum_i_four_store(low, x.low);
-  baum_i_store(high, x.high);
-  for (int i = 0; i < 4; i++) {
-    low[i] = fabs(low[i]);
+  return (column){baum_i_four_magnitude(x.low), baum_i_magnitude(x.high)};
+}
+
+/* r - J a of one node. size: NULL, or receives the sums of the magnitudes of its terms. */
+BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *node, bool tall,
+                             column *size)
+{
+  column rest = baum_i_column_load(b->nodes + node->at + (tall ? 8 : 4), 1, 0, tall);
+  if (size) {
+    *size = magnitude(rest);
   }
-  return (column){baum_i_four_load(low), {fabs(high[0]), fabs(high[1])}};
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    const baum_i_space_side *side = &b->side_list[s];
+    const double *x = b->motion + (ptrdiff_t)MOTION * side->body;
+    BAUM_I_UNROLL(6)
+    for (int c = 0; c < 6; c++) {
+      const double *part = b->sides + (c < 3 ? side->move : side->turn);
+      column g = baum_i_column_load(part, 3, c % 3, tall);
+      double y = c < 3 ? x[c] : x[c + 1];
+      rest = baum_i_column_subtract(rest, g, y, tall);
+      if (size) {
+        *size = baum_i_column_add(*size, magnitude(g), fabs(y), tall);
+      }
+    }
+  }
+  return rest;
 }
 
 static bool check_node(const baum_i_space *b, const baum_i_space_node *node)
 {
-  bool tall = node->rows > 4;
-  column rest = baum_i_column_load(b->nodes + node->at + (tall ? 8 : 4), 1, 0, tall);
-  column size = magnitude(rest);
-  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
-    const baum_i_space_side *side = &b->side_list[s];
-    const double *x = b->motion + (ptrdiff_t)MOTION * side->body;
-    for (int c = 0; c < 6; c++) {
-      column g = c < 3 ? baum_i_column_load(b->sides + side->move, 3, c, tall)
-                       : baum_i_column_load(b->sides + side->turn, 3, c - 3, tall);
-      double y = c < 3 ? x[c] : x[c + 1];
-      rest = baum_i_column_subtract(rest, g, y, tall);
-      size = baum_i_column_add(size, magnitude(g), fabs(y), tall);
-    }
-  }
+  column size;
+  column rest = node->rows > 4 ? rest_of(b, node, true, &size) : rest_of(b, node, false, &size);
   double over[8] = {0.0};
   double limit[8] = {0.0};
   baum_i_column_store(over, 1, 0, true, rest);
@@ -232,82 +262,194 @@ static bool check(const baum_i_space *b)
   return fine;
 }
 
-/* lambda = J pull - rest at all nodes. */
-static void gather(const baum_i_space *b)
+static void find_rest(baum_i_space *b)
+{
+  memset(b->pull, 0, (size_t)(MOTION * b->body_count) * sizeof *b->pull);
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    if (node->rows > 4) {
+      baum_i_column_store(b->rest + node->place, 1, 0, true, rest_of(b, node, true, NULL));
+    } else {
+      baum_i_column_store(b->rest + node->place, 1, 0, false, rest_of(b, node, false, NULL));
+    }
+  }
+}
+
+/* L^-T y, the acceleration of the rotation */
+BAUM_I_INLINE four unwhitened(const baum_i_space_body *body, four y)
+{
+  return transposed_times(body->whiten, (column){.low = y}, false);
+}
+
+BAUM_I_INLINE four larger(four x, four most)
+{
+  return baum_i_four_larger(baum_i_four_magnitude(x), most);
+}
+
+static double largest(four x)
+{
+  baum_i_pair two = baum_i_larger(baum_i_four_low(x), baum_i_four_high(x));
+  return two[0] > two[1] ? two[0] : two[1];
+}
+
+/* Includes the accelerations by the multipliers of one node. */
+BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
+                                  four most)
+{
+  column lambda = baum_i_column_load(b->nodes + node->at, 1, 0, tall);
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    const baum_i_space_side *side = &b->side_list[s];
+    const baum_i_space_body *body = &b->bodies[side->body];
+    four turn = transposed_times(b->sides + side->turn, lambda, tall);
+    four push = lambda.low; /* up to its sign, if E is not stored; weight[3] is 0 */
+    if (side->sign == 0) {
+      push = transposed_times(b->sides + side->move, lambda, tall);
+    }
+    most = larger(baum_i_four_times(push, baum_i_four_load(body->weight)), most);
+    most = larger(unwhitened(body, turn), most);
+  }
+  return most;
+}
+
+/* The largest acceleration of a body. */
+static double largest_motion(const baum_i_space *b)
+{
+  four most = baum_i_four_zero();
+  for (int t = 1; t < b->body_count; t++) {
+    const double *x = b->motion + (ptrdiff_t)MOTION * t;
+    most = larger(baum_i_four_load(x), most);
+    most = larger(unwhitened(&b->bodies[t], baum_i_four_load(x + 4)), most);
+  }
+  return largest(most);
+}
+
+static double amplification(const baum_i_space *b)
+{
+  four pushes = baum_i_four_zero();
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    pushes = node->rows > 4 ? include_pushes(b, node, true, pushes)
+                            : include_pushes(b, node, false, pushes);
+  }
+  return largest(pushes) / largest_motion(b);
+}
+
+/* J pull - rest of one node */
+BAUM_I_INLINE void gather_node(const baum_i_space *b, const baum_i_space_node *node, bool tall)
+{
+  column sum = {.low = baum_i_four_zero()};
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    const baum_i_space_side *side = &b->side_list[s];
+    const double *x = b->pull + (ptrdiff_t)MOTION * side->body;
+    BAUM_I_UNROLL(3)
+    for (int c = 0; c < 3; c++) {
+      sum =
+        baum_i_column_add(sum, baum_i_column_load(b->sides + side->move, 3, c, tall), x[c], tall);
+      sum = baum_i_column_add(sum, baum_i_column_load(b->sides + side->turn, 3, c, tall), x[4 + c],
+                              tall);
+    }
+  }
+  sum =
+    baum_i_column_subtract(sum, baum_i_column_load(b->rest + node->place, 1, 0, tall), 1.0, tall);
+  baum_i_column_store(b->nodes + node->at, 1, 0, tall, sum);
+}
+
+/* Keeps lambda, and replaces it by J pull - rest. */
+static void gather(baum_i_space *b)
 {
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     bool tall = node->rows > 4;
-    column sum = {.low = baum_i_four_zero()};
-    for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
-      const baum_i_space_side *side = &b->side_list[s];
-      const double *x = b->pull + (ptrdiff_t)MOTION * side->body;
-      for (int c = 0; c < 3; c++) {
-        sum =
-          baum_i_column_add(sum, baum_i_column_load(b->sides + side->move, 3, c, tall), x[c], tall);
-        sum = baum_i_column_add(sum, baum_i_column_load(b->sides + side->turn, 3, c, tall),
-                                x[4 + c], tall);
-      }
+    column before = baum_i_column_load(b->nodes + node->at, 1, 0, tall);
+    baum_i_column_store(b->rest_low + node->place, 1, 0, tall, before);
+    if (tall) {
+      gather_node(b, node, true);
+    } else {
+      gather_node(b, node, false);
     }
-    sum =
-      baum_i_column_subtract(sum, baum_i_column_load(b->rest + node->place, 1, 0, tall), 1.0, tall);
-    baum_i_column_store(b->nodes + node->at, 1, 0, tall, sum);
   }
+}
+
+/* Adds the corrections to the multipliers before. Returns their largest relative change. */
+static double add_changes(const baum_i_space *b)
+{
+  four changes = baum_i_four_zero();
+  four sizes = baum_i_four_zero();
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    double *numbers = b->nodes + node->at;
+    bool tall = node->rows > 4;
+    column change = baum_i_column_load(numbers, 1, 0, tall);
+    column sum = baum_i_column_load(b->rest_low + node->place, 1, 0, tall);
+    sum = baum_i_column_add(sum, change, 1.0, tall);
+    baum_i_column_store(numbers, 1, 0, tall, sum);
+    changes = larger(baum_i_four_of(change.high), larger(change.low, changes));
+    sizes = larger(baum_i_four_of(sum.high), larger(sum.low, sizes));
+  }
+  double size = largest(sizes);
+  return size > 0.0 ? largest(changes) / size : 0.0;
+}
+
+/* Returns the largest change of accelerations relative to the largest acceleration. */
+static double change_of_motion(const baum_i_space *b, const double *before)
+{
+  four changes = baum_i_four_zero();
+  for (int t = 1; t < b->body_count; t++) {
+    ptrdiff_t at = (ptrdiff_t)MOTION * t;
+    four x = baum_i_four_minus(baum_i_four_load(b->motion + at), baum_i_four_load(before + at));
+    four y =
+      baum_i_four_minus(baum_i_four_load(b->motion + at + 4), baum_i_four_load(before + at + 4));
+    changes = larger(unwhitened(&b->bodies[t], y), larger(x, changes));
+  }
+  double size = largest_motion(b);
+  return size > 0.0 ? largest(changes) / size : 0.0;
 }
 
 static double correct(baum_i_space *b)
 {
-  double *before = b->rest_low;
-  for (int k = 0; k < b->node_count; k++) {
-    const baum_i_space_node *node = &b->list[k];
-    memcpy(before + node->place, b->nodes + node->at, (size_t)node->rows * sizeof *before);
-  }
+  double *before = b->pull_low;
+  memcpy(before, b->motion, (size_t)(MOTION * b->body_count) * sizeof *before);
   gather(b);
-  for (int k = 0; k < b->node_count; k++) {
-    forward_node(b, k);
-  }
-  for (int i = 0; i < MOTION * b->body_count; i++) {
-    b->motion[i] += b->pull[i];
+  forward(b);
+  for (int i = 0; i < MOTION * b->body_count; i += 4) {
+    four sum = baum_i_four_plus(baum_i_four_load(b->motion + i), baum_i_four_load(b->pull + i));
+    baum_i_four_store(b->motion + i, sum);
   }
   backward(b);
-  double change = 0.0;
-  double size = 0.0;
-  for (int k = 0; k < b->node_count; k++) {
-    const baum_i_space_node *node = &b->list[k];
-    double *l = b->nodes + node->at;
-    for (int i = 0; i < node->rows; i++) {
-      change = fmax(change, fabs(l[i]));
-      l[i] += before[node->place + i];
-      size = fmax(size, fabs(l[i]));
-    }
-  }
-  return size > 0.0 ? change / size : 0.0;
+  double change = add_changes(b);
+  double moved = change_of_motion(b, before);
+  return change > moved ? change : moved;
 }
 
 /* ---- results ---- */
 
 static bool read_motion(const baum_i_space *b, double *a)
 {
-  double sum = 0.0; /* sum of 0 x_i, which is 0, or NaN if a number is not finite */
+  four sum = baum_i_four_zero(); /* of 0 x: 0, or NaN if a number is not finite */
   for (int t = 1; t < b->body_count; t++) {
     const baum_i_space_body *body = &b->bodies[t];
-    const double *x = b->motion + (ptrdiff_t)MOTION * t;
-    double six[6] = {x[0], x[1], x[2]};
-    for (int i = 0; i < 3; i++) {
-      const double *w = body->whiten + 4 * (ptrdiff_t)i;
-      six[3 + i] = w[0] * x[4] + w[1] * x[5] + w[2] * x[6];
-    }
-    for (int c = 0; c < body->size; c++) {
-      a[body->first + c] = six[body->slots[c]];
-      sum += 0.0 * a[body->first + c];
+    const double *from = b->motion + (ptrdiff_t)MOTION * t;
+    double *to = a + body->first;
+    four x = baum_i_four_load(from);
+    four w = unwhitened(body, baum_i_four_load(from + 4));
+    sum = baum_i_four_add(baum_i_four_add(sum, x, 0.0), w, 0.0);
+    baum_i_store(to, baum_i_four_low(x));
+    if (body->size == 6) {
+      to[2] = baum_i_four_high(x)[0];
+      baum_i_store(to + 3, baum_i_four_low(w));
+      to[5] = baum_i_four_high(w)[0];
+    } else if (body->size == 3) {
+      to[2] = baum_i_four_high(body->slots[2] == 5 ? w : x)[0];
     }
   }
-  return sum == 0.0;
+  return baum_i_four_sum(sum) == 0.0;
 }
 
 const baum_i_space_kernel BAUM_I_HOT(baum_i_space_kernel) = {
   .substitute = substitute,
+  .amplification = amplification,
   .check = check,
+  .find_rest = find_rest,
   .correct = correct,
   .read_motion = read_motion,
   .read_lambda = read_lambda,

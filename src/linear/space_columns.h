@@ -11,7 +11,11 @@
 
 BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
 {
+#ifdef BAUM_I_WIDE
+  return _mm256_loadu_pd(from);
+#else
   return baum_i_four_gathered(from, from + 2);
+#endif
 }
 
 BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
@@ -92,6 +96,28 @@ BAUM_I_INLINE baum_i_four baum_i_four_put(baum_i_four x, int i, double s)
   baum_i_pair *half = i < 2 ? &x.low : &x.high;
   *half = i % 2 == 0 ? (baum_i_pair){s, (*half)[1]} : (baum_i_pair){(*half)[0], s};
   return x;
+#endif
+}
+
+/* Replaces number i by number c of y; i and c are constants. */
+BAUM_I_INLINE baum_i_four baum_i_four_move(baum_i_four x, int i, baum_i_four y, int c)
+{
+#ifdef BAUM_I_WIDE
+  baum_i_four all = y;
+  switch (c) {
+  case 0: all = _mm256_permute4x64_pd(y, 0x00); break;
+  case 1: all = _mm256_permute4x64_pd(y, 0x55); break;
+  case 2: all = _mm256_permute4x64_pd(y, 0xaa); break;
+  default: all = _mm256_permute4x64_pd(y, 0xff); break;
+  }
+  switch (i) {
+  case 0: return _mm256_blend_pd(x, all, 1);
+  case 1: return _mm256_blend_pd(x, all, 2);
+  case 2: return _mm256_blend_pd(x, all, 4);
+  default: return _mm256_blend_pd(x, all, 8);
+  }
+#else
+  return baum_i_four_put(x, i, baum_i_four_get(y, c));
 #endif
 }
 

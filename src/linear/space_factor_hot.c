@@ -34,27 +34,33 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
                                bool tall, bool lean)
 {
   static const double UNITS[3][4] = {{1.0}, {0.0, 1.0}, {0.0, 0.0, 1.0}};
-  const double *turn = b->sides + pair->turn[0];
   const double *other = b->sides + pair->turn[1];
-  const double *weight = b->bodies[pair->body].weight;
-  double *to = b->off + pair->to;
-  const double *move = b->sides + pair->move[0];
   const double *other_move = b->sides + pair->move[1];
+  double weight = b->bodies[pair->body].weight[0];
+  double *to = b->off + pair->to;
+  column turn[3]; /* loaded once, because `to` could be any of the numbers for the compiler */
+  column move[3];
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    turn[c] = baum_i_column_load(b->sides + pair->turn[0], 3, c, tall);
+    move[c] = baum_i_column_load(b->sides + pair->move[0], 3, c, tall);
+  }
+  BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
     column sum = {.low = baum_i_four_zero()};
     if (pair->adds) {
       sum = baum_i_column_load(to, n, j, tall);
     }
+    BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
       ptrdiff_t at = baum_i_column_entry(3, j, c);
-      sum = baum_i_column_add(sum, baum_i_column_load(turn, 3, c, tall), other[at], tall);
+      sum = baum_i_column_add(sum, turn[c], other[at], tall);
       if (!lean) {
-        sum = baum_i_column_add(sum, baum_i_column_load(move, 3, c, tall),
-                                weight[0] * other_move[at], tall);
+        sum = baum_i_column_add(sum, move[c], weight * other_move[at], tall);
       }
     }
     if (lean && j < 3) {
-      sum.low = baum_i_four_add(sum.low, baum_i_four_load(UNITS[j]), pair->sign * weight[0]);
+      sum.low = baum_i_four_add(sum.low, baum_i_four_load(UNITS[j]), pair->sign * weight);
     }
     baum_i_column_store(to, n, j, tall, sum);
   }
@@ -355,6 +361,7 @@ static baum_i_pivots eliminate(baum_i_space *b)
     const baum_i_space_measure *m = &b->measures[k];
     fine = fine && m->det[0] > weak * m->size[0] && m->det[1] > weak * m->size[1];
   }
+  b->weakest = weak;
   if (fine) {
     return BAUM_I_PIVOTS_GOOD;
   }

@@ -91,8 +91,8 @@ static errors errors_of(const scene *s, const oracle_answer *from)
   return e;
 }
 
-/* Returns how much the results of the oracle change if positions and inertias change by rounding
- * errors. */
+/* Returns how much the results of the oracle change if positions, inertias and J change by rounding
+ * errors. Those of J matter if forces that go through a light body nearly cancel. */
 static errors sensitivity(const scene *s)
 {
   chance c = chance_of(s->seed);
@@ -101,6 +101,7 @@ static errors sensitivity(const scene *s)
     wide q[SIZE];
     oracle_answer moved;
     spatial_oracle rounded = s->random->oracle;
+    rounded.rounding = s->seed + (uint64_t)turn + 1;
     for (int k = 1; k < rounded.body_count; k++) {
       for (int i = 0; i < 6; i++) {
         rounded.bodies[k].inertia[i] *= 1.0 + (double)(chance_below(&c, 3) - 1) * 0x1p-52;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "oracle_motion.h"
+#include "random_mechanism.h"
 
 /* If all entries of a row are smaller than this, the row is zero except for rounding errors. An
  * example is a row that holds a planar body in its plane. All other rows have entries of about
@@ -282,12 +283,14 @@ static void fill_bodies(const instant *now, quad_equations *s)
 static void fill_rows(const spatial_oracle *o, const row_list *list, const wide *gamma,
                       quad_equations *s)
 {
+  chance c = chance_of(o->rounding);
   for (int r = 0; r < s->nc; r++) {
     wide *row = s->jacobian + (ptrdiff_t)r * s->nv;
     for (int k = 1; k < o->body_count; k++) {
       const oracle_body *body = &o->bodies[k];
       for (int i = 0; i < body->nv; i++) {
-        row[body->first_v + i] = list->j[r][6 * k + oracle_six_of(body, i)];
+        double error = o->rounding ? chance_number(&c, -0x1p-53, 0x1p-53) : 0.0;
+        row[body->first_v + i] = list->j[r][6 * k + oracle_six_of(body, i)] * (1 + (wide)error);
       }
     }
     bool counts = largest(row, s->nv) > NO_ROW;

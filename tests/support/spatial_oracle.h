@@ -10,6 +10,7 @@
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include <baum/baum.h>
 
@@ -91,6 +92,7 @@ typedef struct spatial_oracle {
   oracle_joint joints[ORACLE_JOINTS];
   int force_count;
   oracle_force forces[ORACLE_FORCES];
+  uint64_t rounding; /* 0, or a random seed for rounding errors of the elements of J */
 } spatial_oracle;
 
 /* The results of one evaluation. */

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Compares both versions of the loops of the solver of space, the plain one and the one for this
+ * processor. The functions are called one after another, and each gets the same numbers in both
+ * versions. tests/physics/test_spatial_accuracy.c compares results with quadruple precision. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "assert_near.h"
+#include "dynamics/block_path.h"
+#include "random_spatial.h"
+#include "spatial.h"
+
+enum { MOST = 400 };
+
+/* One mechanism in two workspaces: the second one uses the plain version. */
+typedef struct pair {
+  baum_workspace *w[2];
+  baum_i_block_path *path[2];
+  baum_i_space *space[2];
+} pair;
+
+static void use_plain(baum_i_block_path *path)
+{
+  path->space_kernel = &baum_i_space_kernel_plain;
+  path->space_sides = &baum_i_space_sides_kernel_plain;
+  path->factor_kernel = &baum_i_space_factor_kernel_plain;
+  path->residual_kernel = &baum_i_space_residual_kernel_plain;
+  path->joints_kernel = &baum_i_space_joints_kernel_plain;
+}
+
+/* Evaluates both workspaces in the design configuration with random velocities. Returns false if
+ * the mechanism does not use the solver of space. */
+static bool make_pair(const baum_mechanism *m, pair *p)
+{
+  static const baum_i_right_side right = {
+    .bending = 1.0, .damping = 3.0, .stiffness = 2.0, .force = true};
+  double q[MOST];
+  double v[MOST];
+  chance c = chance_of(5);
+  memset(p, 0, sizeof *p);
+  assert_true(m->nq <= MOST && m->nc <= MOST);
+  for (int i = 0; i < m->nv; i++) {
+    v[i] = chance_number(&c, -2.0, 2.0);
+  }
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(baum_workspace_create(m, &p->w[k]), BAUM_OK);
+    assert_int_equal(baum_workspace_design(p->w[k], q, NULL), BAUM_OK);
+    p->path[k] = p->w[k]->path;
+    if (!p->path[k] || !p->path[k]->space) {
+      return false;
+    }
+    p->space[k] = p->path[k]->space;
+  }
+  use_plain(p->path[1]);
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(baum_i_block_path_evaluate(p->w[k], p->path[k], 0.0, q, v, &right), BAUM_OK);
+  }
+  return true;
+}
+
+static double largest(const double *x, int count)
+{
+  double most = 0.0;
+  for (int i = 0; i < count; i++) {
+    most = fmax(most, fabs(x[i]));
+  }
+  return most;
+}
+
+/* The tolerance is relative to `size` or to the largest number. */
+static void assert_alike(const double *got, const double *want, int count, double tolerance,
+                         double size)
+{
+  double most = fmax(size, largest(want, count));
+  for (int i = 0; i < count; i++) {
+    ASSERT_NEAR(got[i], want[i], 0.0, tolerance * most);
+  }
+}
+
+static void copy_motion(const pair *p)
+{
+  size_t motion = BAUM_I_SPACE_MOTION * (size_t)p->space[0]->body_count;
+  memcpy(p->space[1]->motion, p->space[0]->motion, motion * sizeof(double));
+  memcpy(p->space[1]->pull, p->space[0]->pull, motion * sizeof(double));
+}
+
+/* Gives both the same numbers in sides, nodes and couplings. */
+static void copy_numbers(const pair *p)
+{
+  const baum_i_space *from = p->space[0];
+  const baum_i_space *to = p->space[1];
+  memcpy(to->sides, from->sides, (size_t)from->numbers_of_sides * sizeof(double));
+  memcpy(to->nodes, from->nodes, (size_t)from->numbers_of_nodes * sizeof(double));
+  memcpy(to->off, from->off, (size_t)from->numbers_off * sizeof(double));
+  memcpy(to->rest, from->rest, (size_t)from->numbers_of_rows * sizeof(double));
+  memcpy(to->measures, from->measures, (size_t)from->node_count * sizeof *from->measures);
+  size_t motion = BAUM_I_SPACE_MOTION * (size_t)from->body_count;
+  memcpy(to->free, from->free, motion * sizeof(double));
+  memcpy(to->force, from->force, motion * sizeof(double));
+  copy_motion(p);
+}
+
+/* ---- the functions in their order ---- */
+
+static void compare_geometry(const pair *p)
+{
+  const baum_i_space *a = p->space[0];
+  const baum_i_space *b = p->space[1];
+  for (int k = 0; k < a->node_count; k++) {
+    const baum_i_space_node *node = &a->list[k];
+    int part = baum_i_space_part(node->rows);
+    double terms = 10.0; /* of J a0 - r */
+    for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+      const baum_i_space_side *side = &a->side_list[s];
+      double size = largest(a->bodies[side->body].whiten, 12);
+      const double *free = a->free + (ptrdiff_t)BAUM_I_SPACE_MOTION * side->body;
+      terms = fmax(terms, fmax(size, 1.0) * largest(free, BAUM_I_SPACE_MOTION));
+      assert_alike(b->sides + side->turn, a->sides + side->turn, part, 1e-13, size);
+      assert_alike(b->sides + side->move, a->sides + side->move, part, 1e-13, 1.0);
+    }
+    int vector = baum_i_space_vector(node->rows);
+    const double *x = a->nodes + node->at;
+    const double *y = b->nodes + node->at;
+    assert_alike(y, x, vector, 1e-12, terms);
+    assert_alike(y + vector, x + vector, vector, 1e-12, 10.0);
+    assert_alike(y + 2 * vector, x + 2 * vector, 4 * node->rows, 1e-12, 0.0);
+  }
+  for (int t = 1; t < a->body_count; t++) {
+    ptrdiff_t at = (ptrdiff_t)BAUM_I_SPACE_MOTION * t;
+    double size = largest(a->bodies[t].whiten, 12);
+    assert_alike(b->free + at, a->free + at, BAUM_I_SPACE_MOTION, 1e-12, size);
+    assert_alike(b->force + at, a->force + at, BAUM_I_SPACE_MOTION, 1e-12, size);
+  }
+  assert_alike(p->w[1]->phi, p->w[0]->phi, p->w[0]->mechanism->nc, 1e-13, 1.0);
+  assert_alike(p->w[1]->phi_rate, p->w[0]->phi_rate, p->w[0]->mechanism->nc, 1e-13, 1.0);
+  assert_alike(p->w[1]->gamma, p->w[0]->gamma, p->w[0]->mechanism->nc, 1e-13, 1.0);
+}
+
+static void compare_couplings(const pair *p)
+{
+  const baum_i_space *a = p->space[0];
+  for (int k = 0; k < 2; k++) {
+    p->path[k]->factor_kernel->couple(p->space[k]);
+  }
+  for (int e = 0; e < a->coupling_count; e++) {
+    int end = e + 1 < a->coupling_count ? a->couplings[e + 1].at : a->numbers_off;
+    int at = a->couplings[e].at;
+    assert_alike(p->space[1]->off + at, a->off + at, end - at, 1e-12, 0.0);
+  }
+}
+
+static void compare_nodes(const pair *p, double tolerance)
+{
+  const baum_i_space *a = p->space[0];
+  double lambda[2][MOST] = {{0.0}};
+  for (int k = 0; k < 2; k++) {
+    p->path[k]->space_kernel->read_lambda(p->space[k], lambda[k]);
+  }
+  assert_alike(lambda[1], lambda[0], p->w[0]->mechanism->nc, tolerance, 0.0);
+  int motion = BAUM_I_SPACE_MOTION * a->body_count;
+  assert_alike(p->space[1]->motion, a->motion, motion, tolerance, largest(a->free, motion));
+}
+
+static void compare_residuals(const pair *p)
+{
+  const baum_i_space *a = p->space[0];
+  int motion = BAUM_I_SPACE_MOTION * a->body_count;
+  chance c = chance_of(6);
+  for (int i = 0; i < motion; i++) { /* residuals that are not small */
+    a->motion[i] *= 1.0 + chance_number(&c, -0.1, 0.1);
+  }
+  for (int k = 0; k < a->node_count; k++) {
+    for (int i = 0; i < a->list[k].rows; i++) {
+      a->nodes[a->list[k].at + i] *= 1.0 + chance_number(&c, -0.1, 0.1);
+    }
+  }
+  copy_numbers(p);
+  for (int k = 0; k < 2; k++) {
+    p->path[k]->residual_kernel->find(p->space[k]);
+  }
+  assert_alike(p->space[1]->pull, a->pull, motion, 1e-13, 0.0);
+  assert_alike(p->space[1]->rest, a->rest, a->numbers_of_rows, 1e-13, 0.0);
+  for (int k = 0; k < 2; k++) {
+    double rest[MOST * 2];
+    assert_true(a->numbers_of_rows <= 2 * MOST);
+    memcpy(rest, a->rest, (size_t)a->numbers_of_rows * sizeof *rest);
+    p->path[k]->space_kernel->find_rest(p->space[k]);
+    assert_alike(p->space[k]->rest, rest, a->numbers_of_rows, 1e-11, 0.0);
+    assert_true(largest(p->space[k]->pull, motion) == 0.0);
+    p->path[k]->residual_kernel->find(p->space[k]);
+  }
+}
+
+static void compare_corrections(const pair *p)
+{
+  double a[2][MOST] = {{0.0}};
+  double change[2];
+  double amplification[2];
+  copy_numbers(p);
+  for (int k = 0; k < 2; k++) {
+    const baum_i_space_kernel *kernel = p->path[k]->space_kernel;
+    assert_false(kernel->check(p->space[k]));
+    change[k] = kernel->correct(p->space[k]);
+    amplification[k] = kernel->amplification(p->space[k]);
+    assert_true(kernel->read_motion(p->space[k], a[k]));
+  }
+  compare_nodes(p, 1e-11);
+  ASSERT_NEAR(change[1], change[0], 1e-9, 0.0);
+  ASSERT_NEAR(amplification[1], amplification[0], 1e-9, 0.0);
+  assert_alike(a[1], a[0], p->w[0]->mechanism->nv, 1e-10, 0.0);
+}
+
+/* Returns false if the mechanism does not use the solver, or if its pivots are weak, because
+ * rounding errors then grow. */
+static bool compare(const baum_mechanism *m)
+{
+  pair p;
+  bool good = make_pair(m, &p);
+  if (good) {
+    compare_geometry(&p);
+    copy_numbers(&p);
+    compare_couplings(&p);
+    copy_numbers(&p);
+    for (int k = 0; k < 2; k++) {
+      baum_i_pivots pivots = p.path[k]->factor_kernel->eliminate(p.space[k]);
+      p.path[k]->space_kernel->substitute(p.space[k], p.w[k]->lambda);
+      good = good && pivots == BAUM_I_PIVOTS_GOOD;
+    }
+  }
+  if (good && largest(p.space[0]->free, BAUM_I_SPACE_MOTION * p.space[0]->body_count) > 0.0) {
+    compare_nodes(&p, 1e-10);
+    copy_numbers(&p);
+    compare_residuals(&p);
+    compare_corrections(&p);
+  }
+  for (int k = 0; k < 2; k++) {
+    baum_workspace_destroy(p.w[k]);
+  }
+  return good;
+}
+
+/* ---- tests ---- */
+
+static void scenes_are_the_same_in_both_builds(void **state)
+{
+  (void)state;
+  int compared = 0;
+  for (int k = 0; k < MODEL_SPATIAL_COUNT; k++) {
+    model m;
+    assert_int_equal(model_spatial_build((model_spatial)k, 12, &m), BAUM_OK);
+    compared += compare(m.mechanism) ? 1 : 0;
+    model_destroy(&m);
+  }
+  assert_true(compared >= 5);
+}
+
+/* Joints of all kinds, redundant rows, loops, particles and planar bodies. */
+static void random_mechanisms_are_the_same_in_both_builds(void **state)
+{
+  static random_spatial room;
+  (void)state;
+  int compared = 0;
+  for (uint64_t seed = 0; seed < 200; seed++) {
+    random_spatial_make(&room, seed);
+    compared += compare(room.mechanism) ? 1 : 0;
+    random_spatial_destroy(&room);
+  }
+  assert_true(compared >= 50);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(scenes_are_the_same_in_both_builds),
+    cmocka_unit_test(random_mechanisms_are_the_same_in_both_builds),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
