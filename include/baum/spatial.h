@@ -154,6 +154,122 @@ BAUM_API baum_status baum_mechanism_get_spatial_spring(const baum_mechanism *mec
 BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism, baum_force_id id,
                                                        const baum_spatial_spring_def *def);
 
+/* ---- torsion spring -------------------------------------------------------------------------- */
+
+/** A torsion spring and damper in parallel between two bodies, about an axis, or a law of your own.
+ *  The torque is stiffness (angle - free_angle) + damping (d/dt angle); a positive torque turns
+ *  body_b back.
+ *
+ *  The angle is the twist of body_b about the axis: the angle that remains when the inclination of
+ *  body_b is undone by the smallest rotation. It is 0 in the design configuration. Runs count its
+ *  revolutions. The bodies need no joint; for a coordinate of a joint, use a joint spring. If axis
+ *  and axis_b point in opposite directions, the angle is undefined and the torque is zero. */
+typedef struct baum_spatial_torsion_spring_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
+  /** Default: none, must be set; must differ from body_a and must not be a particle. */
+  baum_body_id body_b;
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] axis, with any length except 0; in ground axes if point is given, otherwise in the axes
+   *  of body_a. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] the axis on body_b; in ground axes if point is given, otherwise in the axes of body_b.
+   *  Default: NaN, equal to axis in the design configuration. */
+  double axis_b[3];
+  double stiffness;  /**< [N m/rad] >= 0. Default: 0. */
+  double damping;    /**< [N m s/rad] >= 0. Default: 0. */
+  double free_angle; /**< [rad] at which the torque is zero. Default: NaN, 0. */
+  /** A law for the torque [N m], which replaces the three numbers above. Default: NULL. */
+  baum_spring_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads rate. RATTLE requires false. Default: true. */
+  bool depends_on_velocity;
+} baum_spatial_torsion_spring_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_torsion_spring_def_init(baum_spatial_torsion_spring_def *def,
+                                                   size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_torsion_spring_def baum_spatial_torsion_spring_def_default(void)
+{
+  baum_spatial_torsion_spring_def def;
+  baum_spatial_torsion_spring_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_torsion_spring(
+  baum_mechanism *mechanism, const baum_spatial_torsion_spring_def *def, baum_force_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_torsion_spring(const baum_mechanism *mechanism,
+                                                               baum_force_id id,
+                                                               baum_spatial_torsion_spring_def *out,
+                                                               size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
+  baum_mechanism *mechanism, baum_force_id id, const baum_spatial_torsion_spring_def *def);
+
+/* ---- bushing --------------------------------------------------------------------------------- */
+
+/** An elastic connection of two bodies with stiffness and damping in all six directions. The force
+ *  is derived from the six numbers x = (d, theta), in the axes of the bushing on body_a:
+ *
+ *  - d is the vector from body_a's point to body_b's point [m];
+ *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
+ *    the rotation, and its length is the angle. It is 0 in the design configuration, or where the
+ *    axes on both bodies coincide. Its length must stay below pi, because the moment jumps there.
+ *
+ *  The potential is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
+typedef struct baum_spatial_bushing_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
+  /** Default: none, must be set; must differ from body_a and must not be a particle. */
+  baum_body_id body_b;
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] the z axis of the bushing, with any length except 0; in ground axes if point is given,
+   *  otherwise in the axes of body_a. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] the z axis on body_b; in ground axes if point is given, otherwise in the axes of body_b.
+   *  Default: NaN, equal to axis in the design configuration. */
+  double axis_b[3];
+  /** [-] the x axis, made perpendicular to axis; in ground axes if point is given, otherwise in the
+   *  axes of body_a. Default: NaN, the ground x axis, or y if axis is along x. */
+  double x_axis[3];
+  /** [N/m, N or N m/rad] 6 x 6, by rows, symmetric and positive semidefinite. Default: all 0. */
+  double stiffness[36];
+  /** [N s/m, N s or N m s/rad] 6 x 6, with the same properties. Default: all 0. */
+  double damping[36];
+} baum_spatial_bushing_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_bushing_def_init(baum_spatial_bushing_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_bushing_def baum_spatial_bushing_def_default(void)
+{
+  baum_spatial_bushing_def def;
+  baum_spatial_bushing_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_bushing(baum_mechanism *mechanism,
+                                                        const baum_spatial_bushing_def *def,
+                                                        baum_force_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_bushing(const baum_mechanism *mechanism,
+                                                        baum_force_id id,
+                                                        baum_spatial_bushing_def *out,
+                                                        size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_bushing(baum_mechanism *mechanism, baum_force_id id,
+                                                        const baum_spatial_bushing_def *def);
+
 /* ---- load ------------------------------------------------------------------------------------ */
 
 /** A force at a point of a body, and a moment on the body. If `input` is set, its value multiplies

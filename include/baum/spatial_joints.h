@@ -506,6 +506,103 @@ BAUM_API baum_status baum_mechanism_get_spatial_rolling_disc(const baum_mechanis
 BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
   baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_rolling_disc_def *def);
 
+/* ---- screw ----------------------------------------------------------------------------------- */
+
+/** Body_b screws along an axis of body_a: a cylindrical joint whose displacement is offset + pitch
+ *  angle / (2 pi). Five rows: two for the directions of the axes [-], three lengths [m]. The row of
+ *  the thread does not depend on how many revolutions were made. Coordinates: displacement and
+ *  angle, as for the cylindrical joint. */
+typedef struct baum_spatial_screw_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
+  /** Default: none, must be set; must differ from body_a and must not be a particle. */
+  baum_body_id body_b;
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] axis, with any length except 0; in ground axes if `point` is given, otherwise in the axes
+   *  of body_a. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] the axis on body_b; in ground axes if `point` is given, otherwise in the axes of body_b.
+   *  Default: NaN, equal to axis in the design configuration. */
+  double axis_b[3];
+  /** [m] not 0, displacement of body_b per revolution; positive for a right-handed thread.
+   *  Default: 0, must be set. */
+  double pitch;
+  /** [m] displacement at which the angle is 0. Default: NaN, the value in the design
+   *  configuration. */
+  double offset;
+} baum_spatial_screw_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_screw_def_init(baum_spatial_screw_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_screw_def baum_spatial_screw_def_default(void)
+{
+  baum_spatial_screw_def def;
+  baum_spatial_screw_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_screw(baum_mechanism *mechanism,
+                                                      const baum_spatial_screw_def *def,
+                                                      baum_joint_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_screw(const baum_mechanism *mechanism,
+                                                      baum_joint_id id, baum_spatial_screw_def *out,
+                                                      size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism, baum_joint_id id,
+                                                      const baum_spatial_screw_def *def);
+
+/* ---- constant-velocity joint ----------------------------------------------------------------- */
+
+/** Two shafts that meet at a point and rotate at equal rates about their axes at any angle between
+ *  the axes, such as a Rzeppa joint or a pair of universal joints. Four rows: three for the points
+ *  [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a at 0. The
+ *  angle between the axes must stay below 180 degrees; from about 150 degrees on, the joint is
+ *  ill-conditioned. */
+typedef struct baum_spatial_constant_velocity_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
+  /** Default: none, must be set; must differ from body_a and must not be a particle. */
+  baum_body_id body_b;
+  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  double point[3];
+  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [-] axis of the shaft body_a, with any length except 0; in ground axes if `point` is given,
+   *  otherwise in the axes of body_a. Default: (0, 0, 1). */
+  double axis[3];
+  /** [-] axis of the shaft body_b; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, equal to axis in the design configuration. */
+  double axis_b[3];
+} baum_spatial_constant_velocity_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_constant_velocity_def_init(baum_spatial_constant_velocity_def *def,
+                                                      size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_constant_velocity_def baum_spatial_constant_velocity_def_default(void)
+{
+  baum_spatial_constant_velocity_def def;
+  baum_spatial_constant_velocity_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_constant_velocity(
+  baum_mechanism *mechanism, const baum_spatial_constant_velocity_def *def, baum_joint_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_constant_velocity(
+  const baum_mechanism *mechanism, baum_joint_id id, baum_spatial_constant_velocity_def *out,
+  size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_constant_velocity(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_constant_velocity_def *def);
+
 #ifdef __cplusplus
 }
 #endif

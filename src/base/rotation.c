@@ -34,6 +34,28 @@ void baum_i_quaternion_log(const double p[4], double rotation[3])
   }
 }
 
+/* The matrix determines p p^T. The row of 4 p p^T with the largest diagonal entry is a multiple of
+ * p, and it is not small. */
+void baum_i_quaternion_of(const double axes[9], double p[4])
+{
+  const double trace = axes[0] + axes[4] + axes[8];
+  const double diagonal[4] = {1.0 + trace, 1.0 + 2.0 * axes[0] - trace, 1.0 + 2.0 * axes[4] - trace,
+                              1.0 + 2.0 * axes[8] - trace};
+  const double outer[4][4] = {
+    {diagonal[0], axes[7] - axes[5], axes[2] - axes[6], axes[3] - axes[1]},
+    {axes[7] - axes[5], diagonal[1], axes[1] + axes[3], axes[2] + axes[6]},
+    {axes[2] - axes[6], axes[1] + axes[3], diagonal[2], axes[5] + axes[7]},
+    {axes[3] - axes[1], axes[2] + axes[6], axes[5] + axes[7], diagonal[3]}};
+  int best = 0;
+  for (int i = 1; i < 4; i++) {
+    best = diagonal[i] > diagonal[best] ? i : best;
+  }
+  const double length = copysign(baum_i_quaternion_length(outer[best]), outer[best][0]);
+  for (int i = 0; i < 4; i++) {
+    p[i] = outer[best][i] / length;
+  }
+}
+
 /* Set x to c x + s y, and y to c y - s x. Each of the two vectors has three numbers, which are
  * `stride` apart in memory. */
 static void rotate_pair(double c, double s, int stride, double *x, double *y)

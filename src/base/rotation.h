@@ -96,6 +96,9 @@ void baum_i_quaternion_exp(const double rotation[3], double p[4]);
 /* Compute the rotation vector of a unit quaternion. The length of this vector is at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3]);
 
+/* Compute the unit quaternion of a rotation matrix, with w >= 0 (Shepperd 1978). */
+void baum_i_quaternion_of(const double axes[9], double p[4]);
+
 /* Find the principal moments of a symmetric matrix, in ascending order. The rows of `axes` are the
  * principal axes. `axes` is a rotation matrix except for the signs of its rows. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);

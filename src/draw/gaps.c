@@ -45,6 +45,8 @@ static const rule RULES[] = {
   {&baum_i_spatial_planar_definition, PLANE | PARALLEL},
   {&baum_i_spatial_fixed_definition, POINTS | PARALLEL | TURN},
   {&baum_i_spatial_distance_definition, LENGTH},
+  {&baum_i_spatial_screw_definition, LINE | PARALLEL},
+  {&baum_i_spatial_constant_velocity_definition, POINTS},
   {&baum_i_spatial_point_on_line_definition, LINE},
   {&baum_i_spatial_point_on_plane_definition, PLANE},
 };

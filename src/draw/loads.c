@@ -157,6 +157,25 @@ void baum_i_draw_joint_spring(const baum_i_symbol *s)
   }
 }
 
+/* Draws the spring as a spiral about its axis, at its point on body_b. */
+void baum_i_draw_spatial_torsion(const baum_i_symbol *s)
+{
+  double x[3], y[3];
+  baum_i_complete_axes(s->place->axis[1], x, y);
+  draw_spiral(s, x, y);
+  baum_i_draw_anchor(s, 0);
+}
+
+/* Draws two spirals in perpendicular planes, at the point on body_b. */
+void baum_i_draw_bushing(const baum_i_symbol *s)
+{
+  double x[3], y[3];
+  baum_i_complete_axes(s->place->axis[1], x, y);
+  draw_spiral(s, x, y);
+  draw_spiral(s, s->place->axis[1], x);
+  baum_i_draw_anchor(s, 0);
+}
+
 /* Draws the driver of an angle as an arc about its axis, and the driver of a displacement as an
  * arrow along its axis. */
 void baum_i_draw_driver(const baum_i_symbol *s)

@@ -115,6 +115,8 @@ static const kind KINDS[] = {
   {&baum_i_spatial_point_on_line_definition, baum_i_draw_point_on_line},
   {&baum_i_spatial_point_on_plane_definition, baum_i_draw_plane_point},
   {&baum_i_spatial_rolling_disc_definition, baum_i_draw_rolling_disc},
+  {&baum_i_spatial_screw_definition, baum_i_draw_cylinder},
+  {&baum_i_spatial_constant_velocity_definition, baum_i_draw_ball},
   {&baum_i_coupling_definition, baum_i_draw_coupling},
   {&baum_i_driver_definition, baum_i_draw_driver},
   {&baum_i_spline_driver_definition, baum_i_draw_driver},
@@ -124,6 +126,8 @@ static const kind KINDS[] = {
   {&baum_i_planar_load_definition, baum_i_draw_planar_load},
   {&baum_i_spatial_spring_definition, baum_i_draw_spring},
   {&baum_i_spatial_load_definition, baum_i_draw_spatial_load},
+  {&baum_i_spatial_torsion_spring_definition, baum_i_draw_spatial_torsion},
+  {&baum_i_spatial_bushing_definition, baum_i_draw_bushing},
   {&baum_i_joint_spring_definition, baum_i_draw_joint_spring},
   {&baum_i_user_force_definition, baum_i_draw_user},
 };

@@ -90,6 +90,8 @@ void baum_i_draw_guide_arrow(const baum_i_symbol *s);
 
 void baum_i_draw_spring(const baum_i_symbol *s);
 void baum_i_draw_torsion(const baum_i_symbol *s);
+void baum_i_draw_spatial_torsion(const baum_i_symbol *s);
+void baum_i_draw_bushing(const baum_i_symbol *s);
 void baum_i_draw_planar_load(const baum_i_symbol *s);
 void baum_i_draw_spatial_load(const baum_i_symbol *s);
 void baum_i_draw_coupling(const baum_i_symbol *s);

@@ -23,8 +23,8 @@
  * defaults. */
 typedef union whole_def {
   baum_i_def_head head;
-  double numbers[32];
-  unsigned char bytes[256];
+  double numbers[128];
+  unsigned char bytes[1024];
 } whole_def;
 
 /* Return the offset of the end of the last field in a caller's struct that has `size` bytes. The

@@ -22,7 +22,10 @@ void baum_i_fields_set(const baum_i_definition *definition, void *def)
   for (const baum_i_def_field *f = definition->fields; f->name; f++) {
     char *at = (char *)def + f->offset;
     if (f->kind == BAUM_I_FIELD_NUMBERS) {
-      memcpy(at, f->value, f->size);
+      for (size_t k = 0; k < f->size / sizeof(double); k++) {
+        double value = baum_i_field_default(f, k);
+        memcpy(at + k * sizeof value, &value, sizeof value);
+      }
     } else if (f->kind == BAUM_I_FIELD_CARRIER) {
       memcpy(at, &BAUM_GROUND, f->size);
     } else if (f->kind == BAUM_I_FIELD_CLAIM) {

@@ -59,7 +59,8 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_USER /* the pointer that user functions receive */
 } baum_i_field_kind;
 
-enum { BAUM_I_FIELD_SIZE_MAX = 6 }; /* largest count of numbers in a field */
+/* The largest count of numbers in a field, and how many defaults of numbers a table can give. */
+enum { BAUM_I_FIELD_SIZE_MAX = 36, BAUM_I_FIELD_DEFAULTS = 6 };
 
 /* One field of a definition. struct_size and name are not in the tables. */
 typedef struct baum_i_def_field {
@@ -69,7 +70,7 @@ typedef struct baum_i_def_field {
   size_t size;
   baum_i_field_kind kind;
   baum_i_rule rule;                    /* of numbers and arrays of numbers */
-  double value[BAUM_I_FIELD_SIZE_MAX]; /* default of numbers */
+  double value[BAUM_I_FIELD_DEFAULTS]; /* defaults of the first numbers; all others are 0 */
   /* of an array: the offset of the field that counts its entries */
   size_t counter;
   /* of an array: the offset of the count to use if `counter` is 0 */
@@ -139,6 +140,12 @@ typedef struct baum_i_definition {
 /* The first members of the baum_i_definition of the struct baum_NAME_def. */
 #define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
   .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
+
+/* Return the default of number k of a field. */
+static inline double baum_i_field_default(const baum_i_def_field *field, size_t k)
+{
+  return k < BAUM_I_FIELD_DEFAULTS ? field->value[k] : 0.0;
+}
 
 static inline const void *baum_i_field_at(const baum_i_def_field *field, const void *def)
 {

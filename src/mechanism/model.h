@@ -456,6 +456,8 @@ typedef struct baum_i_stretch {
 struct baum_i_force_type {
   baum_i_definition definition;
   bool spatial; /* whether elements of the type need spatial frames */
+  /* Set if stretch() returns an angle that positions determine only up to whole revolutions. */
+  bool counts_revolutions;
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
   /* Adds the forces of the group to force (nv). */

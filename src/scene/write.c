@@ -141,8 +141,9 @@ static bool equals_default(const baum_i_def_field *f, const double *x)
 {
   bool equal = true;
   for (size_t k = 0; k < f->size / sizeof *x; k++) {
-    equal = equal && ((isnan(x[k]) && isnan(f->value[k])) ||
-                      (x[k] == f->value[k] && signbit(x[k]) == signbit(f->value[k])));
+    const double value = baum_i_field_default(f, k);
+    equal = equal &&
+            ((isnan(x[k]) && isnan(value)) || (x[k] == value && signbit(x[k]) == signbit(value)));
   }
   return equal;
 }

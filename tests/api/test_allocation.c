@@ -24,7 +24,7 @@
 
 /* ---- what the tests run ---- */
 
-enum { CHANNELS = 14, WIDTH_MAX = 480, SAMPLES = 7 };
+enum { CHANNELS = 14, WIDTH_MAX = 560, SAMPLES = 7 };
 
 static bool is_of_a_body(baum_quantity quantity)
 {

@@ -153,8 +153,8 @@ static void axes_without_direction_are_refused(void **state)
       (void)refuses(&parts, kind, "axis_b", half, "axis_b|nan");
     }
   }
-  assert_int_equal(counts[0], 7);
-  assert_int_equal(counts[1], 6);
+  assert_int_equal(counts[0], 11);
+  assert_int_equal(counts[1], 10);
   assert_true(
     refuses(&parts, kind_of("spatial_universal"), "axis_b", absent, "axis_b is not given"));
   baum_mechanism_destroy(parts.mechanism);
@@ -185,10 +185,11 @@ static void check_bodies(const every_element *parts, const element_kind *kind)
     const char *name;
     /* Which bodies must have an orientation: 1 for body_a, 2 for body_b, 3 for both. */
     int oriented;
-  } needs[] = {{"spatial_revolute", 3},      {"spatial_universal", 3},
-               {"spatial_cylindrical", 3},   {"spatial_prismatic", 3},
-               {"spatial_planar", 3},        {"spatial_fixed", 3},
-               {"spatial_point_on_line", 1}, {"spatial_point_on_plane", 1}};
+  } needs[] = {
+    {"spatial_revolute", 3},          {"spatial_universal", 3},      {"spatial_cylindrical", 3},
+    {"spatial_prismatic", 3},         {"spatial_planar", 3},         {"spatial_fixed", 3},
+    {"spatial_point_on_line", 1},     {"spatial_point_on_plane", 1}, {"spatial_screw", 3},
+    {"spatial_constant_velocity", 3}, {"spatial_torsion_spring", 3}, {"spatial_bushing", 3}};
   int oriented = 0;
   for (size_t k = 0; k < sizeof needs / sizeof *needs; k++) {
     oriented = strcmp(needs[k].name, kind->name) == 0 ? needs[k].oriented : oriented;

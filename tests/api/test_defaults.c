@@ -138,6 +138,9 @@ static bool numbers_are(const char *text, const unsigned char *bytes, size_t siz
   size_t count = size / sizeof *value;
   memcpy(value, bytes, size);
   bool same = true;
+  if (begins(text, "all 0")) {
+    return is_zero(bytes, size);
+  }
   if (begins(text, "NaN")) {
     for (size_t i = 0; i < count; i++) {
       same = same && isnan(value[i]);

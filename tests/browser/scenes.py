@@ -305,6 +305,19 @@ def spatial_point_on_plane(m):
 
 
 @scene(SPACE)
+def spatial_screw(m):
+    a = arm(m, "a", (0, 0, 0), (1, 0, 0))
+    m.screw("joint", m.ground, a, 0.2, point=(0, 0, 0), axis=(0, 0, 1))
+
+
+@scene(SPACE)
+def spatial_constant_velocity(m):
+    a, b = arm(m, "a", (0, 0, 0), (1, 0, 0)), arm(m, "b", (1, 0, 0), (2, 0, 1))
+    m.spatial_revolute("bearing", m.ground, a, point=(0, 0, 0), axis=(1, 0, 0))
+    m.constant_velocity("joint", a, b, point=(1, 0, 0), axis=(1, 0, 0), axis_b=(1, 0, 1))
+
+
+@scene(SPACE)
 def spatial_rolling_disc(m):
     disc = m.spatial_body("disc", mass=1, inertia=(0.1, 0.1, 0.2), position=(0, 0.5, 0))
     m.rolling_disc("contact", disc, 0.5)
@@ -333,6 +346,19 @@ def spatial_spring(m):
     for k, law in enumerate(({"stiffness": 9}, {"damping": 1}, {"stiffness": 9, "damping": 1})):
         p = m.spatial_particle(None, mass=1, position=(k, 0, 0))
         m.spatial_spring(None, m.ground, p, point_a=(k, 0, 1.5), point_b=(0, 0, 0), **law)
+
+
+@scene(SPACE)
+def spatial_torsion_spring(m):
+    a = arm(m, "a", (0, 0, 0), (1, 1, 0))
+    m.spherical("joint", m.ground, a, point=(0, 0, 0))
+    m.spatial_torsion_spring("spiral", m.ground, a, point=(0, 0, 0), axis=(0, 0, 1), stiffness=1)
+
+
+@scene(SPACE)
+def spatial_bushing(m):
+    a = arm(m, "a", (0, 0, 0), (1, 1, 0))
+    m.bushing("rubber", m.ground, a, point=(0, 0, 0), stiffness=(9, 9, 9, 1, 1, 1))
 
 
 @scene(SPACE)

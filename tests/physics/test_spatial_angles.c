@@ -64,7 +64,23 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
 /* [N m/rad] Stiffness of a torsion spring. The rotor winds it up by up to 20 rad. */
 static const double STIFFNESS = 4.0;
 
-static baum_mechanism *make_wound(double damping, baum_joint_id *bearing)
+/* The spring is a spring of the joint, or one between the two bodies. */
+typedef enum winding { OF_JOINT, OF_BODIES, WINDINGS } winding;
+
+static void add_torsion_spring(baum_mechanism *m, double damping)
+{
+  const double axis[3] = {1.0, 2.0, 2.0};
+  baum_spatial_torsion_spring_def spring = baum_spatial_torsion_spring_def_default();
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = baum_mechanism_body_at(m, 0);
+  memset(spring.point, 0, sizeof spring.point);
+  memcpy(spring.axis, axis, sizeof axis);
+  spring.stiffness = STIFFNESS;
+  spring.damping = damping;
+  check(baum_mechanism_add_spatial_torsion_spring(m, &spring, NULL));
+}
+
+static baum_mechanism *make_wound(winding which, double damping, baum_joint_id *bearing)
 {
   baum_mechanism *free_rotor = make(false, bearing);
   baum_mechanism *m = NULL;
@@ -75,7 +91,11 @@ static baum_mechanism *make_wound(double damping, baum_joint_id *bearing)
   spring.coordinate = BAUM_COORDINATE_ANGLE;
   spring.stiffness = STIFFNESS;
   spring.damping = damping;
-  check(baum_mechanism_add_joint_spring(m, &spring, NULL));
+  if (which == OF_JOINT) {
+    check(baum_mechanism_add_joint_spring(m, &spring, NULL));
+  } else {
+    add_torsion_spring(m, damping);
+  }
   check(baum_mechanism_freeze(m));
   return m;
 }
@@ -165,11 +185,11 @@ static void springs_wind_up_over_revolutions(void **state)
     baum_ida(),
 #endif
   };
-  for (size_t k = 0; k < 2 * sizeof methods / sizeof *methods; k++) {
+  for (size_t k = 0; k < 4 * sizeof methods / sizeof *methods; k++) {
     baum_joint_id bearing;
     double damping = k % 2 == 0 ? 0.0 : 0.5;
-    baum_mechanism *m = make_wound(damping, &bearing);
-    baum_simulation *run = start(m, methods[k / 2]);
+    baum_mechanism *m = make_wound(k / 2 % 2 == 0 ? OF_JOINT : OF_BODIES, damping, &bearing);
+    baum_simulation *run = start(m, methods[k / 4]);
     double largest = 0.0;
     for (int i = 1; i <= 20; i++) {
       double want = wound_angle(0.25 * i, damping);
@@ -186,11 +206,10 @@ static void springs_wind_up_over_revolutions(void **state)
 /* The angle includes revolutions. The potential energy of the spring and the work of the damper
  * must use this angle, also in the energy account and in the companion, which is the second
  * integration that estimates the error. */
-static void energies_are_those_of_the_wound_spring(void **state)
+static void check_energies(winding which)
 {
-  (void)state;
   baum_joint_id bearing;
-  baum_mechanism *m = make_wound(0.5, &bearing);
+  baum_mechanism *m = make_wound(which, 0.5, &bearing);
   baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   baum_counters counters;
@@ -217,14 +236,46 @@ static void energies_are_those_of_the_wound_spring(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void energies_are_those_of_the_wound_spring(void **state)
+{
+  (void)state;
+  for (int k = 0; k < WINDINGS; k++) {
+    check_energies((winding)k);
+  }
+}
+
+/* A saved run contains the revolutions of a wound spring. */
+static void a_restored_spring_stays_wound(void **state)
+{
+  (void)state;
+  static unsigned char buffer[1 << 16];
+  for (int k = 0; k < WINDINGS; k++) {
+    baum_joint_id bearing;
+    baum_mechanism *m = make_wound((winding)k, 0.0, &bearing);
+    baum_simulation *runs[2] = {start(m, baum_rk4()), start(m, baum_rk4())};
+    size_t size = 0;
+    check(baum_simulation_advance_to(runs[0], 0.5));
+    assert_true(angle_of(runs[0], bearing) > 10.0);
+    check(baum_simulation_save(runs[0], buffer, sizeof buffer, &size));
+    check(baum_simulation_restore(runs[1], buffer, size));
+    for (int i = 0; i < 2; i++) {
+      check(baum_simulation_advance_to(runs[i], 1.0));
+      assert_true(fabs(angle_of(runs[i], bearing) - wound_angle(1.0, 0.0)) < 1e-2);
+    }
+    assert_true(angle_of(runs[0], bearing) == angle_of(runs[1], bearing));
+    baum_simulation_destroy(runs[0]);
+    baum_simulation_destroy(runs[1]);
+    baum_mechanism_destroy(m);
+  }
+}
+
 /* A state determines angles only up to whole revolutions. When a state is set, an angle gets the
  * number of revolutions that brings it closest to its last value. A state that is refused must
  * change nothing. */
-static void a_state_that_is_set_stays_wound(void **state)
+static void check_set_state(winding which)
 {
-  (void)state;
   baum_joint_id bearing;
-  baum_mechanism *m = make_wound(0.0, &bearing);
+  baum_mechanism *m = make_wound(which, 0.0, &bearing);
   baum_simulation *runs[2] = {start(m, baum_rk4()), start(m, baum_rk4())};
   double q[7];
   double v[6];
@@ -245,6 +296,14 @@ static void a_state_that_is_set_stays_wound(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void a_state_that_is_set_stays_wound(void **state)
+{
+  (void)state;
+  for (int k = 0; k < WINDINGS; k++) {
+    check_set_state((winding)k);
+  }
+}
+
 enum { SAMPLES = 40 };
 
 /* Returns the error of the angle in a study. The reference is given to the study, with `samples`
@@ -252,7 +311,7 @@ enum { SAMPLES = 40 };
 static double error_of_angle(int samples)
 {
   baum_joint_id bearing;
-  baum_mechanism *m = make_wound(0.0, &bearing);
+  baum_mechanism *m = make_wound(OF_JOINT, 0.0, &bearing);
   baum_simulation *run = start(m, baum_rk8());
   baum_study *study = NULL;
   baum_study_entry entry;
@@ -299,6 +358,7 @@ int main(void)
     cmocka_unit_test(a_driver_prescribes_many_revolutions),
     cmocka_unit_test(springs_wind_up_over_revolutions),
     cmocka_unit_test(energies_are_those_of_the_wound_spring),
+    cmocka_unit_test(a_restored_spring_stays_wound),
     cmocka_unit_test(a_state_that_is_set_stays_wound),
     cmocka_unit_test(revolutions_of_a_given_reference_are_counted),
   };

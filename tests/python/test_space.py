@@ -39,12 +39,29 @@ def add_every_joint(m, a, b, p):
     m.spatial_planar("planar", a, b, point=point, axis=(1, 0, 1), axis_b=(1, 0.1, 1))
     m.spatial_fixed("fixed", a, b, point=point)
     m.spatial_distance("distance", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0))
+    m.screw("screw", a, b, 0.3, point=point, axis=(1, 1, 0))
+    m.constant_velocity("cage", a, b, point=point, axis=(1, 0, 0), axis_b=(1, 1, 0))
     m.point_on_line("line", a, p, point_a=point, point_b=(0, 0, 0), axis=(1, 0, 2))
     m.point_on_plane("plane", a, p, point=(1, 2, 3), axis=(0, 1, 0))
     m.spatial_spring(
         "spring", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0), stiffness=3, damping=0.1
     )
     m.spatial_load("load", a, force=(1, 2, 3), moment=(0, 1, 0), point=(0.1, 0, 0))
+    m.spatial_torsion_spring(
+        "twist", a, b, point=point, axis=(1, 0, 1), stiffness=2, damping=0.1, free_angle=0.2
+    )
+    m.bushing(
+        "bushing",
+        a,
+        b,
+        point_a=point,
+        point_b=(0, 0.5, 0),
+        axis=(1, 0, 1),
+        axis_b=(1, 0.2, 1),
+        x_axis=(0, 1, 0),
+        stiffness=(1, 2, 3, 0.1, 0.2, 0.3),
+        damping=0.1 * np.eye(6),
+    )
 
 
 def everything():

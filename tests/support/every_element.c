@@ -501,13 +501,14 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
 }
 
 /* Indices of kinds that need additional bodies: the first joint of the train, the spline driver,
- * the first kind in space, the knife edge, and the rolling disc. */
+ * the first kind in space, the knife edge, the rolling disc, and the screw. */
 enum {
   EVERY_WITHOUT_TRAIN = 13,
   EVERY_WITHOUT_WHEEL = 18,
   EVERY_WITHOUT_SPACE = 19,
   EVERY_WITHOUT_SLED = 34,
-  EVERY_WITHOUT_COIN = 35
+  EVERY_WITHOUT_COIN = 35,
+  EVERY_WITHOUT_NUT = 38
 };
 
 /* Adds the bodies that a kind needs, unless they exist. */
@@ -519,6 +520,7 @@ static baum_status add_needed_bodies(every_element *parts, int kind)
   case EVERY_WITHOUT_SPACE: return every_element_add_spatial_bodies(parts);
   case EVERY_WITHOUT_SLED: return add_block(parts, "sled", 0.9, 0.5, &parts->sled);
   case EVERY_WITHOUT_COIN: return every_element_add_coin(parts);
+  case EVERY_WITHOUT_NUT: return every_element_add_nut(parts);
   default: return BAUM_OK;
   }
 }

@@ -23,11 +23,12 @@
  *   a tube in a sleeve, with a cap clamped to it
  *   a ball on a wire of the yoke and on a strut of the cap
  *   a coil (spring), a push (load) and a winding (joint spring of the sleeve)
+ *   a twirl (torsion spring of the top) and a rubber (bushing of the cap)
  *
- * The last elements are a sled in the plane on a blade (knife edge), and a coin that rolls (rolling
- * disc).
+ * The last elements are a sled in the plane on a blade (knife edge), a coin that rolls (rolling
+ * disc), a nut on a thread (screw), and a spindle behind a constant-velocity joint of the nut.
  *
- * The mechanism has 81 positions, 74 velocities, 60 rows and 14 degrees of freedom of velocity. The
+ * The mechanism has 95 positions, 86 velocities, 69 rows and 17 degrees of freedom of velocity. The
  * planar part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4
  * degrees of freedom. The design configuration satisfies all rows except the row of `cam`.
  */
@@ -75,6 +76,8 @@ typedef struct every_element {
   baum_body_id cap;
   baum_body_id sled;
   baum_body_id coin;
+  baum_body_id nut;
+  baum_body_id spindle;
   baum_joint_id pin;
   baum_joint_id rod;
   baum_joint_id guide;
@@ -102,6 +105,8 @@ typedef struct every_element {
   baum_joint_id strut;
   baum_joint_id blade;
   baum_joint_id rolling;
+  baum_joint_id thread;
+  baum_joint_id ball_cage;
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
@@ -109,6 +114,8 @@ typedef struct every_element {
   baum_force_id coil;
   baum_force_id push;
   baum_force_id winding;
+  baum_force_id twirl;
+  baum_force_id rubber;
   /* The input of the loads `load` and `push`; its initial value is 1. */
   baum_input_id throttle;
   every_fault *fault;            /* the `user` of all functions; may be NULL */
@@ -116,7 +123,7 @@ typedef struct every_element {
   baum_body_id drag_bodies[1];
 } every_element;
 
-enum { EVERY_NQ = 81, EVERY_NV = 74, EVERY_NC = 60, EVERY_DEF_SIZE = 256 };
+enum { EVERY_NQ = 95, EVERY_NV = 86, EVERY_NC = 69, EVERY_DEF_SIZE = 1024 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -164,7 +171,7 @@ typedef struct element_kind {
 } element_kind;
 
 /* All fields of a definition, in their order. */
-enum { ELEMENT_FIELDS_MAX = 32, FIELD_NUMBERS_MAX = 6 };
+enum { ELEMENT_FIELDS_MAX = 32, FIELD_NUMBERS_MAX = BAUM_I_FIELD_SIZE_MAX };
 typedef struct element_fields {
   element_field list[ELEMENT_FIELDS_MAX];
   int count;
@@ -172,7 +179,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 36 };
+enum { ELEMENT_KINDS = 40 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };

@@ -40,6 +40,10 @@ void good_spatial_point_on_line(const every_element *parts, any_def *to);
 void good_spatial_point_on_plane(const every_element *parts, any_def *to);
 void good_spatial_spring(const every_element *parts, any_def *to);
 void good_spatial_load(const every_element *parts, any_def *to);
+void good_spatial_screw(const every_element *parts, any_def *to);
+void good_spatial_constant_velocity(const every_element *parts, any_def *to);
+void good_spatial_torsion_spring(const every_element *parts, any_def *to);
+void good_spatial_bushing(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
 void good_planar_knife_edge(const every_element *parts, any_def *to);
 void good_spatial_rolling_disc(const every_element *parts, any_def *to);
@@ -48,6 +52,7 @@ void good_spatial_rolling_disc(const every_element *parts, any_def *to);
  * is in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 baum_status every_element_add_coin(every_element *parts);
+baum_status every_element_add_nut(every_element *parts);
 
 /* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */
 #define GOOD(NAME)                                                 \

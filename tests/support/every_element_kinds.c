@@ -119,6 +119,10 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(force, joint_spring, "joint spring", winding),
   KIND(joint, planar_knife_edge, "planar knife edge", blade),
   KIND(joint, spatial_rolling_disc, "spatial rolling disc", rolling),
+  KIND(force, spatial_torsion_spring, "spatial torsion spring", twirl),
+  KIND(force, spatial_bushing, "spatial bushing", rubber),
+  KIND(joint, spatial_screw, "spatial screw", thread),
+  KIND(joint, spatial_constant_velocity, "spatial constant-velocity joint", ball_cage),
 };
 
 /* ---- fields of a definition, read from the library's table ---- */

@@ -187,6 +187,32 @@ GOOD(spatial_load)
   return def;
 }
 
+GOOD(spatial_torsion_spring)
+{
+  baum_spatial_torsion_spring_def def = baum_spatial_torsion_spring_def_default();
+  BETWEEN(def, "twirl", BAUM_GROUND, parts->top);
+  set3(def.point, 0.2, 0.3, 0.2);
+  set3(def.axis, 0.2, 0.1, 1.0);
+  def.stiffness = 0.02;
+  def.damping = 0.001;
+  def.free_angle = 0.3;
+  return def;
+}
+
+GOOD(spatial_bushing)
+{
+  baum_spatial_bushing_def def = baum_spatial_bushing_def_default();
+  BETWEEN(def, "rubber", BAUM_GROUND, parts->cap);
+  set3(def.point, -0.18, 0.31, 0.05);
+  set3(def.axis, 0.2, 0.1, 1.0);
+  for (int i = 0; i < 6; i++) {
+    def.stiffness[7 * i] = i < 3 ? 3.0 : 0.02;
+    def.damping[7 * i] = i < 3 ? 0.02 : 1e-3;
+  }
+  def.stiffness[4] = def.stiffness[24] = 0.05;
+  return def;
+}
+
 GOOD(joint_spring)
 {
   baum_joint_spring_def def = baum_joint_spring_def_default();
@@ -208,6 +234,36 @@ baum_status every_element_add_coin(every_element *parts)
   set3(def.position, 1.2, -0.4, 0.3);
   set3(def.angular_velocity, 0.5, 2.0, 3.0);
   return baum_mechanism_add_spatial_body(parts->mechanism, &def, &parts->coin);
+}
+
+baum_status every_element_add_nut(every_element *parts)
+{
+  const baum_spatial_body_def nut = body_at("nut", -0.6, -0.5, 0.2);
+  const baum_spatial_body_def spindle = body_at("spindle", -0.6, -0.35, 0.4);
+  baum_status status = baum_mechanism_add_spatial_body(parts->mechanism, &nut, &parts->nut);
+  return status == BAUM_OK
+           ? baum_mechanism_add_spatial_body(parts->mechanism, &spindle, &parts->spindle)
+           : status;
+}
+
+GOOD(spatial_screw)
+{
+  baum_spatial_screw_def def = baum_spatial_screw_def_default();
+  BETWEEN(def, "thread", BAUM_GROUND, parts->nut);
+  set3(def.point, -0.6, -0.52, 0.15);
+  set3(def.axis, 0.1, 0.2, 1.0);
+  def.pitch = 0.3;
+  return def;
+}
+
+GOOD(spatial_constant_velocity)
+{
+  baum_spatial_constant_velocity_def def = baum_spatial_constant_velocity_def_default();
+  BETWEEN(def, "ball cage", parts->nut, parts->spindle);
+  set3(def.point, -0.6, -0.4, 0.3);
+  set3(def.axis, 0.1, 0.2, 1.0);
+  set3(def.axis_b, 0.0, 0.6, 1.0);
+  return def;
 }
 
 GOOD(spatial_rolling_disc)

@@ -21,7 +21,7 @@
 #include "integrate/cvode_newton.h"
 #include "mechanism/manifold.h"
 
-enum { SIZE = 160, STATES = 5, MECHANISMS = 40 };
+enum { SIZE = 200, STATES = 5, MECHANISMS = 40 };
 
 /* A problem that the tests use only for its linear systems. */
 typedef struct solver {

@@ -18,7 +18,7 @@
 #include "mechanism/manifold.h"
 #include "models.h"
 
-enum { SIZE_MAX_DAE = 300, STATES = 5 };
+enum { SIZE_MAX_DAE = 360, STATES = 5 };
 
 static const baum_residual FORMS[] = {BAUM_RESIDUAL_INDEX1, BAUM_RESIDUAL_INDEX2,
                                       BAUM_RESIDUAL_INDEX3, BAUM_RESIDUAL_GGL};

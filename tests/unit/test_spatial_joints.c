@@ -16,6 +16,7 @@
 #include <baum/baum.h>
 
 #include "mechanism/general/coordinate.h"
+#include "mechanism/spatial/spatial_rows.h"
 
 enum { BODIES = 6, STATES = 4 };
 
@@ -114,6 +115,21 @@ static scene make(bool spheres)
     check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
   }
 
+/* The pitch of the screw is so large that Phi does not jump within a difference. */
+static void add_screw(scene *s, int a, int b)
+{
+  static const double axis[3] = {0.3, -1.0, 0.7};
+  static const double axis_b[3] = {-0.2, 0.5, 0.9};
+  baum_spatial_screw_def def = baum_spatial_screw_def_default();
+  BETWEEN(s, def, a, b);
+  memcpy(def.axis, axis, sizeof axis);
+  memcpy(def.axis_b, axis_b, sizeof axis_b);
+  def.pitch = 40.0;
+  def.offset = 0.2;
+  check(baum_mechanism_add_spatial_screw(s->mechanism, &def, NULL));
+}
+
+ADD_AXES(constant_velocity)
 ADD_POINTS(spherical)
 ADD_AXES(revolute)
 ADD_AXES(universal)
@@ -168,6 +184,38 @@ static void add_spring(scene *s, int a, int b)
   check(baum_mechanism_add_spatial_spring(s->mechanism, &def, NULL));
 }
 
+static void add_torsion_spring(scene *s, int a, int b)
+{
+  static const double axis[3] = {0.3, -1.0, 0.7};
+  static const double axis_b[3] = {-0.2, 0.5, 0.9};
+  baum_spatial_torsion_spring_def def = baum_spatial_torsion_spring_def_default();
+  BETWEEN(s, def, a, b);
+  memcpy(def.axis, axis, sizeof axis);
+  memcpy(def.axis_b, axis_b, sizeof axis_b);
+  def.stiffness = 3.0;
+  def.damping = 0.7;
+  def.free_angle = 0.4;
+  check(baum_mechanism_add_spatial_torsion_spring(s->mechanism, &def, NULL));
+}
+
+/* Both matrices are full. */
+static void add_bushing(scene *s, int a, int b)
+{
+  static const double axis[3] = {0.3, -1.0, 0.7};
+  static const double axis_b[3] = {-0.2, 0.5, 0.9};
+  baum_spatial_bushing_def def = baum_spatial_bushing_def_default();
+  BETWEEN(s, def, a, b);
+  memcpy(def.axis, axis, sizeof axis);
+  memcpy(def.axis_b, axis_b, sizeof axis_b);
+  for (int i = 0; i < 36; i++) {
+    int row = i / 6;
+    int column = i % 6;
+    def.stiffness[i] = (row == column ? 3.0 : 0.0) + 0.1 * (row + column) - 0.05 * row * column;
+    def.damping[i] = (row == column ? 0.8 : 0.0) + 0.04 * (row + 1) * (column + 1);
+  }
+  check(baum_mechanism_add_spatial_bushing(s->mechanism, &def, NULL));
+}
+
 static void add_load_in(scene *s, int body, bool follows_body)
 {
   static const double vectors[3][3] = {{0.2, 0.1, -0.3}, {1.0, -2.0, 0.5}, {0.3, 0.8, -0.6}};
@@ -196,24 +244,29 @@ typedef struct element {
   void (*add)(scene *s, int a, int b);
   bool particle_a, particle_b; /* whether body a or body b may be a particle */
   bool force;
+  bool has_angle; /* whether a row depends on the angle of the joint */
 } element;
 
 static const element elements[] = {
-  {"spherical", add_spherical, true, true, false},
-  {"revolute", add_revolute, false, false, false},
-  {"universal", add_universal, false, false, false},
-  {"cylindrical", add_cylindrical, false, false, false},
-  {"prismatic", add_prismatic, false, false, false},
-  {"planar", add_planar, false, false, false},
-  {"fixed", add_fixed, false, false, false},
-  {"distance", add_distance, true, true, false},
-  {"point on line", add_point_on_line, false, true, false},
-  {"point on plane", add_point_on_plane, false, true, false},
-  {"rolling disc", add_disc, false, false, false},
-  {"rolling wheel", add_wheel, false, false, false},
-  {"rolling sphere", add_sphere, false, false, false},
-  {"spring", add_spring, true, true, true},
-  {"load", add_load, true, true, true},
+  {"spherical", add_spherical, true, true, false, false},
+  {"revolute", add_revolute, false, false, false, false},
+  {"universal", add_universal, false, false, false, false},
+  {"cylindrical", add_cylindrical, false, false, false, false},
+  {"prismatic", add_prismatic, false, false, false, false},
+  {"planar", add_planar, false, false, false, false},
+  {"fixed", add_fixed, false, false, false, false},
+  {"distance", add_distance, true, true, false, false},
+  {"point on line", add_point_on_line, false, true, false, false},
+  {"point on plane", add_point_on_plane, false, true, false, false},
+  {"screw", add_screw, false, false, false, true},
+  {"constant velocity", add_constant_velocity, false, false, false, false},
+  {"rolling disc", add_disc, false, false, false, false},
+  {"rolling wheel", add_wheel, false, false, false, false},
+  {"rolling sphere", add_sphere, false, false, false, false},
+  {"spring", add_spring, true, true, true, false},
+  {"torsion spring", add_torsion_spring, false, false, true, false},
+  {"bushing", add_bushing, false, false, true, false},
+  {"load", add_load, true, true, true, false},
 };
 
 /* ---- checks ---- */
@@ -281,6 +334,33 @@ static void find_smooth(test_point *p, int joints, uint64_t *seed)
   assert_true(smooth);
 }
 
+/* Tells whether the axes of the first force, if it has axes, are far from two relative
+ * orientations. In these, the angle of a torsion spring is undefined, or the rotation vector of a
+ * bushing jumps. */
+static bool is_moderate(const test_point *p)
+{
+  const baum_i_force *force = p->mechanism->force_count > 0 ? p->mechanism->forces[0] : NULL;
+  if (!force || force->element.definition->parameter_count < BAUM_I_SPATIAL_NUMBERS) {
+    return true;
+  }
+  const baum_i_spatial_pair pair = baum_i_spatial_pair_at(
+    &force->span, p->point.parameters + force->element.parameter, true, &p->point);
+  double cosines[3];
+  for (int i = 0; i < 3; i++) {
+    cosines[i] = baum_i_dot3(pair.axes[0] + (ptrdiff_t)3 * i, pair.axes[1] + (ptrdiff_t)3 * i);
+  }
+  return cosines[2] > -0.3 && cosines[0] + cosines[1] + cosines[2] > -0.6;
+}
+
+static void find_moderate(test_point *p, uint64_t *seed)
+{
+  int tries = 0;
+  do {
+    test_point_random(p, seed);
+  } while (!is_moderate(p) && tries++ < 200);
+  assert_true(is_moderate(p));
+}
+
 /* Adds a spring on every coordinate of the first joint. */
 static void add_joint_springs(const scene *s)
 {
@@ -317,6 +397,14 @@ static void check_springs(const element *e, int a, int b)
   test_point_close(&p);
 }
 
+/* Checks the potential of the forces, if they have one; loads with moments have none. */
+static void check_elastic_forces(test_point *p)
+{
+  if (p->mechanism->force_count == 1) {
+    check_potential_gradient(p);
+  }
+}
+
 static void check_pair(const element *e, int a, int b)
 {
   scene s = make(e->force);
@@ -328,10 +416,12 @@ static void check_pair(const element *e, int a, int b)
   test_point_open(&p, s.mechanism);
   uint64_t seed = 11;
   for (int i = 0; i < STATES; i++) {
-    test_point_random(&p, &seed);
     if (e->force) {
+      find_moderate(&p, &seed);
       check_force_derivatives(&p);
+      check_elastic_forces(&p);
     } else {
+      find_smooth(&p, e->has_angle ? 2 : 0, &seed);
       check_joint_derivatives(&p);
     }
   }

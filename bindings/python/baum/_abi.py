@@ -955,6 +955,43 @@ class baum_spatial_spring_def(Structure):
     ]
 
 
+class baum_spatial_torsion_spring_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_angle", c_double),
+        ("law", baum_spring_fn),
+        ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
+    ]
+
+
+class baum_spatial_bushing_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("x_axis", c_double * 3),
+        ("stiffness", c_double * 36),
+        ("damping", c_double * 36),
+    ]
+
+
 class baum_spatial_load_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1114,6 +1151,36 @@ class baum_spatial_rolling_disc_def(Structure):
         ("axis_b", c_double * 3),
         ("radius", c_double),
         ("rim_radius", c_double),
+    ]
+
+
+class baum_spatial_screw_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("pitch", c_double),
+        ("offset", c_double),
+    ]
+
+
+class baum_spatial_constant_velocity_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
     ]
 
 
@@ -1677,6 +1744,28 @@ PROTOTYPES = {
     "baum_mechanism_set_spatial_spring": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_spatial_spring_def),
     ]),
+    "baum_spatial_torsion_spring_def_init": (None, [
+        POINTER(baum_spatial_torsion_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_torsion_spring": (c_int, [
+        c_void_p, POINTER(baum_spatial_torsion_spring_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_spatial_torsion_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_torsion_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_torsion_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_torsion_spring_def),
+    ]),
+    "baum_spatial_bushing_def_init": (None, [POINTER(baum_spatial_bushing_def), c_size_t]),
+    "baum_mechanism_add_spatial_bushing": (c_int, [
+        c_void_p, POINTER(baum_spatial_bushing_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_spatial_bushing": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_bushing_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_bushing": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_bushing_def),
+    ]),
     "baum_spatial_load_def_init": (None, [POINTER(baum_spatial_load_def), c_size_t]),
     "baum_mechanism_add_spatial_load": (c_int, [
         c_void_p, POINTER(baum_spatial_load_def), POINTER(baum_force_id),
@@ -1803,6 +1892,28 @@ PROTOTYPES = {
     "baum_mechanism_set_spatial_rolling_disc": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def),
     ]),
+    "baum_spatial_screw_def_init": (None, [POINTER(baum_spatial_screw_def), c_size_t]),
+    "baum_mechanism_add_spatial_screw": (c_int, [
+        c_void_p, POINTER(baum_spatial_screw_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_screw": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_screw_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_screw": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_screw_def),
+    ]),
+    "baum_spatial_constant_velocity_def_init": (None, [
+        POINTER(baum_spatial_constant_velocity_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_constant_velocity": (c_int, [
+        c_void_p, POINTER(baum_spatial_constant_velocity_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_constant_velocity": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_constant_velocity_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_constant_velocity": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_constant_velocity_def),
+    ]),
     "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
     "baum_mechanism_add_spline_driver": (c_int, [
         c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
@@ -1872,6 +1983,8 @@ DEFAULTS = {
     baum_spatial_body_def: "baum_spatial_body_def_init",
     baum_spatial_particle_def: "baum_spatial_particle_def_init",
     baum_spatial_spring_def: "baum_spatial_spring_def_init",
+    baum_spatial_torsion_spring_def: "baum_spatial_torsion_spring_def_init",
+    baum_spatial_bushing_def: "baum_spatial_bushing_def_init",
     baum_spatial_load_def: "baum_spatial_load_def_init",
     baum_spatial_spherical_def: "baum_spatial_spherical_def_init",
     baum_spatial_revolute_def: "baum_spatial_revolute_def_init",
@@ -1884,6 +1997,8 @@ DEFAULTS = {
     baum_spatial_point_on_line_def: "baum_spatial_point_on_line_def_init",
     baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
     baum_spatial_rolling_disc_def: "baum_spatial_rolling_disc_def_init",
+    baum_spatial_screw_def: "baum_spatial_screw_def_init",
+    baum_spatial_constant_velocity_def: "baum_spatial_constant_velocity_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
     baum_sweep_def: "baum_sweep_def_init",
 }
@@ -1938,6 +2053,8 @@ STRUCTS = [
     baum_spatial_body_def,
     baum_spatial_particle_def,
     baum_spatial_spring_def,
+    baum_spatial_torsion_spring_def,
+    baum_spatial_bushing_def,
     baum_spatial_load_def,
     baum_spatial_spherical_def,
     baum_spatial_revolute_def,
@@ -1950,6 +2067,8 @@ STRUCTS = [
     baum_spatial_point_on_line_def,
     baum_spatial_point_on_plane_def,
     baum_spatial_rolling_disc_def,
+    baum_spatial_screw_def,
+    baum_spatial_constant_velocity_def,
     baum_spline_driver_def,
     baum_sweep_def,
     baum_catalog_entry,

@@ -41,6 +41,14 @@ def tensor(value: Any, label: str) -> Array:
     return np.concatenate([given, np.zeros(6 - given.size)])
 
 
+def six_by_six(value: Any, label: str) -> Array:
+    """Return the 36 numbers of a matrix, by rows. value: the six numbers of its diagonal, or a
+    6 x 6 matrix."""
+    if _is_matrix(value) or np.size(value) == 36:
+        return vector(np.ravel(np.asarray(value)), 36, label)
+    return np.ravel(np.diag(vector(value, 6, label)))
+
+
 def quaternion(value: Any, label: str) -> Array:
     """Return the quaternion w, x, y, z of an orientation. value: this quaternion, a 3 x 3 rotation
     matrix or a Rotation of SciPy."""

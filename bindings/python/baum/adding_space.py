@@ -342,6 +342,50 @@ class AddingInSpace:
         """
         return self._add(Joint, "spatial_rolling_disc", locals())
 
+    def screw(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        pitch: Scalar,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+        offset: Scalar | None = None,
+    ) -> Joint:
+        """Let body_b screw along an axis of body_a. Five rows: two for the directions of the axes
+        [-] and three lengths [m].
+
+        pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
+        offset: displacement at which the angle is 0 [m]; by default the value in the design
+            configuration. All other arguments are as in cylindrical(), and so are the coordinates
+            "displacement" and "angle".
+        """
+        return self._add(Joint, "spatial_screw", locals())
+
+    def constant_velocity(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+    ) -> Joint:
+        """Connect two shafts that meet at a point and rotate at equal rates about their axes, at
+        any angle between the axes below 180 degrees. Four rows: three for the points [m] and one
+        for the rotation [-].
+
+        axis, axis_b: axes of the shafts. All other arguments are as for other joints.
+        """
+        return self._add(Joint, "spatial_constant_velocity", locals())
+
     # ---- forces ----------------------------------------------------------------------------------
 
     def spatial_spring(
@@ -366,6 +410,60 @@ class AddingInSpace:
         is zero when the points coincide.
         """
         return self._add(Force, "spatial_spring", locals())
+
+    def spatial_torsion_spring(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_angle: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+    ) -> Force:
+        """Add a torsion spring and a damper between two bodies in space, about an axis. They are
+        linear, or a law gives their torque.
+
+        Places and axes are given as for joints. The angle is the twist of body_b about the axis: it
+        remains when the inclination of body_b is undone by the smallest rotation. It is 0 in the
+        design configuration, and runs count its revolutions. All other arguments are as in
+        torsion_spring(). For the angle of a joint, use joint_spring().
+        """
+        return self._add(Force, "spatial_torsion_spring", locals())
+
+    def bushing(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        axis_b: ArrayLike | None = None,
+        x_axis: ArrayLike | None = None,
+        stiffness: ArrayLike = (0.0,) * 36,
+        damping: ArrayLike = (0.0,) * 36,
+    ) -> Force:
+        """Add an elastic connection of two bodies in space, with stiffness and damping in all six
+        directions.
+
+        Places and axes are given as for joints; axis is the z axis of the bushing.
+        stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
+            first three rows belong to the vector between the points [m], in the axes of the bushing
+            on body_a, and the last three to the rotation vector of body_b relative to body_a
+            [rad], whose length must stay below pi.
+        """
+        return self._add(Force, "spatial_bushing", locals())
 
     def spatial_load(
         self,

@@ -110,6 +110,13 @@ KINDS = {
         Kind("spatial_point_on_line", "joint", units=("m", "m"), coordinates=_DISPLACEMENT),
         Kind("spatial_point_on_plane", "joint", units=("m",)),
         Kind("spatial_rolling_disc", "joint", units=("m",) * 3),
+        Kind(
+            "spatial_screw",
+            "joint",
+            units=("-", "-", "m", "m", "m"),
+            coordinates=("displacement", "angle"),
+        ),
+        Kind("spatial_constant_velocity", "joint", units=("m", "m", "m", "-")),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
         Kind("spline_driver", "joint"),
@@ -119,6 +126,8 @@ KINDS = {
         Kind("planar_load", "force"),
         Kind("spatial_spring", "force"),
         Kind("spatial_load", "force"),
+        Kind("spatial_torsion_spring", "force"),
+        Kind("spatial_bushing", "force"),
         Kind("joint_spring", "force"),
         Kind("user_force", "force"),
     )
@@ -140,6 +149,8 @@ HIDDEN = ("struct_size", "body_count", "count")
 FORMS = {
     ("spatial_body", "inertia"): _rotation.tensor,
     ("spatial_body", "orientation"): _rotation.quaternion,
+    ("spatial_bushing", "stiffness"): _rotation.six_by_six,
+    ("spatial_bushing", "damping"): _rotation.six_by_six,
 }
 FAMILIES: dict[Any, str] = {
     _abi.baum_body_id: "body",

@@ -77,6 +77,8 @@ def taken(values: Values) -> Values:
         if math.isnan(values.get(name, 0.0)):
             apart = b.place + b.axes @ values["point_b"] - a.place - a.axes @ values["point_a"]
             fields[name] = float(np.linalg.norm(apart))
+    if math.isnan(values.get("offset", 0.0)):  # of a screw
+        fields["offset"] = coordinate(values, "displacement")
     return fields
 
 
@@ -104,16 +106,28 @@ def coordinate(values: Values, name: str) -> float:
     return float(apart @ along / np.linalg.norm(along))
 
 
+# Elements that always take the relative orientation of their bodies from the design configuration.
+DESIGNED = (
+    "spatial_fixed",
+    "spatial_prismatic",
+    "spatial_screw",
+    "spatial_constant_velocity",
+    "spatial_torsion_spring",
+    "spatial_bushing",
+)
+
+
 def check_turned(
     element: Element, used_angles: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
 ) -> None:
-    """Refuse changes that rotate the bodies of a joint relative to each other, if the joint takes
-    its relative orientation from the design configuration and has no field for it. Such joints are
-    welds, prismatic joints, and joints whose angle a driver, a coupling or a spring uses."""
+    """Refuse changes that rotate the bodies of a joint or force relative to each other, if this
+    element takes its relative orientation from the design configuration and has no field for it.
+    Such elements are those of DESIGNED, and joints whose angle a driver, a coupling or a spring
+    uses."""
     kind = element.kind.name if element.kind else ""
     is_spatial = element.kind is not None and element.kind.is_spatial
     has_used_angle = is_spatial and element in used_angles
-    if kind not in ("spatial_fixed", "spatial_prismatic") and not has_used_angle:
+    if kind not in DESIGNED and not has_used_angle:
         return
     values = element.definition
     ends = [values["body_a"], values["body_b"]]
@@ -121,7 +135,7 @@ def check_turned(
     after = [Frame.of(body, changes.get(body.name)).axes for body in ends]
     if not np.allclose(before[0].T @ before[1], after[0].T @ after[1], rtol=0.0, atol=1e-9):
         raise ValueError(
-            f'joint "{element.name}" keeps the relative orientation of the design configuration, '
-            "which these changes alter; change both of its bodies, or give the joint its points "
-            "again"
+            f'{element.family} "{element.name}" keeps the relative orientation of the design '
+            "configuration, which these changes alter; change both of its bodies, or give the "
+            f"{element.family} its points again"
         )

@@ -135,37 +135,61 @@ static double *time_of(const baum_i_point *point)
   return point->angles + baum_i_angles_size(point->mechanism) - 1;
 }
 
-double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_point *point)
+static double *force_angle_of(const baum_i_force *force, const baum_i_point *point)
 {
-  if (!point->angles) {
-    return 0.0;
-  }
-  const double *angle = angle_of(c, point);
+  int k = BAUM_I_COORDINATES * point->mechanism->joint_count + force->element.index - 1;
+  return point->angles + 2 * (ptrdiff_t)k;
+}
+
+static double expected(const double *angle, const baum_i_point *point)
+{
   return angle[0] + angle[1] * (point->t - *time_of(point));
 }
 
-static double follow(const baum_i_joint_coordinate *c, const baum_i_point *point)
+double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_point *point)
 {
-  baum_i_coordinate now;
-  baum_i_coordinate_at(c, point, &now);
-  double *angle = angle_of(c, point);
-  double expected = angle[0] + 0.5 * (angle[1] + now.rate) * (point->t - *time_of(point));
-  double off = remainder(now.value - expected, BAUM_I_REVOLUTION);
-  angle[0] = expected + off;
-  angle[1] = now.rate;
+  return point->angles ? expected(angle_of(c, point), point) : 0.0;
+}
+
+double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point *point)
+{
+  return point->angles ? expected(force_angle_of(force, point), point) : 0.0;
+}
+
+static double follow(double *angle, double value, double rate, const baum_i_point *point)
+{
+  double near = angle[0] + 0.5 * (angle[1] + rate) * (point->t - *time_of(point));
+  double off = remainder(value - near, BAUM_I_REVOLUTION);
+  angle[0] = near + off;
+  angle[1] = rate;
   return fabs(off);
+}
+
+static double follow_joint(const baum_i_joint *joint, const baum_i_point *point)
+{
+  double farthest = 0.0;
+  for (int k = 0; joint->type->coordinates[k] != BAUM_COORDINATE_FIRST; k++) {
+    const baum_i_joint_coordinate c = {joint, k};
+    if (baum_i_is_spatial_angle(&c)) {
+      baum_i_coordinate now;
+      baum_i_coordinate_at(&c, point, &now);
+      farthest = fmax(farthest, follow(angle_of(&c, point), now.value, now.rate, point));
+    }
+  }
+  return farthest;
 }
 
 double baum_i_follow_angles(baum_i_point *point)
 {
   double farthest = 0.0;
   for (int i = 0; point->angles && i < point->mechanism->joint_count; i++) {
-    const baum_i_joint *joint = point->mechanism->joints[i];
-    for (int k = 0; joint->type->coordinates[k] != BAUM_COORDINATE_FIRST; k++) {
-      const baum_i_joint_coordinate c = {joint, k};
-      if (baum_i_is_spatial_angle(&c)) {
-        farthest = fmax(farthest, follow(&c, point));
-      }
+    farthest = fmax(farthest, follow_joint(point->mechanism->joints[i], point));
+  }
+  for (int i = 0; point->angles && i < point->mechanism->force_count; i++) {
+    const baum_i_force *force = point->mechanism->forces[i];
+    if (force->type->counts_revolutions) {
+      const baum_i_stretch now = force->type->stretch(force, point);
+      farthest = fmax(farthest, follow(force_angle_of(force, point), now.length, now.rate, point));
     }
   }
   if (point->angles) {

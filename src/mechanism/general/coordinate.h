@@ -6,8 +6,9 @@
  * the possible values of the angle, the one nearest to an expected angle is used. The expected
  * angle is a linear function of time. At the time angles[2 n] it is angles[2 k], and its rate is
  * angles[2 k + 1]. Here k is the index of the coordinate among the n = BAUM_I_COORDINATES *
- * joint_count coordinates of all joints. A run updates `angles` after steps. If `angles` is
- * NULL or all zeros, the angle is between -pi and pi.
+ * joint_count coordinates of all joints. They are followed by the angles of forces that count
+ * revolutions, one for each force; n includes them. A run updates `angles` after steps. If
+ * `angles` is NULL or all zeros, the angle is between -pi and pi.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATE_H
@@ -69,11 +70,14 @@ double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_jo
 /* Return the length of the array `angles` of a point. */
 static inline int baum_i_angles_size(const baum_mechanism *mechanism)
 {
-  return 2 * BAUM_I_COORDINATES * mechanism->joint_count + 1;
+  return 2 * (BAUM_I_COORDINATES * mechanism->joint_count + mechanism->force_count) + 1;
 }
 
 /* Return the expected angle of a spatial joint at the time of the point. */
 double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_point *point);
+
+/* Return the expected angle of a force that counts revolutions. */
+double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point *point);
 
 /* Expect that all angles keep their values from the time t on. */
 void baum_i_hold_angles(baum_i_point *point, double t);

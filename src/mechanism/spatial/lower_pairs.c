@@ -48,17 +48,19 @@ static baum_status check_direction(const double x[3], const char *label, const c
                          field);
 }
 
-static baum_status check_axes(const baum_mechanism *mechanism, const void *def, const char *label)
+baum_status baum_i_spatial_check_axes(const baum_mechanism *mechanism, const void *def,
+                                      const char *label)
 {
   const baum_i_spatial_axis_head *given = def;
   BAUM_I_TRY(check_turning(mechanism, def, label));
   return check_direction(given->axis_b, label, "axis_b");
 }
 
-static baum_status check_planar(const baum_mechanism *mechanism, const void *def, const char *label)
+baum_status baum_i_spatial_check_frame(const baum_mechanism *mechanism, const void *def,
+                                       const char *label)
 {
   const baum_spatial_planar_def *given = def;
-  BAUM_I_TRY(check_axes(mechanism, def, label));
+  BAUM_I_TRY(baum_i_spatial_check_axes(mechanism, def, label));
   return check_direction(given->x_axis, label, "x_axis");
 }
 
@@ -66,7 +68,7 @@ static baum_status check_two_axes(const baum_mechanism *mechanism, const void *d
                                   const char *label)
 {
   const baum_i_spatial_axis_head *given = def;
-  BAUM_I_TRY(check_axes(mechanism, def, label));
+  BAUM_I_TRY(baum_i_spatial_check_axes(mechanism, def, label));
   return baum_i_spatial_is_given(given->axis_b)
            ? BAUM_OK
            : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis_b is not given", label);
@@ -253,6 +255,24 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   return lower_axes_b(mechanism, joint, parameters);
 }
 
+/* Only the span and the element of a joint determine its axes. A force with axes is therefore
+ * treated as a joint. */
+baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,
+                                      const baum_i_element *element, const baum_i_span *span,
+                                      double *parameters)
+{
+  const baum_i_joint alike = {.element = *element, .span = *span};
+  return lower_axes(mechanism, &alike, parameters);
+}
+
+baum_status baum_i_spatial_lower_frame(const baum_mechanism *mechanism,
+                                       const baum_i_element *element, const baum_i_span *span,
+                                       double *parameters)
+{
+  const baum_i_joint alike = {.element = *element, .span = *span};
+  return lower_planar(mechanism, &alike, parameters);
+}
+
 /* In the design configuration, the joint axes on both bodies are the ground axes. */
 static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                double *parameters)
@@ -322,8 +342,8 @@ static const baum_i_spatial_joint_type spherical = {
 BAUM_I_DEFINE(joint, spatial_spherical, spherical.type)
 
 static const baum_i_spatial_joint_type revolute = {
-  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", check_axes, lower_axes, 5,
-                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def)),
+  {BAUM_I_SPATIAL_JOINT(spatial_revolute, "spatial revolute joint", baum_i_spatial_check_axes,
+                        lower_axes, 5, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_revolute_def)),
    COORDINATES(BAUM_COORDINATE_ANGLE)},
   .rows = {POINT_ROWS, PARALLEL_ROWS},
   .coordinate_rows = {ANGLE},
@@ -347,8 +367,8 @@ static const baum_i_spatial_joint_type universal = {
 BAUM_I_DEFINE(joint, spatial_universal, universal.type)
 
 static const baum_i_spatial_joint_type cylindrical = {
-  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", check_axes, lower_axes, 4,
-                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def)),
+  {BAUM_I_SPATIAL_JOINT(spatial_cylindrical, "spatial cylindrical joint", baum_i_spatial_check_axes,
+                        lower_axes, 4, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_cylindrical_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, LINE_ROWS},
   .coordinate_rows = {ALONG(BAUM_I_Z_A), ANGLE},
@@ -358,8 +378,8 @@ static const baum_i_spatial_joint_type cylindrical = {
 BAUM_I_DEFINE(joint, spatial_cylindrical, cylindrical.type)
 
 static const baum_i_spatial_joint_type prismatic = {
-  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", check_axes, lower_axes, 5,
-                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def)),
+  {BAUM_I_SPATIAL_JOINT(spatial_prismatic, "spatial prismatic joint", baum_i_spatial_check_axes,
+                        lower_axes, 5, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_prismatic_def)),
    COORDINATES(BAUM_COORDINATE_DISPLACEMENT)},
   .rows = {PARALLEL_ROWS, LINE_ROWS, {BAUM_I_X_A, BAUM_I_Y_B}},
   .coordinate_rows = {ALONG(BAUM_I_Z_A)},
@@ -370,8 +390,8 @@ static const baum_i_spatial_joint_type prismatic = {
 BAUM_I_DEFINE(joint, spatial_prismatic, prismatic.type)
 
 static const baum_i_spatial_joint_type planar = {
-  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", check_planar, lower_planar, 3,
-                        BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
+  {BAUM_I_SPATIAL_JOINT(spatial_planar, "spatial planar joint", baum_i_spatial_check_frame,
+                        lower_planar, 3, BAUM_I_SPATIAL_AXIS_FIELDS(baum_spatial_planar_def),
                         BAUM_I_OPTIONAL(baum_spatial_planar_def, x_axis, POINT, "-")),
    COORDINATES(BAUM_COORDINATE_X, BAUM_COORDINATE_Y, BAUM_COORDINATE_ANGLE)},
   .rows = {PARALLEL_ROWS, {BAUM_I_Z_A, BAUM_I_APART}},

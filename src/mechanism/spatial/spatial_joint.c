@@ -3,7 +3,6 @@
  * joint. */
 #include "mechanism/spatial/spatial_joint.h"
 
-#include "mechanism/general/composed_row.h"
 #include "mechanism/general/coordinate.h"
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
@@ -97,7 +96,7 @@ bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *p
  * The chain rule is in general/composed_row.h.
  */
 
-static baum_i_outer angle_of(double c, double s)
+baum_i_outer baum_i_spatial_angle_of(double c, double s)
 {
   double square = c * c + s * s;
   /* The numbers a, b and d are real and imaginary parts of 1 / z, 1 / z^2 and 1 / z^3. */
@@ -119,7 +118,7 @@ static baum_i_outer cosine_and_sine(const baum_i_spatial_pair *pair,
     baum_i_composed_place(&x[i], BAUM_I_SPACE, BAUM_I_SPACE, bodies);
     baum_i_spatial_row_at(pair, rows[1 - i], &x[i].c);
   }
-  return angle_of(x[0].c.value, x[1].c.value);
+  return baum_i_spatial_angle_of(x[0].c.value, x[1].c.value);
 }
 
 void baum_i_spatial_coordinate(const baum_i_joint *joint, int number, const baum_i_point *point,

@@ -7,6 +7,7 @@
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
 
 #include "mechanism/definition.h"
+#include "mechanism/general/composed_row.h"
 #include "mechanism/spatial/spatial_rows.h"
 
 /* The type of a spatial joint. It begins with the struct that all joint types share. */
@@ -34,8 +35,25 @@ typedef struct baum_i_spatial_axis_head {
   BAUM_I_SPATIAL_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "-", 0.0, 0.0, 1.0), \
     BAUM_I_OPTIONAL(DEF, axis_b, POINT, "-")
 
+/* Check the head and the axes of a definition, and set BAUM_I_SPATIAL_NUMBERS parameters from them.
+ * Joints with axes do this, and forces that have the same fields. The second pair of functions is
+ * for definitions in which x_axis follows the axes. */
+baum_status baum_i_spatial_check_axes(const baum_mechanism *mechanism, const void *def,
+                                      const char *label);
+baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,
+                                      const baum_i_element *element, const baum_i_span *span,
+                                      double *parameters);
+baum_status baum_i_spatial_check_frame(const baum_mechanism *mechanism, const void *def,
+                                       const char *label);
+baum_status baum_i_spatial_lower_frame(const baum_mechanism *mechanism,
+                                       const baum_i_element *element, const baum_i_span *span,
+                                       double *parameters);
+
 /* The rows of a joint of such a type; NULL for other joints. */
 const baum_i_spatial_row *baum_i_spatial_rows_of(const baum_i_joint *joint);
+
+/* Return the angle atan2(s, c) and its derivatives, as a function of the coordinates c and s. */
+baum_i_outer baum_i_spatial_angle_of(double c, double s);
 
 /* ---- members of the type struct ---- */
 

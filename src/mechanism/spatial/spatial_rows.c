@@ -224,6 +224,27 @@ void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatia
   }
 }
 
+void baum_i_spatial_linearize_products(const baum_i_spatial_pair *pair,
+                                       const baum_i_spatial_row *rows, int count, double factor,
+                                       const double *w, const double *lambda,
+                                       const baum_i_joint_blocks *wide)
+{
+  for (int i = 0; i < count; i++) {
+    const ptrdiff_t at = (ptrdiff_t)COLUMNS * i;
+    baum_i_spatial_second second;
+    baum_i_spatial_second_of(pair, rows[i], &second);
+    baum_i_spatial_add_jw_q(&second, w, factor, wide->jw_q + at);
+    for (int k = 0; k < COLUMNS; k++) {
+      wide->gamma_q[at + k] = factor * second.gamma_q[k];
+      wide->gamma_v[at + k] = factor * second.gamma_v[k];
+    }
+    double multiplier = lambda ? factor * lambda[i] : 0.0;
+    for (int k = 0; k < COLUMNS * COLUMNS; k++) {
+      wide->jtl_q[k] += multiplier * second.columns_q[k];
+    }
+  }
+}
+
 void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
                                    const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
                                    double factor, const double *w, const double *lambda,
@@ -234,21 +255,10 @@ void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point
   double gamma_q[BAUM_I_SPATIAL_ROWS * COLUMNS];
   double gamma_v[BAUM_I_SPATIAL_ROWS * COLUMNS];
   double jtl_q[COLUMNS * COLUMNS] = {0.0};
-  baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
-  for (int i = 0; i < joint->rows; i++) {
-    baum_i_spatial_second second;
-    baum_i_spatial_second_of(pair, rows[i], &second);
-    baum_i_spatial_add_jw_q(&second, w_wide, factor, jw_q + (ptrdiff_t)COLUMNS * i);
-    for (int k = 0; k < COLUMNS; k++) {
-      gamma_q[COLUMNS * i + k] = factor * second.gamma_q[k];
-      gamma_v[COLUMNS * i + k] = factor * second.gamma_v[k];
-    }
-    double multiplier = lambda ? factor * lambda[joint->row + i] : 0.0;
-    for (int k = 0; k < COLUMNS * COLUMNS; k++) {
-      jtl_q[k] += multiplier * second.columns_q[k];
-    }
-  }
   const baum_i_joint_blocks wide = {jw_q, jtl_q, gamma_q, gamma_v, NULL};
+  baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
+  baum_i_spatial_linearize_products(pair, rows, joint->rows, factor, w_wide,
+                                    lambda ? lambda + joint->row : NULL, &wide);
   baum_i_columns_pack_blocks(point->mechanism, joint, BAUM_I_SPACE, &wide, blocks);
 }
 
