@@ -562,8 +562,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 /** Two shafts that meet at a point and rotate at equal rates about their axes at any angle between
  *  the axes, such as a Rzeppa joint or a pair of universal joints. Four rows: three for the points
  *  [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a at 0. The
- *  angle between the axes must stay below 180 degrees; from about 150 degrees on, the joint is
- *  ill-conditioned. */
+ *  angle between the axes must stay below 180 degrees. The derivatives of the fourth row are
+ *  proportional to the cosine of half this angle, so the joint is ill-conditioned close to 180
+ *  degrees. */
 typedef struct baum_spatial_constant_velocity_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

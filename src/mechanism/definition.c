@@ -58,6 +58,7 @@ static baum_status complete(const baum_i_definition *definition, const void *def
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
 {
   whole_def whole;
+  assert(definition->size <= sizeof whole);
   baum_i_fields_set(definition, &whole);
   baum_i_give_sized(def, caller_size, &whole, definition->size);
 }

@@ -11,10 +11,10 @@
  *
  * The second Phi is 4 p_w p_z with the quaternion p of the relative rotation (see
  * spatial_torsion_spring.c). If it is 0, the relative rotation is about an axis normal to z_a, and
- * the relative angular velocity is normal to z_a + z_b (Hunt 1973). Shafts with fixed axes
- * therefore rotate at equal rates. Phi is also 0 if a shaft is rotated by pi. The sum x_a . x_b +
- * y_a . y_b is negative then.
- */
+ * the relative angular velocity is normal to z_a + z_b (K. H. Hunt, Constant-velocity shaft
+ * couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed axes therefore rotate at
+ * equal rates. Phi is also 0 if a shaft is rotated by pi. The sum x_a . x_b + y_a . y_b is negative
+ * then. */
 #include <math.h>
 #include <string.h>
 
