@@ -157,13 +157,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 /* ---- torsion spring -------------------------------------------------------------------------- */
 
 /** A torsion spring and damper in parallel between two bodies, about an axis, or a law of your own.
- *  The torque is stiffness (angle - free_angle) + damping (d/dt angle); a positive torque turns
- *  body_b back.
+ *  The restoring torque is stiffness (angle - free_angle) + damping (d/dt angle). If it is positive,
+ *  it acts on body_b in the direction in which the angle decreases.
  *
- *  The angle is the twist of body_b about the axis: the angle that remains when the inclination of
- *  body_b is undone by the smallest rotation. It is 0 in the design configuration. Runs count its
- *  revolutions. The bodies need no joint; for a coordinate of a joint, use a joint spring. If axis
- *  and axis_b point in opposite directions, the angle is undefined and the torque is zero. */
+ *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
+ *  decomposition: if the smallest rotation that makes axis_b parallel to axis is applied to body_b,
+ *  a rotation about the axis remains, and the angle is that of this rotation. It is 0 in the design
+ *  configuration. Runs count its revolutions. The bodies need not be connected by a joint; for a
+ *  coordinate of a joint, use a joint spring. If axis and axis_b point in opposite directions, the
+ *  angle is undefined and the torque is zero. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -182,7 +184,7 @@ typedef struct baum_spatial_torsion_spring_def {
   double axis_b[3];
   double stiffness;  /**< [N m/rad] >= 0. Default: 0. */
   double damping;    /**< [N m s/rad] >= 0. Default: 0. */
-  double free_angle; /**< [rad] at which the torque is zero. Default: NaN, 0. */
+  double free_angle; /**< [rad] angle at which the spring is relaxed. Default: NaN, 0. */
   /** A law for the torque [N m], which replaces the three numbers above. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
@@ -215,12 +217,14 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
 /* ---- bushing --------------------------------------------------------------------------------- */
 
 /** An elastic connection of two bodies with stiffness and damping in all six directions. The force
- *  is derived from the six numbers x = (d, theta), in the axes of the bushing on body_a:
+ *  depends on the six numbers x = (d, theta) and on x'. They are given in the axes of the bushing
+ *  on body_a:
  *
  *  - d is the vector from body_a's point to body_b's point [m];
  *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
- *    the rotation, and its length is the angle. It is 0 in the design configuration, or where the
- *    axes on both bodies coincide. Its length must stay below pi, because the moment jumps there.
+ *    the rotation, and its length is the angle. theta is 0 in the design configuration, unless
+ *    axis_b differs from axis there. The angle must stay below pi, because theta and the moment
+ *    jump at pi.
  *
  *  The potential is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {
@@ -242,9 +246,10 @@ typedef struct baum_spatial_bushing_def {
   /** [-] the x axis, made perpendicular to axis; in ground axes if point is given, otherwise in the
    *  axes of body_a. Default: NaN, the ground x axis, or y if axis is along x. */
   double x_axis[3];
-  /** [N/m, N or N m/rad] 6 x 6, by rows, symmetric and positive semidefinite. Default: all 0. */
+  /** [N/m, N or N m/rad] 6 x 6 matrix, row-major, symmetric and positive semidefinite.
+   *  Default: all 0. */
   double stiffness[36];
-  /** [N s/m, N s or N m s/rad] 6 x 6, with the same properties. Default: all 0. */
+  /** [N s/m, N s or N m s/rad] 6 x 6 matrix, with the same properties. Default: all 0. */
   double damping[36];
 } baum_spatial_bushing_def;
 

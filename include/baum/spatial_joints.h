@@ -508,10 +508,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
 
 /* ---- screw ----------------------------------------------------------------------------------- */
 
-/** Body_b screws along an axis of body_a: a cylindrical joint whose displacement is offset + pitch
- *  angle / (2 pi). Five rows: two for the directions of the axes [-], three lengths [m]. The row of
- *  the thread does not depend on how many revolutions were made. Coordinates: displacement and
- *  angle, as for the cylindrical joint. */
+/** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). Five
+ *  rows: two for the directions of the axes [-], and three lengths [m]. The last row, which is that
+ *  of the thread, is evaluated modulo the pitch, so it does not depend on the number of revolutions.
+ *  Coordinates: displacement and angle, as for the cylindrical joint. */
 typedef struct baum_spatial_screw_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -528,7 +528,7 @@ typedef struct baum_spatial_screw_def {
   /** [-] the axis on body_b; in ground axes if `point` is given, otherwise in the axes of body_b.
    *  Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
-  /** [m] not 0, displacement of body_b per revolution; positive for a right-handed thread.
+  /** [m] not 0. Displacement of body_b per revolution; positive for a right-handed thread.
    *  Default: 0, must be set. */
   double pitch;
   /** [m] displacement at which the angle is 0. Default: NaN, the value in the design
@@ -559,10 +559,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 
 /* ---- constant-velocity joint ----------------------------------------------------------------- */
 
-/** Two shafts that meet at a point and rotate at equal rates about their axes at any angle between
- *  the axes, such as a Rzeppa joint or a pair of universal joints. Four rows: three for the points
- *  [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a at 0. The
- *  angle between the axes must stay below 180 degrees. The derivatives of the fourth row are
+/** A constant-velocity joint, such as a Rzeppa joint: two shafts meet at a point and rotate with
+ *  equal angular velocities about their axes, at any angle between the axes. Four rows: three for
+ *  the points [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a
+ *  at 0. The angle between the axes must stay below 180 degrees. The derivatives of the fourth row are
  *  proportional to the cosine of half this angle, so the joint is ill-conditioned close to 180
  *  degrees. */
 typedef struct baum_spatial_constant_velocity_def {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passes over arrays that monitors make after every step. They are optimized because with plain
- * loops they would cost half as much as an evaluation. */
+/* Loops over arrays that the monitors execute after every step. They use vectors of four numbers,
+ * because plain loops would take half as long as an evaluation of the accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
 
@@ -8,19 +8,19 @@
 
 /* A step whose local error is estimated; the equations are in simulate/local_error.c. */
 typedef struct baum_i_step_samples {
-  const double *q[2]; /* at the start and at the end of the step, or NULL */
+  const double *q[2]; /* at the start and at the end of the step; not used if dq is given */
   const double *v[2];
-  const double *a[5]; /* at the end of the step, at its start, and at the starts before */
-  const double *dq;   /* dq without its last term if q is not a vector; otherwise NULL */
+  const double *a[5]; /* at the end of the step, at its start, and at the three times before */
+  const double *dq;   /* NULL if q is a vector; otherwise dq without its last term */
   const double *scale;
   double h;
-  double period; /* [s] weight of errors of v */
+  double period; /* [s] factor of the errors of v */
 } baum_i_step_samples;
 
 typedef struct baum_i_measure_kernel {
-  /* Return the largest |x_i|, or NaN if a number is not finite. */
+  /* Return the largest |x_i|, or NaN if an x_i is not finite. */
   double (*largest)(int n, const double *x);
-  /* Return the largest |x_i| / scale_i. Numbers that are NaN are ignored. */
+  /* Return the largest |x_i| / scale_i. NaN is ignored. */
   double (*largest_scaled)(int n, const double *x, const double *scale);
   bool (*is_finite)(int n, const double *x);
   /* Return the largest scaled local error of n coordinates. */

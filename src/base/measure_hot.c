@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passes over arrays, four numbers at a time. The last numbers, if they are fewer than four, are
- * taken one by one, as vectors of four equal numbers. */
+/* Loops over arrays, with vectors of four numbers. If one to three numbers remain at the end, each
+ * of them is processed as a vector of four equal numbers. */
 #include <math.h>
 
 #include "base/four.h"
@@ -26,7 +26,7 @@ BAUM_I_INLINE double largest_of(baum_i_four x)
   return both[0] > both[1] ? both[0] : both[1];
 }
 
-/* The sum of 0 x_i is 0, or NaN if a number is not finite. */
+/* Add 0 x to a sum. The sum stays 0, or becomes NaN if a number of x is not finite. */
 BAUM_I_INLINE baum_i_four add_zeros(baum_i_four sum, baum_i_four x)
 {
   return baum_i_four_plus(sum, baum_i_four_times(baum_i_four_all(0.0), x));
@@ -138,7 +138,7 @@ BAUM_I_INLINE baum_i_four error_at(const baum_i_step_samples *s, int i, take_fn 
 
 static double local_error(int n, const baum_i_step_samples *samples)
 {
-  const baum_i_step_samples s = *samples; /* so that the compiler keeps it in registers */
+  const baum_i_step_samples s = *samples; /* a copy, which the compiler keeps in registers */
   baum_i_four most = baum_i_four_all(0.0);
   int i = 0;
   for (; i + LANES <= n; i += LANES) {

@@ -14,7 +14,7 @@ static const double TINY = 1e-12;
 void baum_i_quaternion_exp(const double rotation[3], double p[4])
 {
   double half = 0.5 * sqrt(baum_i_dot3(rotation, rotation));
-  bool small = half <= 0.7; /* as most rotations in a step */
+  bool small = half <= 0.7; /* true for most rotations in a step */
   double sine = small ? baum_i_sine_kernel(half, 0.0) : sin(half);
   double factor = half > TINY ? 0.5 * sine / half : 0.5;
   p[0] = small ? baum_i_cosine_kernel(half, 0.0) : cos(half);
@@ -34,8 +34,8 @@ void baum_i_quaternion_log(const double p[4], double rotation[3])
   }
 }
 
-/* The matrix determines p p^T. The row of 4 p p^T with the largest diagonal entry is a multiple of
- * p, and it is not small. */
+/* The matrix determines 4 p p^T, whose rows are multiples of p. The row with the largest diagonal
+ * entry is normalized, because it is not small. */
 void baum_i_quaternion_of(const double axes[9], double p[4])
 {
   const double trace = axes[0] + axes[4] + axes[8];

@@ -14,14 +14,16 @@ enum { MOST_REFINEMENTS = 3 };
  * SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
-/* In space changes of accelerations count too, and each refinement gains at least four digits, or
- * the next one shows that it does not. */
+/* In space, the change includes that of the accelerations. Each refinement gains at least four
+ * digits, so a change this small needs no other refinement. If a refinement gains fewer digits, the
+ * change of the next one is large. */
 static const double SETTLED_IN_SPACE = 1e-9;
 static const double SETTLING_IN_SPACE = 1e-12;
 
-/* In space, the error of a is about the rounding error times the amplification of errors of lambda
- * by a = a0 - W J^T lambda, over the weakest pivot. Solutions with pivots above FAIR_PIVOT are not
- * refined if this factor is at most MOST_LOST. Their errors against quadruple precision were below
+/* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest one,
+ * and the amplification (space_block.h) tells how much a = a0 - W J^T lambda increases errors of
+ * lambda. Solutions with a pivot above FAIR_PIVOT are not refined if amplification / pivot is at
+ * most MOST_LOST. Their errors against quadruple precision were below
  * 1e-10 in 1500 random mechanisms, and below 1e-12 in all scenes of test_spatial_accuracy.c. */
 static const double FAIR_PIVOT = 1e-4;
 static const double MOST_LOST = 1e5;
@@ -147,10 +149,10 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
   set_omitted_rates(w, path, v);
 }
 
-/* A residual is also at rounding level if it is below the rounding errors of the violation that the
- * motion a corrects. They are proportional to the terms of J x with x = beside * scale, where
- * `beside` is the scaled size of the state, and an eighth leaves a margin. For accelerations
- * `beside` is 0. */
+/* Tell whether the residual is at rounding level. In a projection, the motion a corrects a violation
+ * that has rounding errors itself, so a residual below these errors is also accepted. They are
+ * proportional to the terms of J x with x = beside * scale, where `beside` is the scaled size of the
+ * state. MARGIN makes the limit smaller than this estimate. For accelerations, `beside` is 0. */
 static const double MARGIN = 0.125;
 
 static bool check(const baum_workspace *w, const baum_i_block_path *path, double beside)
@@ -207,8 +209,8 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* `last` means that no later solution corrects this one, so the residual must be checked. `beside`
- * is the argument of check(). */
+/* If `last` is true, no later solution corrects this one, so the residual must be checked. `beside`
+ * is passed to check(). */
 static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, double beside)
 {
   const baum_i_block_kernel *kernel = path->kernel;
@@ -349,7 +351,7 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
-/* simple: a residual of the rows in working precision is enough for the first refinement. */
+/* If `simple` is true, the first refinement needs only r - J a in working precision. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
@@ -367,8 +369,8 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* With good pivots and even masses the relative error of a solution is far below 1e-8. A change of
- * velocities below this fraction of the velocities therefore needs no refinement. */
+/* With good pivots and even masses the relative error of a solution is far below 1e-8. If a
+ * projection changes the velocities by less than this fraction, it therefore needs no refinement. */
 static const double SMALL_CHANGE = 1e-8;
 
 static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
@@ -378,7 +380,8 @@ static bool is_small_change(const baum_workspace *w, const baum_i_block_path *pa
          baum_i_scaled_size(w->mechanism, w->a) <= size;
 }
 
-/* `last` as in solve(); then v are the velocities that the solution corrects. */
+/* `last` has the same meaning as in solve(). If it is true, the solution is a correction of the
+ * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
                                const double *v)
 {
@@ -393,8 +396,9 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
   bool simple = false;
   if (!good && !last) {
-    /* If masses are uneven, a rounding error of lambda that does not matter for heavy bodies may
-     * accelerate light ones, also along the constraints, where J a does not show it. */
+    /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
+     * accelerate light bodies. The residual r - J a does not show this error if the constraints
+     * permit the direction of the acceleration. */
     double amplified = kernel->amplification(space);
     good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest;
     simple = amplified <= CANCELLED;
@@ -431,7 +435,7 @@ baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path,
   return BAUM_OK;
 }
 
-/* Return the scaled size of the state that a projection corrects: of v, or of q if v is NULL. */
+/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
 static double size_of_state(const baum_workspace *w, const double *q, const double *v)
 {
   return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));

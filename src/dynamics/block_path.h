@@ -48,7 +48,7 @@ struct baum_i_block_path {
   double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* planar, with many nodes: always check the residual */
+  bool always_check; /* plane, many nodes: check the residual of every solution */
   bool uneven;       /* masses are uneven: check whether digits have cancelled */
   int fixed_count;   /* number of fixed bodies that are not solved for */
   int64_t factorizations;

@@ -12,8 +12,8 @@
 
 /* In planar chains rounding errors grow even without small pivots, at worst in proportion to the
  * number of nodes. Up to FEW_NODES nodes the error stays below 5e-13. With more nodes every
- * evaluation checks the residual. In space the errors of chains of 1e3 and of 1e4 links are
- * the same (test_spatial_accuracy.c). */
+ * evaluation checks the residual. This is not necessary in space, where chains of 1e3 and of 1e4
+ * links have the same errors (test_spatial_accuracy.c). */
 enum { FEW_NODES = 2048 };
 
 /* The residual is checked if inverse masses differ by more than this factor and digits have
@@ -27,7 +27,8 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* Tell whether the solver of space suits: a body is in space, and M of every body is known. */
+/* Tell whether the solver of space can be used: at least one body is spatial, and no body consists of
+ * user coordinates. */
 static bool is_in_space(const baum_mechanism *m)
 {
   bool found = false;

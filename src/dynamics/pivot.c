@@ -28,15 +28,15 @@ static double size_of_pin(const baum_i_block *block, int k)
   return node->size - off * off;
 }
 
-/* The reciprocal of the smallest pivot, and the first row of its node, or -1 if no pivot is below
- * 1. */
+/* The reciprocal of the smallest pivot and the first row of its node. The row is -1 if no pivot is
+ * below 1. */
 typedef struct weakest {
   double inverse;
   int row;
 } weakest;
 
-/* Compare with the reciprocal pivot of a node. NaN, which results from an earlier zero pivot,
- * counts as infinity. */
+/* Update the weakest pivot if the reciprocal pivot of a node is larger. NaN counts as infinity,
+ * because it results from an earlier pivot of 0. */
 BAUM_I_INLINE void compare_pivot(double inverse, int first_row, weakest *of)
 {
   inverse = fabs(inverse);
@@ -60,7 +60,7 @@ static weakest smallest_of_blocks(const baum_i_block *block)
   return found;
 }
 
-/* Return a bound of the reciprocal pivot of a node. A determinant is at most the product of the
+/* Return an upper bound of the reciprocal pivot of a node. A determinant is at most the product of the
  * diagonal entries (J. Hadamard, 1893). */
 static double bound_in_space(const baum_i_space *space, int k)
 {
@@ -76,7 +76,8 @@ static void compare_in_space(const baum_i_space *space, int k, weakest *of)
   compare_pivot(whole[0] / det[0] * (whole[1] / det[1]), space->list[k].row[0], of);
 }
 
-/* Determinants are computed only for nodes whose pivot may be the smallest. */
+/* Find the weakest pivot. The determinants before the elimination are computed only for nodes whose
+ * pivot may be the smallest. */
 static weakest smallest_in_space(const baum_i_space *space)
 {
   weakest found = {1.0, -1};

@@ -19,8 +19,9 @@ typedef struct baum_i_space_frame {
   double w[4]; /* angular velocity in ground axes */
 } baum_i_space_frame;
 
-/* Kinds of rows, in their order: p: points coincide (3 rows), d: directions, e: the same, with the
- * axis on body_b of the row before, s: slides. */
+/* Each letter in the name of a shape is a kind of row, in the order of the rows. P: three rows that
+ * make points coincide. D: the product of two axes, one on each body. E: a row D with the same axis on
+ * body_b as the row before. S: the product of an axis on body_a and the vector between the points. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_P,
   BAUM_I_SHAPE_PD,
@@ -40,7 +41,7 @@ enum {
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
   BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
   BAUM_I_JOINT_AXES =
-    40 /* for each row of kind d, e or s: the axis on a, and for d and e that on b */
+    40 /* rows d and e: the axes on a and on b; rows s: the axis on a; 8 numbers each */
 };
 
 typedef struct baum_i_space_joint {

@@ -332,7 +332,8 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-/* The terms of J x at two pins, for motion x. second: index of the second pin, or 0 for one pin. */
+/* The terms of J x at two pins for a motion x. The index of the second pin relative to the first is
+ * `second`; it is 0 if there is only one pin. */
 typedef struct terms {
   baum_i_four term[4];
 } terms;

@@ -10,7 +10,8 @@
 #include "base/pair.h"
 #include "linear/arrays.h"
 
-/* As in block.c, but with a lower bound, because evaluations in space do not check the residual. */
+/* The limits of block.c. In space, weak_pivot also has a lower bound, because evaluations in space
+ * accept good pivots without a check of the residual. */
 static const double weak_pivot = 1e-3;
 static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
@@ -220,7 +221,8 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
 
 enum { MOST = BAUM_I_SPACE_ROWS };
 
-/* Add w G G^T of a part G, of three columns, to the lower triangle of s, column by column. */
+/* Add w G G^T to the lower triangle of s, for a part G (E or R) of three columns. s[j] is column j of
+ * the triangle. */
 BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double s[MOST][MOST])
 {
   const int rows = tall ? 6 : 4;

@@ -125,7 +125,7 @@ typedef struct baum_i_space {
   /* pivots are weak if a determinant of a node is below this fraction of the product of the
    * diagonal entries of S */
   double weak_pivot;
-  double weakest; /* the smallest fraction, or weak_pivot if all are larger */
+  double weakest; /* the smallest of these fractions, or weak_pivot if all are larger */
 
   baum_i_space_body *bodies;        /* (body_count) */
   baum_i_space_node *list;          /* (node_count) in the order of elimination */
@@ -223,13 +223,15 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 /* Hot functions for the solution, as those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
-  /* Returns the largest acceleration of a body by the multipliers of one joint, relative to the
-   * largest acceleration of all bodies. If it is large, digits have cancelled. */
+  /* Returns the largest acceleration of a body that the multipliers of one joint cause, divided by
+   * the largest acceleration of all bodies. If this quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
-  /* Prepares correct() with r - J a in working precision. */
+  /* Prepares correct(): computes r - J a in working precision, and sets the residual of the
+   * equations of motion to 0. */
   void (*find_rest)(baum_i_space *space);
-  /* Returns the largest relative change of the multipliers or of the accelerations. */
+  /* Corrects a and lambda once. Returns the largest relative change of the multipliers or of the
+   * accelerations. */
   double (*correct)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);

@@ -155,7 +155,8 @@ BAUM_I_INLINE void subtract_columns(int n, const double *u, const double *x, boo
   baum_i_column_store(to, 1, 0, tall, sum);
 }
 
-/* lambda = D^-1 L^-1 lambda at node k of n rows, with the present factors. */
+/* Replaces lambda by D^-1 L^-1 lambda at node k, which has n rows. L and D are the factors of the
+ * last elimination. */
 BAUM_I_INLINE void forward_node(int n, const baum_i_space *b, int k)
 {
   bool tall = n > 4;
@@ -213,7 +214,8 @@ BAUM_I_INLINE column magnitude(column x)
   return (column){baum_i_four_magnitude(x.low), baum_i_magnitude(x.high)};
 }
 
-/* r - J a of one node. size: NULL, or receives the sums of the magnitudes of its terms. */
+/* Returns r - J a of one node. If `size` is not NULL, it is set to the sums of the magnitudes of the
+ * terms. */
 BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                              column *size)
 {
@@ -275,7 +277,7 @@ static void find_rest(baum_i_space *b)
   }
 }
 
-/* L^-T y, the acceleration of the rotation */
+/* Returns the angular acceleration L^-T y. */
 BAUM_I_INLINE four unwhitened(const baum_i_space_body *body, four y)
 {
   return transposed_times(body->whiten, (column){.low = y}, false);
@@ -292,7 +294,7 @@ static double largest(four x)
   return two[0] > two[1] ? two[0] : two[1];
 }
 
-/* Includes the accelerations by the multipliers of one node. */
+/* Returns the larger of `most` and the accelerations that the multipliers of one node cause. */
 BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                                   four most)
 {
@@ -301,7 +303,7 @@ BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node
     const baum_i_space_side *side = &b->side_list[s];
     const baum_i_space_body *body = &b->bodies[side->body];
     four turn = transposed_times(b->sides + side->turn, lambda, tall);
-    four push = lambda.low; /* up to its sign, if E is not stored; weight[3] is 0 */
+    four push = lambda.low; /* E^T lambda up to its sign if E is +-I; weight[3] is 0 */
     if (side->sign == 0) {
       push = transposed_times(b->sides + side->move, lambda, tall);
     }
@@ -311,7 +313,7 @@ BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node
   return most;
 }
 
-/* The largest acceleration of a body. */
+/* Returns the largest acceleration of a body. */
 static double largest_motion(const baum_i_space *b)
 {
   four most = baum_i_four_zero();
@@ -334,7 +336,7 @@ static double amplification(const baum_i_space *b)
   return largest(pushes) / largest_motion(b);
 }
 
-/* J pull - rest of one node */
+/* Replaces lambda of one node by J pull - rest. */
 BAUM_I_INLINE void gather_node(const baum_i_space *b, const baum_i_space_node *node, bool tall)
 {
   column sum = {.low = baum_i_four_zero()};
@@ -354,7 +356,7 @@ BAUM_I_INLINE void gather_node(const baum_i_space *b, const baum_i_space_node *n
   baum_i_column_store(b->nodes + node->at, 1, 0, tall, sum);
 }
 
-/* Keeps lambda, and replaces it by J pull - rest. */
+/* Saves lambda in rest_low[], and then replaces it by J pull - rest. */
 static void gather(baum_i_space *b)
 {
   for (int k = 0; k < b->node_count; k++) {
@@ -370,7 +372,7 @@ static void gather(baum_i_space *b)
   }
 }
 
-/* Adds the corrections to the multipliers before. Returns their largest relative change. */
+/* Adds the corrections to the saved multipliers. Returns their largest relative change. */
 static double add_changes(const baum_i_space *b)
 {
   four changes = baum_i_four_zero();
@@ -425,7 +427,7 @@ static double correct(baum_i_space *b)
 
 static bool read_motion(const baum_i_space *b, double *a)
 {
-  four sum = baum_i_four_zero(); /* of 0 x: 0, or NaN if a number is not finite */
+  four sum = baum_i_four_zero(); /* a sum of 0 x: 0, or NaN if an x is not finite */
   for (int t = 1; t < b->body_count; t++) {
     const baum_i_space_body *body = &b->bodies[t];
     const double *from = b->motion + (ptrdiff_t)MOTION * t;

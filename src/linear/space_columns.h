@@ -99,7 +99,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_put(baum_i_four x, int i, double s)
 #endif
 }
 
-/* Replaces number i by number c of y; i and c are constants. */
+/* Replaces number i of x by number c of y. Both i and c must be constants. */
 BAUM_I_INLINE baum_i_four baum_i_four_move(baum_i_four x, int i, baum_i_four y, int c)
 {
 #ifdef BAUM_I_WIDE

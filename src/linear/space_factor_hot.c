@@ -38,7 +38,9 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
   const double *other_move = b->sides + pair->move[1];
   double weight = b->bodies[pair->body].weight[0];
   double *to = b->off + pair->to;
-  column turn[3]; /* loaded once, because `to` could be any of the numbers for the compiler */
+  /* The columns are loaded before the loop. The compiler would otherwise load them again in each
+   * iteration, because it cannot exclude that the stores to `to` change them. */
+  column turn[3];
   column move[3];
   BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual of the whole system in space in twice the working precision, as block_residual.c has it
- * for the plane. The wide version has the instruction of fma(). */
+/* Residual of the whole system in space, in twice the working precision. block_residual.c computes
+ * the same residual for the plane. The wide version uses fused multiply-add instructions. */
 #include <math.h>
 #include <string.h>
 
@@ -10,13 +10,13 @@ enum { MOTION = BAUM_I_SPACE_MOTION };
 
 typedef baum_i_four four;
 
-/* Four sums as those of twofold.h. */
+/* Four sums, each with its rounding error as in twofold.h. */
 typedef struct sums {
   four high;
   four low;
 } sums;
 
-/* x y - product without rounding */
+/* Returns x y - product without a rounding error. */
 BAUM_I_INLINE four product_error(four x, four y, four product)
 {
 #ifdef BAUM_I_WIDE
@@ -40,7 +40,8 @@ BAUM_I_INLINE void subtract(sums *s, four x, four y)
   s->high = high;
 }
 
-/* Three columns of four numbers as four rows of three numbers and any number. */
+/* Transposes three columns of four numbers to four rows of three numbers. The fourth number of a row
+ * can have any value. */
 BAUM_I_INLINE void transpose(const four x[3], four rows[4])
 {
 #ifdef BAUM_I_WIDE
@@ -73,8 +74,8 @@ static void begin(baum_i_space *b)
   }
 }
 
-/* Subtracts from pull[] and rest[] the products with three columns of a side; `part` is E or R.
- * `high` has rows 4 and 5. */
+/* Subtracts the products with three columns of a side from pull[], from `rest` (rows 0 to 3) and
+ * from `high` (rows 4 and 5). `part` is E or R. */
 BAUM_I_INLINE void subtract_part(baum_i_space *b, const double *part, int n, const double *lambda,
                                  ptrdiff_t at, sums *rest, sums *high)
 {

@@ -59,7 +59,7 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_USER /* the pointer that user functions receive */
 } baum_i_field_kind;
 
-/* The largest count of numbers in a field, and how many defaults of numbers a table can give. */
+/* The largest count of numbers in a field, and how many of their defaults a table can give. */
 enum { BAUM_I_FIELD_SIZE_MAX = 36, BAUM_I_FIELD_DEFAULTS = 6 };
 
 /* One field of a definition. struct_size and name are not in the tables. */

@@ -290,8 +290,8 @@ struct baum_i_manifold {
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
   /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
-  /* Set ddq = N a + N' v, and dx so that N dx is the tangential part of dq. NULL: they are computed
-   * by differences. */
+  /* second_rate() sets ddq = N a + N' v. tangent() sets dx so that N dx is the tangential part of
+   * dq. If a function is NULL, finite differences replace it. */
   void (*second_rate)(const baum_i_body *body, const double *q, const double *v, const double *a,
                       double *ddq);
   void (*tangent)(const baum_i_body *body, const double *q, const double *dq, double *dx);
@@ -456,7 +456,7 @@ typedef struct baum_i_stretch {
 struct baum_i_force_type {
   baum_i_definition definition;
   bool spatial; /* whether elements of the type need spatial frames */
-  /* Set if stretch() returns an angle that positions determine only up to whole revolutions. */
+  /* True if stretch() returns an angle that positions determine only up to whole revolutions. */
   bool counts_revolutions;
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);

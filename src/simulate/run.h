@@ -107,8 +107,9 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
  * plus the revolutions that keep them continuous. Returns the result of baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
-/* The same at the end of a step. Short steps do this only after the bodies have turned a little,
- * because it takes longer than an evaluation. */
+/* Call baum_i_run_follow_angles() at the end of a step, unless all angles are still near to their
+ * last values (baum_i_angles_are_near()). The call takes longer than an evaluation of the
+ * accelerations. */
 void baum_i_run_follow_step(baum_simulation *run, const baum_i_state *end);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)

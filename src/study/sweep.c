@@ -13,12 +13,12 @@ typedef struct sweep {
   const baum_mechanism *mechanism;
   const baum_simulation_options *options;
   const baum_sweep_def *def;
-  int64_t size; /* numbers of a run */
+  int64_t size; /* count of the numbers that a run samples */
   double *rows;
   int32_t *statuses; /* may be NULL */
   atomic_llong next; /* number of the next run */
-  baum_i_lock *lock; /* of the members below */
-  int64_t failed;    /* number of the first run that failed; count: none */
+  baum_i_lock *lock; /* protects the members below */
+  int64_t failed;    /* smallest number of a failed run, or def->count if none failed */
   baum_status status;
   baum_i_kept_message message;
 } sweep;

@@ -5,10 +5,10 @@
  * The positions of spatial bodies determine the angle of a joint only up to whole revolutions. Of
  * the possible values of the angle, the one nearest to an expected angle is used. The expected
  * angle is a linear function of time. At the time angles[2 n] it is angles[2 k], and its rate is
- * angles[2 k + 1]. Here k is the index of the coordinate among the n = BAUM_I_COORDINATES *
- * joint_count coordinates of all joints. They are followed by the angles of forces that count
- * revolutions, one for each force; n includes them. A run updates `angles` after steps. If
- * `angles` is NULL or all zeros, the angle is between -pi and pi.
+ * angles[2 k + 1]. Here k is the index among n angles. First come the BAUM_I_COORDINATES *
+ * joint_count coordinates of all joints. One place for each force follows, which only forces that
+ * count revolutions use. A run updates `angles` after steps. If `angles` is NULL or all zeros, the
+ * angle is between -pi and pi.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATE_H
@@ -88,9 +88,9 @@ void baum_i_hold_angles(baum_i_point *point, double t);
  * prediction, in rad. It is at most pi. */
 double baum_i_follow_angles(baum_i_point *point);
 
-/* Tell whether all angles are so near to their last values that they need not be updated at time t.
- * `rate` is the largest angular velocity of a body; joints may move faster. `angles` must not be
- * NULL. */
+/* Tell whether all angles are still so near to their last values that they need not be updated at
+ * time t. `rate` is the largest angular velocity of a body. The last rates of the angles are compared
+ * too, because they may be larger than `rate`. `angles` must not be NULL. */
 bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate);
 
 #endif

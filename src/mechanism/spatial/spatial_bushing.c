@@ -3,7 +3,7 @@
  * are matrices whose rows are the axes of the bushing on each body, and e is the vector from
  * body_a's point to body_b's point. W and r are as in spatial_rows.h.
  *
- *   x = (d, theta),   d = E_a e,   theta = log R,   R = E_a E_b^T         (6)
+ *   x = (d, theta),   d = E_a e,   theta = log R,   R = E_a E_b^T
  *   V = x^T K x / 2,  f = K x + C x',  g = -H^T f,  H = x_q              (H is 6 x 12)
  *   g_q = -(H^T f)_q at constant f - H^T (K H + C (x')_q),   g_v = -H^T C H
  *
@@ -13,9 +13,9 @@
  *   theta' = B(theta) w,   B u = u - theta x u / 2 + k theta x (theta x u)
  *   k = (1 - h cot h) / (4 h^2),   h = phi / 2
  *
- * B^T has + in front of theta / 2. Let y be a motion with the angular velocities W_ya and W_yb, and
- * m = B^T l for the moments l of f. The moment of l is E_a^T m on body_b, and the opposite on
- * body_a. Along y:
+ * B^T u is the same expression with + theta x u / 2. Let l be the last three numbers of f, and
+ * m = B^T l. In H^T f, the moment of l is E_a^T m on body_b and the opposite on body_a. Let D be the
+ * derivative along a motion y with the angular velocities W_ya and W_yb:
  *
  *   D w = E_a ((W_yb - W_ya) x W_b),   D (E_a^T m) = E_a^T D m + W_ya x E_a^T m
  */
@@ -44,11 +44,11 @@ static const baum_i_def_field fields[] = {
 
 /* ---- definition ---- */
 
-/* Relative size of rounding errors in matrices that were typed in or rotated. */
+/* Relative size of rounding errors in matrices that the user has typed or rotated. */
 static const double ROUNDING = 1e-9;
 
-/* Tells whether a symmetric matrix is positive semidefinite, by elimination. A pivot that is zero
- * up to rounding must have a row that is zero as well. */
+/* Tells whether a symmetric matrix is positive semidefinite, by elimination. If a pivot is zero up
+ * to rounding, the rest of its row must also be zero. */
 static bool is_semidefinite(const double given[MATRIX])
 {
   double m[SIX][SIX];
@@ -99,7 +99,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return check_matrix(def->damping, label, "damping");
 }
 
-/* Stores the mean of a matrix and its transpose, so that rounding errors do no work. */
+/* Stores the mean of a matrix and its transpose, so that forces of a matrix that is symmetric only up
+ * to rounding are conservative. */
 static void set_symmetric(const double given[MATRIX], double out[MATRIX])
 {
   for (int i = 0; i < MATRIX; i++) {
@@ -118,7 +119,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 /* ---- the map B ---- */
 
-/* The rotation vector theta, k, and k' / phi. */
+/* The rotation vector theta, k, and slope = (dk/dphi) / phi. */
 typedef struct turn {
   double theta[3];
   double k, slope;
@@ -199,8 +200,8 @@ static baum_i_spatial_row along_axis(int i)
   return (baum_i_spatial_row){(baum_i_spatial_vector)(BAUM_I_X_A + i), BAUM_I_APART};
 }
 
-/* Computes the angular velocities of both bodies, in ground axes, for a unit velocity. Returns
- * false for translations. */
+/* Computes the angular velocities of both bodies, in ground axes, for the unit velocity of a column.
+ * Returns false if the column is a translation. */
 static bool unit_turn(const bushing *b, int column, double w[2][3])
 {
   const int body = column / SIX, i = column % SIX - 3;
@@ -212,7 +213,7 @@ static bool unit_turn(const bushing *b, int column, double w[2][3])
   return i >= 0;
 }
 
-/* Sets E_a (y - x). */
+/* Sets out = E_a (y - x). */
 static void relative(const bushing *b, const double x[3], const double y[3], double out[3])
 {
   const double apart[3] = {y[0] - x[0], y[1] - x[1], y[2] - x[2]};
@@ -268,8 +269,8 @@ static bushing bushing_at(const baum_i_force *force, const baum_i_point *point)
 
 /* ---- derivatives ---- */
 
-/* Adds the entries of the three displacements to (x')_q, which has six rows, and subtracts (d_q^T
- * f)_q from `square`. */
+/* Sets the first three of the six rows of (x')_q, which are those of d. Subtracts (d_q^T f)_q from
+ * `square`. */
 static void add_displacement(const bushing *b, double *rate_q, double *square)
 {
   for (int i = 0; i < 3; i++) {
@@ -282,7 +283,8 @@ static void add_displacement(const bushing *b, double *rate_q, double *square)
   }
 }
 
-/* Does the same for the rotation vector, along the motion of column j. */
+/* Sets column j of the last three rows of (x')_q, which are those of theta. Subtracts column j of
+ * (theta_q^T f)_q from `square`. */
 static void add_rotation(const bushing *b, int j, double *rate_q, double *square)
 {
   double w[2][3], change[3], turned[3], one[3], other[3], moment[3], ground[3];

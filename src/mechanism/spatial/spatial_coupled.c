@@ -5,16 +5,17 @@
  *   screw              Phi = d - offset - pitch angle / (2 pi)
  *   constant velocity  Phi = y_a . x_b - x_a . y_b
  *
- * d and the angle are the coordinates of a cylindrical joint. Positions determine the angle only up
- * to whole revolutions. Of the values that Phi can therefore have, which differ by multiples of the
- * pitch, the one nearest to 0 is used.
+ * In the screw, d and the angle are the coordinates of a cylindrical joint. Positions determine the
+ * angle only up to whole revolutions, and therefore Phi only up to multiples of the pitch. The value
+ * of Phi that is nearest to 0 is used.
  *
- * The second Phi is 4 p_w p_z with the quaternion p of the relative rotation (see
- * spatial_torsion_spring.c). If it is 0, the relative rotation is about an axis normal to z_a, and
- * the relative angular velocity is normal to z_a + z_b (K. H. Hunt, Constant-velocity shaft
- * couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed axes therefore rotate at
- * equal rates. Phi is also 0 if a shaft is rotated by pi. The sum x_a . x_b + y_a . y_b is negative
- * then. */
+ * In the constant-velocity joint, Phi is 4 p_w p_z with the quaternion p of the relative rotation
+ * (see spatial_torsion_spring.c). If Phi is 0 because p_z is 0, the axis of the relative rotation is
+ * normal to z_a, and the relative angular velocity is normal to z_a + z_b (K. H. Hunt,
+ * Constant-velocity shaft couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed
+ * axes therefore rotate with equal angular velocities. Phi is also 0 if p_w is 0, which is the case
+ * after one shaft is rotated by pi about its axis. The sum x_a . x_b + y_a . y_b is then
+ * negative. */
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +28,7 @@ enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 /* Parameters of a screw, after the points and axes. */
 enum { PITCH = BAUM_I_SPATIAL_NUMBERS, OFFSET, SCREW_COUNT };
 
-/* ---- last rows ---- */
+/* ---- rows of both joints ---- */
 
 /* One joint in a state of the mechanism. */
 typedef struct state {
@@ -37,15 +38,15 @@ typedef struct state {
   baum_i_spatial_pair pair;
 } state;
 
-/* The type of such a joint. Its last row is a sum of two terms. */
+/* The type of a joint whose last row is a sum of two terms. */
 typedef struct coupled_type {
   baum_i_spatial_joint_type spatial;
-  /* Evaluate term `number`, with its factor. */
+  /* Evaluate term `number` (0 or 1), multiplied by its factor. */
   void (*term)(const state *s, int number, baum_i_coordinate *out);
-  /* Compute its second derivatives. w has twelve entries. */
+  /* Compute the second derivatives of this product. w has twelve entries. */
   void (*term_linearize)(const state *s, int number, const double *w, double lambda,
                          baum_i_coordinate_blocks *out);
-  /* Return Phi for the sum of the values of both terms. */
+  /* Return Phi. `sum` is the sum of the values of both terms. */
   double (*phi)(const state *s, double sum);
 } coupled_type;
 
@@ -156,7 +157,7 @@ static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_join
   return baum_i_spatial_lower_axes(mechanism, &joint->element, &joint->span, parameters);
 }
 
-/* The members of both types. */
+/* The members that both types set. */
 #define COUPLED(NAME, TITLE, LOWER, ROWS, COUNT, REVERSED, FIELDS)                             \
   .definition = {BAUM_I_DEFINITION(NAME, TITLE, FIELDS), .check = baum_i_spatial_check_axes,   \
                  .parameter_count = (COUNT)},                                                  \

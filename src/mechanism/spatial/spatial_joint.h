@@ -36,8 +36,8 @@ typedef struct baum_i_spatial_axis_head {
     BAUM_I_OPTIONAL(DEF, axis_b, POINT, "-")
 
 /* Check the head and the axes of a definition, and set BAUM_I_SPATIAL_NUMBERS parameters from them.
- * Joints with axes do this, and forces that have the same fields. The second pair of functions is
- * for definitions in which x_axis follows the axes. */
+ * Joints with axes use these functions, and so do forces with the same fields. The second pair of
+ * functions is for definitions in which x_axis follows the axes. */
 baum_status baum_i_spatial_check_axes(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
 baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,

@@ -97,8 +97,8 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
 void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
-/* Write second derivatives of the first `count` rows of a joint, which are products multiplied by
- * `factor`. w has twelve entries. lambda has `count` entries, or is NULL. The function adds to jw_q
+/* Compute second derivatives of the first `count` rows of a joint. Each row is one of the products
+ * in `rows`, multiplied by `factor`. w has twelve entries. lambda has `count` entries, or is NULL. The function adds to jw_q
  * and jtl_q of `wide`, and sets gamma_q and gamma_v. */
 void baum_i_spatial_linearize_products(const baum_i_spatial_pair *pair,
                                        const baum_i_spatial_row *rows, int count, double factor,

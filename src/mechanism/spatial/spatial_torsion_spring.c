@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Torsion spring and damper in parallel about an axis. Body_b may be inclined to this axis. The
- * angle is the twist of the relative rotation: with its quaternion p and the axis z,
+/* Torsion spring and damper in parallel about the axis z_a. The axis z_b may be inclined to z_a. The
+ * angle is the twist of the relative rotation about the axis. With the quaternion p of this rotation,
  *
  *   angle = 2 atan2(p_z, p_w) = atan2(s, c)
  *   s = y_a . x_b - x_a . y_b,   c = x_a . x_b + y_a . y_b
  *
- * because s = 4 p_w p_z and c = 2 (p_w^2 - p_z^2). The angle is the same seen from both bodies, up
- * to its sign. It is undefined, and there is no torque, if z_b points in the direction opposite to
- * z_a. With h = angle_q and the torque T(angle, angle') of general/spring_law.h:
+ * because s = 4 p_w p_z and c = 2 (p_w^2 - p_z^2). If body_a and body_b are interchanged, only the
+ * sign of the angle changes. If z_b points in the direction opposite to z_a, the angle is undefined
+ * and the torque is 0. Let h = angle_q, and let T(angle, angle') be the torque of
+ * general/spring_law.h, with the partial derivatives T_l by the angle and T_l' by the velocity:
  *
  *   g   = -T h
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (angle')_q
@@ -49,7 +50,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 /* ---- one spring ---- */
 
-/* The products whose sum is c, and those whose difference is s. */
+/* c is the sum of the first two products, and s is the difference of the last two. */
 static const baum_i_spatial_row PRODUCTS[2][2] = {
   {{BAUM_I_X_A, BAUM_I_X_B}, {BAUM_I_Y_A, BAUM_I_Y_B}},
   {{BAUM_I_Y_A, BAUM_I_X_B}, {BAUM_I_X_A, BAUM_I_Y_B}}};
@@ -124,7 +125,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-/* Sets the second derivatives of c or s, for lambda = 1. Only those that forces need are set. */
+/* Sets those second derivatives of c or s that forces need, for lambda = 1. */
 static void set_blocks(const baum_i_spatial_pair *pair, int number, baum_i_inner *x)
 {
   x->blocks = (baum_i_coordinate_blocks){.jw_q = {0.0}};
