@@ -157,8 +157,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 /* ---- torsion spring -------------------------------------------------------------------------- */
 
 /** A torsion spring and damper in parallel between two bodies, about an axis, or a law of your own.
- *  The restoring torque is stiffness (angle - free_angle) + damping (d/dt angle). If it is positive,
- *  it acts on body_b in the direction in which the angle decreases.
+ *  The restoring torque is stiffness (angle - free_angle) + damping (d/dt angle). If it is
+ *  positive, it acts on body_b in the direction in which the angle decreases.
  *
  *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
  *  decomposition: if the smallest rotation that makes axis_b parallel to axis is applied to body_b,

@@ -510,8 +510,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
 
 /** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). Five
  *  rows: two for the directions of the axes [-], and three lengths [m]. The last row, which is that
- *  of the thread, is evaluated modulo the pitch, so it does not depend on the number of revolutions.
- *  Coordinates: displacement and angle, as for the cylindrical joint. */
+ *  of the thread, is evaluated modulo the pitch, so it does not depend on the number of
+ *  revolutions. Coordinates: displacement and angle, as for the cylindrical joint. */
 typedef struct baum_spatial_screw_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -562,8 +562,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 /** A constant-velocity joint, such as a Rzeppa joint: two shafts meet at a point and rotate with
  *  equal angular velocities about their axes, at any angle between the axes. Four rows: three for
  *  the points [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a
- *  at 0. The angle between the axes must stay below 180 degrees. The derivatives of the fourth row are
- *  proportional to the cosine of half this angle, so the joint is ill-conditioned close to 180
+ *  at 0. The angle between the axes must stay below 180 degrees. The derivatives of the fourth row
+ *  are proportional to the cosine of half this angle, so the joint is ill-conditioned close to 180
  *  degrees. */
 typedef struct baum_spatial_constant_velocity_def {
   size_t struct_size;  /**< Set by the default. Do not write. */

@@ -20,11 +20,11 @@ static const double SETTLING = 1e-9;
 static const double SETTLED_IN_SPACE = 1e-9;
 static const double SETTLING_IN_SPACE = 1e-12;
 
-/* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest one,
- * and the amplification (space_block.h) tells how much a = a0 - W J^T lambda increases errors of
- * lambda. Solutions with a pivot above FAIR_PIVOT are not refined if amplification / pivot is at
- * most MOST_LOST. Their errors against quadruple precision were below
- * 1e-10 in 1500 random mechanisms, and below 1e-12 in all scenes of test_spatial_accuracy.c. */
+/* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest
+ * one, and the amplification (space_block.h) tells how much a = a0 - W J^T lambda increases errors
+ * of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if amplification / pivot is at
+ * most MOST_LOST. Their errors against quadruple precision were below 1e-10 in 1500 random
+ * mechanisms, and below 1e-12 in all scenes of test_spatial_accuracy.c. */
 static const double FAIR_PIVOT = 1e-4;
 static const double MOST_LOST = 1e5;
 
@@ -149,10 +149,11 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
   set_omitted_rates(w, path, v);
 }
 
-/* Tell whether the residual is at rounding level. In a projection, the motion a corrects a violation
- * that has rounding errors itself, so a residual below these errors is also accepted. They are
- * proportional to the terms of J x with x = beside * scale, where `beside` is the scaled size of the
- * state. MARGIN makes the limit smaller than this estimate. For accelerations, `beside` is 0. */
+/* Tell whether the residual is at rounding level. In a projection, the motion a corrects a
+ * violation that has rounding errors itself, so a residual below these errors is also accepted.
+ * They are proportional to the terms of J x with x = beside * scale, where `beside` is the scaled
+ * size of the state. MARGIN makes the limit smaller than this estimate. For accelerations, `beside`
+ * is 0. */
 static const double MARGIN = 0.125;
 
 static bool check(const baum_workspace *w, const baum_i_block_path *path, double beside)
@@ -369,8 +370,8 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* With good pivots and even masses the relative error of a solution is far below 1e-8. If a
- * projection changes the velocities by less than this fraction, it therefore needs no refinement. */
+/* With good pivots and even masses the relative error of a solution is far below 1e-8. A
+ * projection that changes the velocities by less than this fraction therefore is not refined. */
 static const double SMALL_CHANGE = 1e-8;
 
 static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)

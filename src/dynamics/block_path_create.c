@@ -27,8 +27,8 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* Tell whether the solver of space can be used: at least one body is spatial, and no body consists of
- * user coordinates. */
+/* Tell whether the solver of space can be used: at least one body is spatial, and no body consists
+ * of user coordinates. */
 static bool is_in_space(const baum_mechanism *m)
 {
   bool found = false;

@@ -60,8 +60,8 @@ static weakest smallest_of_blocks(const baum_i_block *block)
   return found;
 }
 
-/* Return an upper bound of the reciprocal pivot of a node. A determinant is at most the product of the
- * diagonal entries (J. Hadamard, 1893). */
+/* Return an upper bound of the reciprocal pivot of a node. A determinant is at most the product of
+ * the diagonal entries (J. Hadamard, 1893). */
 static double bound_in_space(const baum_i_space *space, int k)
 {
   const baum_i_space_measure *of = &space->measures[k];

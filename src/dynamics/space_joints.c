@@ -11,7 +11,8 @@
 static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppde", "pppded", "dess",
                                                   "dessd", "des",  "ss",    "s"};
 
-/* Return the kind of a row, see space_joints.h. `before` is the preceding row of the joint, or NULL. */
+/* Return the kind of a row, see space_joints.h. `before` is the preceding row of the joint, or
+ * NULL. */
 static char kind_of(const baum_i_spatial_row *row, const baum_i_spatial_row *before)
 {
   if (row->x >= BAUM_I_X_GROUND) {

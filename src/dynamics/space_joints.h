@@ -20,8 +20,9 @@ typedef struct baum_i_space_frame {
 } baum_i_space_frame;
 
 /* Each letter in the name of a shape is a kind of row, in the order of the rows. P: three rows that
- * make points coincide. D: the product of two axes, one on each body. E: a row D with the same axis on
- * body_b as the row before. S: the product of an axis on body_a and the vector between the points. */
+ * make points coincide. D: the product of two axes, one on each body. E: a row D with the same axis
+ * on body_b as the row before. S: the product of an axis on body_a and the vector between the
+ * points. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_P,
   BAUM_I_SHAPE_PD,

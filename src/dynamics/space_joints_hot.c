@@ -8,8 +8,8 @@
  *   row e    a row d with the same y as the row before
  *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
  *
- * gamma is -Phi'' without the accelerations. For a row d, let y' = W_b x y and z = y' - W_a x y. Then
- * Phi' = z . x and gamma = -(W_b x y' + (y' + z) x W_a) . x.
+ * gamma is -Phi'' without the accelerations. For a row d, let y' = W_b x y and z = y' - W_a x y.
+ * Then Phi' = z . x and gamma = -(W_b x y' + (y' + z) x W_a) . x.
  */
 #include <float.h>
 #include <math.h>
@@ -213,8 +213,8 @@ BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_s
   return d;
 }
 
-/* Puts (t_k)^T B_k into row i of both sides. Sets Phi to the sum of the numbers in terms[0], Phi' to
- * the sum of those in terms[1], and -gamma to the sum of those in terms[2]. */
+/* Puts (t_k)^T B_k into row i of both sides. Sets Phi to the sum of the numbers in terms[0], Phi'
+ * to the sum of those in terms[1], and -gamma to the sum of those in terms[2]. */
 BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                            const four t[2], const four terms[3], int i, rows *out)
 {
@@ -413,8 +413,8 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   store_pivot(b, joint->node, n, d);
 }
 
-/* Sets a joint of n rows. If `points` is true, the first three rows are of kind p. `slides` has bit i
- * set if row i is of kind s. `again` is the row of kind e, or 0 if there is none. */
+/* Sets a joint of n rows. If `points` is true, the first three rows are of kind p. `slides` has bit
+ * i set if row i is of kind s. `again` is the row of kind e, or 0 if there is none. */
 BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                              bool points, unsigned slides, int again, const baum_i_space_pass *at)
 {

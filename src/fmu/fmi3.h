@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The types of the interface FMI 3.0 that a co-simulation FMU without events and clocks needs.
- * The official headers also declare everything else; they are ten times as long.
- * Source: Functional Mock-up Interface Specification 3.0 (Modelica Association, 2022), 2.2. */
+/* The types of FMI 3.0 that a co-simulation FMU without events and clocks needs. The official
+ * headers declare the whole interface and are ten times as long. Source: Functional Mock-up
+ * Interface Specification 3.0 (Modelica Association, 2022), 2.2. */
 #ifndef BAUM_I_FMU_FMI3_H
 #define BAUM_I_FMU_FMI3_H
 
@@ -30,7 +30,7 @@ typedef uint32_t fmi3ValueReference;
 typedef void fmi3LogMessage(void *environment, fmi3Status status, const char *category,
                             const char *message);
 
-/* Report a call that these FMUs do not support. Returns FMI3_ERROR. */
+/* Report that these FMUs do not support a function. Returns FMI3_ERROR. */
 fmi3Status baum_i_fmu_refuse(fmi3Instance instance, const char *function);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The generic binary of exported FMUs: co-simulation by FMI 3.0 of the mechanism in the folder
- * `resources`. docs/fmu.md describes the FMUs.
+/* The binary that all exported FMUs contain. It reads a mechanism from the folder `resources` of
+ * its FMU, and implements co-simulation by FMI 3.0. docs/fmu.md describes the FMUs.
  *
- * Value references: 0 is the time. The inputs follow, then the numbers of the parameters, then the
- * columns of the outputs. */
+ * The value references are numbers from 0 in this order: the time, the inputs, the numbers of the
+ * parameters, and the columns of the outputs. */
 #include "fmu/fmi3.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 typedef struct baum_i_fmu_instance {
   baum_i_fmu_resources resources;
   baum_simulation_options options;
-  double *numbers;      /* as resources.start, with the present values */
+  double *numbers;      /* present values, in the order of resources.start */
   baum_simulation *run; /* NULL before initialization */
   double *row;          /* (width) the outputs */
   int width;
@@ -25,10 +25,11 @@ typedef struct baum_i_fmu_instance {
   void *environment;
 } instance;
 
-/* A saved FMU in one block: this struct, the numbers, and the saved run. */
+/* The saved state of an FMU, in one block of memory: this struct, the numbers, and the saved run.
+ * */
 typedef struct baum_i_fmu_state {
-  size_t size; /* of the block */
-  size_t run;  /* size of the saved run; 0: there is no run */
+  size_t size; /* of the whole block */
+  size_t run;  /* size of the saved run, or 0 if there is no run */
   double start_time;
   double rtol;
   bool is_initialized;
@@ -169,7 +170,7 @@ static fmi3Status load(instance *fmu, const char *folder, const char *token)
   return fmu->numbers ? fmi3Reset(fmu) : converted(fmu, baum_i_fail_memory());
 }
 
-/* The type is `void *` for the callback that is never called. */
+/* The last argument is a callback. It has the type `void *`, because it is never called. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateCoSimulation(const char *, const char *, const char *, bool,
                                                      bool, bool, bool, const fmi3ValueReference *,
                                                      size_t, void *, fmi3LogMessage *, void *);
@@ -255,7 +256,7 @@ fmi3Status fmi3GetFloat64(fmi3Instance fmu, const fmi3ValueReference *references
                           double *values, size_t value_count)
 {
   const size_t number_count = (size_t)fmu->resources.number_count;
-  bool is_current = false; /* the row of outputs */
+  bool is_current = false; /* true after the outputs have been computed */
   if (count != value_count) {
     return fail(fmu, "fmi3GetFloat64: the numbers of variables and values differ");
   }
@@ -311,7 +312,7 @@ fmi3Status fmi3SetFloat64(fmi3Instance fmu, const fmi3ValueReference *references
     return fail(fmu, "fmi3SetFloat64: the numbers of variables and values differ");
   }
   for (size_t k = 0; k < count && status != FMI3_ERROR; k++) {
-    /* the time, with the reference 0, becomes a place that does not exist */
+    /* reference 0, the time, wraps around to a place that does not exist, and is refused */
     status = set_number(fmu, (size_t)references[k] - 1, values[k]);
   }
   return status;
@@ -332,7 +333,7 @@ fmi3Status fmi3DoStep(fmi3Instance fmu, double t, double step, bool never_back, 
     return fail(fmu, "fmi3DoStep: the FMU is not initialized");
   }
   const double now = baum_simulation_time(fmu->run);
-  if (!(fabs(t - now) <= 1e-9 * (fabs(step) + fabs(now)))) { /* more than rounding */
+  if (!(fabs(t - now) <= 1e-9 * (fabs(step) + fabs(now)))) { /* more than rounding errors */
     const baum_i_text text =
       baum_i_text_of("fmi3DoStep: the FMU is at %.17g s, not %.17g s", now, t);
     return fail(fmu, text.text);
@@ -378,15 +379,15 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
   saved->rtol = fmu->options.rtol;
   saved->is_initialized = fmu->is_initialized;
   memcpy(saved->numbers, fmu->numbers, numbers_size(fmu));
-  baum_i_free(*place); /* an earlier state, whose memory the caller hands over */
+  baum_i_free(*place); /* the caller may pass an earlier state, which is replaced */
   *place = saved;
   char *bytes = (char *)saved + sizeof(state) + numbers_size(fmu);
   return run_size > 0 ? converted(fmu, baum_simulation_save(fmu->run, bytes, run_size, &run_size))
                       : FMI3_OK;
 }
 
-/* Whether a run with other numbers or options is needed. Inputs do not count, because the run
- * restores them. */
+/* Tell whether the saved state needs a new run, with other parameters or options. Inputs are not
+ * compared, because restoring a run sets them. */
 static bool needs_other_run(const instance *fmu, const state *saved)
 {
   const size_t inputs = (size_t)fmu->resources.input_count;

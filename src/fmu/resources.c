@@ -54,7 +54,7 @@ static baum_status read_object(const baum_i_scene_reader *r, const baum_i_def_fi
   return BAUM_OK;
 }
 
-/* Find a value of fmu.json, and check its kind. */
+/* Find a value in an object of fmu.json, and check its kind. */
 static baum_status find(const baum_i_scene_reader *r, const baum_i_json_node *object,
                         const char *key, baum_i_json_kind kind, const baum_i_json_node **out)
 {
@@ -182,7 +182,7 @@ static baum_status read_whole(const baum_i_scene_reader *r, baum_i_fmu_resources
   return read_variables(r, out);
 }
 
-/* The path of a file in the folder, which may end with a separator. */
+/* Write the path of a file in a folder. The name of the folder may end with a separator. */
 static baum_status join(const char *folder, const char *name, baum_i_buffer *path)
 {
   const size_t length = strlen(folder);

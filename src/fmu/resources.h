@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The resources of an FMU: scene.json, the mechanism, and fmu.json, its variables and the options
- * of its run. The Python package writes both. */
+/* The resources of an FMU are two files: scene.json contains the mechanism, and fmu.json contains
+ * the variables of the FMU and the options of its run. The Python package writes both files. */
 #ifndef BAUM_I_FMU_RESOURCES_H
 #define BAUM_I_FMU_RESOURCES_H
 
@@ -19,7 +19,7 @@ typedef struct baum_i_fmu_parameter {
 typedef struct baum_i_fmu_resources {
   baum_mechanism *mechanism; /* not frozen */
   baum_simulation_options options;
-  char *token; /* must be the instantiation token of the model description */
+  char *token; /* instantiation token; must equal that of the model description */
   int input_count;
   baum_input_id *inputs;
   int parameter_count;
@@ -27,17 +27,18 @@ typedef struct baum_i_fmu_resources {
   int channel_count;
   baum_channel *channels; /* the outputs */
   int number_count;
-  double *start; /* (number_count) the inputs, then the numbers of all parameters */
+  double *start; /* (number_count) initial inputs, then the numbers of all parameters */
 } baum_i_fmu_resources;
 
 /* Read the resources in a folder. After a failure, only baum_i_fmu_release() may use `out`. */
 baum_status baum_i_fmu_read(const char *folder, baum_i_fmu_resources *out);
 void baum_i_fmu_release(baum_i_fmu_resources *resources);
 
-/* How many numbers a parameter has. */
+/* Return how many numbers a parameter has. */
 int baum_i_fmu_size(const baum_i_fmu_parameter *parameter);
 
-/* Copy the mechanism with these numbers (number_count), and freeze the copy. */
+/* Copy the mechanism, set the parameters of the copy, and freeze it. `numbers` (number_count) is
+ * ordered like `start`. Its inputs are not used here. */
 baum_status baum_i_fmu_build(const baum_i_fmu_resources *resources, const double *numbers,
                              baum_mechanism **out);
 

@@ -251,8 +251,8 @@ typedef struct baum_i_block_kernel {
   /* Substitutes backward, which gives lambda and the motion. Writes lambda (nc), except omitted
    * rows. */
   void (*substitute)(baum_i_block *block, double *lambda);
-  /* Tells whether every row of r - J a is at rounding level. This level is proportional
-   * to the magnitudes of the terms of J a and, if `beside` (motion_size) is not NULL, of J beside. */
+  /* Tells whether every row of r - J a is at rounding level. This level is proportional to the
+   * magnitudes of the terms of J a and, if `beside` (motion_size) is not NULL, of J beside. */
   bool (*check)(const baum_i_block *block, const double *beside);
   /* Corrects a and lambda once by the residual in pull[] and rest[]. Returns the largest change of
    * a multiplier, divided by the largest multiplier. */

@@ -221,8 +221,8 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
 
 enum { MOST = BAUM_I_SPACE_ROWS };
 
-/* Add w G G^T to the lower triangle of s, for a part G (E or R) of three columns. s[j] is column j of
- * the triangle. */
+/* Add w G G^T to the lower triangle of s, for a part G (E or R) of three columns. s[j] is column j
+ * of the triangle. */
 BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double s[MOST][MOST])
 {
   const int rows = tall ? 6 : 4;

@@ -214,8 +214,8 @@ BAUM_I_INLINE column magnitude(column x)
   return (column){baum_i_four_magnitude(x.low), baum_i_magnitude(x.high)};
 }
 
-/* Returns r - J a of one node. If `size` is not NULL, it is set to the sums of the magnitudes of the
- * terms. */
+/* Returns r - J a of one node. If `size` is not NULL, it is set to the sums of the magnitudes of
+ * the terms. */
 BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                              column *size)
 {

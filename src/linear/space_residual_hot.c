@@ -40,8 +40,8 @@ BAUM_I_INLINE void subtract(sums *s, four x, four y)
   s->high = high;
 }
 
-/* Transposes three columns of four numbers to four rows of three numbers. The fourth number of a row
- * can have any value. */
+/* Transposes three columns of four numbers to four rows of three numbers. The fourth number of a
+ * row can have any value. */
 BAUM_I_INLINE void transpose(const four x[3], four rows[4])
 {
 #ifdef BAUM_I_WIDE

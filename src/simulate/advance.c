@@ -151,7 +151,7 @@ static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   BAUM_I_TRY(baum_i_run_try_own_step(run));
-  /* Phi and Phi' at the end of the step are known if the accelerations there were evaluated last. */
+  /* Phi and Phi' at the end of the step are known if the last evaluation was that of its end. */
   bool known = !baum_i_crossings_step(run, &run->trial) && run->integrator->evaluates_end;
   if (run->account) {
     baum_i_account_step(run);

@@ -171,8 +171,8 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
     task = _Task(function, arguments)
     try:
         _worker.put(task)
-        # A signal that comes immediately before a wait does not end this wait, so each wait is
-        # short.
+        # A signal that arrives immediately before a wait does not end this wait. Each wait is
+        # therefore short.
         while not task.finished:
             task.wait(0.2)
     except BaseException:

@@ -42,8 +42,8 @@ def tensor(value: Any, label: str) -> Array:
 
 
 def six_by_six(value: Any, label: str) -> Array:
-    """Return the 36 numbers of a matrix, by rows. value: the six numbers of its diagonal, or a
-    6 x 6 matrix."""
+    """Return the 36 numbers of a 6 x 6 matrix, row-major. value: the matrix, or the six numbers of
+    its diagonal."""
     if _is_matrix(value) or np.size(value) == 36:
         return vector(np.ravel(np.asarray(value)), 36, label)
     return np.ravel(np.diag(vector(value, 6, label)))

@@ -356,13 +356,16 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Let body_b screw along an axis of body_a. Five rows: two for the directions of the axes
-        [-] and three lengths [m].
+        """Add a screw joint: body_b rotates about an axis of body_a and moves along this axis by the
+        pitch per revolution. Five rows: two for the directions of the axes [-] and three lengths
+        [m].
 
         pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
         offset: displacement at which the angle is 0 [m]; by default the value in the design
-            configuration. All other arguments are as in cylindrical(), and so are the coordinates
-            "displacement" and "angle".
+            configuration.
+
+        All other arguments are as in cylindrical(), and so are the coordinates "displacement" and
+        "angle".
         """
         return self._add(Joint, "spatial_screw", locals())
 
@@ -378,9 +381,9 @@ class AddingInSpace:
         axis: ArrayLike = (0.0, 0.0, 1.0),
         axis_b: ArrayLike | None = None,
     ) -> Joint:
-        """Connect two shafts that meet at a point and rotate at equal rates about their axes, at
-        any angle between the axes below 180 degrees. Four rows: three for the points [m] and one
-        for the rotation [-].
+        """Connect two shafts that meet at a point and rotate with equal angular velocities about
+        their axes, at any angle between the axes below 180 degrees. Four rows: three for the points
+        [m] and one for the rotation [-].
 
         axis, axis_b: axes of the shafts. All other arguments are as for other joints.
         """
@@ -432,10 +435,12 @@ class AddingInSpace:
         """Add a torsion spring and a damper between two bodies in space, about an axis. They are
         linear, or a law gives their torque.
 
-        Places and axes are given as for joints. The angle is the twist of body_b about the axis: it
-        remains when the inclination of body_b is undone by the smallest rotation. It is 0 in the
-        design configuration, and runs count its revolutions. All other arguments are as in
-        torsion_spring(). For the angle of a joint, use joint_spring().
+        Points and axes are given as for joints. The angle is the twist of body_b relative to body_a
+        about the axis, as in the swing-twist decomposition: if the smallest rotation that makes
+        axis_b parallel to axis is applied to body_b, a rotation about the axis remains, and the
+        angle is that of this rotation. It is 0 in the design configuration, and runs count its
+        revolutions. All other arguments are as in torsion_spring(). For the angle of a joint, use
+        joint_spring().
         """
         return self._add(Force, "spatial_torsion_spring", locals())
 
@@ -457,7 +462,7 @@ class AddingInSpace:
         """Add an elastic connection of two bodies in space, with stiffness and damping in all six
         directions.
 
-        Places and axes are given as for joints; axis is the z axis of the bushing.
+        Points and axes are given as for joints; axis is the z axis of the bushing.
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing
             on body_a, and the last three to the rotation vector of body_b relative to body_a

@@ -38,7 +38,7 @@ class Channel:
 
     @classmethod
     def of_bytes(cls, key: str, struct: bytes, tag: int) -> Channel:
-        """Make a channel from the bytes of a struct, whose ids get the tag of a mechanism."""
+        """Make a channel from the bytes of its struct. The ids in it get the tag of a mechanism."""
         made = cls(key, 0)
         made.struct = _abi.baum_channel.from_buffer_copy(struct)
         for id in (made.struct.body, made.struct.joint):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Export of mechanisms as FMUs: co-simulation by FMI 3.0 with a binary that reads the scene, so
-that no compiler is needed."""
+"""Export of mechanisms as FMUs for co-simulation by FMI 3.0. Every FMU contains the same compiled
+binary, which reads the scene, so no compiler is needed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 MODEL = "baum_fmu"  # the name of the binary in every FMU
 SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
-# Options that an FMU does not keep. Its simulator gives the start time.
+# Options that an FMU does not support. The simulator sets the start time.
 REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
 
 
@@ -50,8 +50,8 @@ class _Place(ctypes.Structure):
 
 
 def _library_file() -> Path:
-    """Return the file of the loaded library. Where the dynamic loader has searched for it, ask the
-    loader."""
+    """Return the file of the loaded library. If the path of the library has no folder, the dynamic
+    loader has searched for it, and this function asks the loader."""
     if os.path.dirname(library) or sys.platform == "win32":
         return Path(library)
     found = _Place()
@@ -60,8 +60,8 @@ def _library_file() -> Path:
 
 
 def _binary() -> tuple[str, Path]:
-    """Return the path of the binary in an FMU, and its file. The file is beside the library, or in
-    the folder baum there."""
+    """Return the path of the binary in an FMU, and the file of the binary on this system. This file
+    is in the folder of the library, or in the folder baum there."""
     system, suffix = SYSTEMS.get(sys.platform, ("linux", ".so"))
     machine = platform.machine().lower()
     inside = f"binaries/{MACHINES.get(machine, machine)}-{system}/{MODEL}{suffix}"
@@ -110,7 +110,7 @@ def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _channel(channel: Channel) -> dict[str, Any]:
-    """Return a channel as fmu.json contains it: elements by their numbers."""
+    """Return a channel as fmu.json contains it. Bodies and joints are given by their numbers."""
     struct = channel.struct
     found: dict[str, Any] = {"quantity": struct.quantity, "point": list(struct.point)}
     for family in ("body", "joint"):
@@ -187,8 +187,8 @@ def _description(
 
 
 def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
-    """Copy a mechanism. In the copy, parameters that move a body do not move its joints on the
-    body: their places are numbers in body axes, as after Mechanism.copy()."""
+    """Copy a mechanism. If a parameter moves a body, the joints in the copy keep their places on the
+    body, because their points are given in body axes, as after Mechanism.copy()."""
     changes: dict[str, dict[str, Any]] = {}
     for name in parameters:
         element, _, field = name.rpartition(".")
@@ -219,7 +219,7 @@ def export(
     copy.freeze()
     layout = Layout(copy, [copy.channel(one) for one in outputs])
     with copy.simulation(method, **options) as run:
-        run.get(*layout.channels.values())  # refuse what the FMU could not simulate
+        run.get(*layout.channels.values())  # fails here if the FMU could not be simulated
     read = copy.inputs if inputs is None else [copy.find("input", one) for one in inputs]
     variables = [_Variable("time", "independent", "continuous")]
     variables += [_Variable(one.name, "input", "continuous", one.initial) for one in read]
@@ -250,7 +250,7 @@ def export(
 
 
 def _write(path: Path, files: Sequence[tuple[str, bytes]]) -> None:
-    """Write the archive. Equal mechanisms give equal archives: times of files are omitted."""
+    """Write the archive. It contains no times of files, so equal mechanisms give equal archives."""
     with zipfile.ZipFile(path, "w") as archive:
         for name, data in files:
             archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)

@@ -584,11 +584,11 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         outputs: channels, such as "slider.pose"; each of their columns is an output of the FMU.
         inputs: inputs of the mechanism that are inputs of the FMU, by default all.
         parameters: numbers that users of the FMU can change, as "element.field", such as
-            "rod.mass". The initial configuration consists of such numbers, too.
+            "rod.mass". The positions and velocities of bodies at the start are such numbers, too.
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
             start_time. Choose a fixed step for control loops.
 
-        Raises ValueError if the mechanism contains functions, because a binary cannot contain
-        Python.
+        Raises ValueError if the mechanism contains functions, because an FMU cannot contain Python
+        functions.
         """
         fmu.export(self, path, integrator, outputs, inputs, parameters, options)

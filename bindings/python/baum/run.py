@@ -85,8 +85,8 @@ class Account(NamedTuple):
 
 
 class _Pickled(NamedTuple):
-    """What a pickled run knows about its mechanism: its scene, whether it has functions, and its
-    recorded channels as bytes."""
+    """What a pickled run contains of its mechanism: the scene, whether the mechanism has functions,
+    and the structs of the recorded channels as bytes."""
 
     scene: str
     has_functions: bool

@@ -126,8 +126,8 @@ class Scenes:
 
         functions: names for functions and objects, such as {"drag": drag}. A function that is not
             listed is written by its own name, or as "element.field" if it has none.
-        units: a note on the units, such as "mm, t, s". It has no effect on baum, which does not
-            keep it when it reads the scene.
+        units: a note on the units, such as "mm, t, s". baum ignores this note and does not keep it
+            when it reads the scene.
         """
         text = _print(self, _Hooks(self, functions or {}))
         first, rest = text.split(",\n", 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write docs/scene.schema.json: the JSON schema of scenes, from the public headers.
+"""Write docs/scene.schema.json, the JSON schema of scenes. It is generated from the public headers.
 
 usage: generate_schema.py [--check] [INCLUDE_DIR [FILE]]
 
@@ -21,7 +21,7 @@ NAME = {"type": "string", "minLength": 1}
 ELEMENT = {
     "type": ["string", "integer"],
     "minimum": 0,
-    "description": 'Its name, or its number from 0. The body "ground" does not move.',
+    "description": 'The name of the element, or its number from 0. The body "ground" is fixed.',
 }
 
 
@@ -30,13 +30,13 @@ def reference(name):
 
 
 def numbers(count=None):
-    """A list of numbers, with any length if no count is given."""
+    """Return the schema of a list of `count` numbers, or of any length if no count is given."""
     size = {} if count is None else {"minItems": count, "maxItems": count}
     return {"type": "array", "items": reference("number"), **size}
 
 
 def property_of(field, spelled):
-    """The schema of a field that has this type of ctypes."""
+    """Return the schema of a field. spelled: the ctypes type of the field, as text."""
     size = re.fullmatch(r"c_double \* (\d+)", spelled)
     if size:
         return numbers(int(size[1]))
@@ -55,12 +55,12 @@ def property_of(field, spelled):
         "POINTER(baum_body_id)": {"type": "array", "items": reference("element")},
     }
     if spelled not in known:
-        raise SystemExit(f"not understood: {field} of type {spelled}")
+        raise SystemExit(f"there is no schema for the field {field} of type {spelled}")
     return known[spelled]
 
 
 def kind_of(text, name, family, fields):
-    """The schema of the elements of a kind."""
+    """Return the schema of the elements of a kind."""
     comments = field_comments(text, f"baum_{name}_def")
     properties = {"kind": {"const": name}, "name": dict(NAME)}
     for field, spelled in fields:
@@ -73,7 +73,7 @@ def kind_of(text, name, family, fields):
 
 
 def closed(properties, required):
-    """The schema of an object that has no other keys."""
+    """Return the schema of an object that has these keys and no others."""
     return {
         "type": "object",
         "properties": properties,
@@ -83,7 +83,7 @@ def closed(properties, required):
 
 
 def outlines():
-    """The schema of a list of outlines."""
+    """Return the schema of a list of outlines."""
     corners = {"type": "array", "items": {"type": "integer"}, "minItems": 3, "maxItems": 3}
     properties = {
         "form": {"enum": ["polygon", "circle", "box", "cylinder", "sphere", "mesh"]},
@@ -133,7 +133,7 @@ def generate(include, kinds):
 
 
 def lines(value, indent=0, width=100):
-    """Write JSON. Every list and object that fits is on one line."""
+    """Return JSON text. Every list and object that fits into one line is written on one line."""
     text = json.dumps(value)
     if indent + len(text) <= width or not isinstance(value, (list, dict)):
         return text
@@ -155,7 +155,7 @@ def main():
     if not options.check:
         options.file.write_text(text, encoding="utf-8")
     elif options.file.read_text(encoding="utf-8") != text:
-        sys.exit(f"{options.file} is not what the headers give: run {Path(__file__).name}")
+        sys.exit(f"{options.file} does not agree with the headers: run {Path(__file__).name}")
 
 
 if __name__ == "__main__":

@@ -89,8 +89,8 @@ void baum_i_hold_angles(baum_i_point *point, double t);
 double baum_i_follow_angles(baum_i_point *point);
 
 /* Tell whether all angles are still so near to their last values that they need not be updated at
- * time t. `rate` is the largest angular velocity of a body. The last rates of the angles are compared
- * too, because they may be larger than `rate`. `angles` must not be NULL. */
+ * time t. `rate` is the largest angular velocity of a body. The last rates of the angles are
+ * compared too, because they may be larger than `rate`. `angles` must not be NULL. */
 bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate);
 
 #endif

@@ -6,16 +6,16 @@
  *   constant velocity  Phi = y_a . x_b - x_a . y_b
  *
  * In the screw, d and the angle are the coordinates of a cylindrical joint. Positions determine the
- * angle only up to whole revolutions, and therefore Phi only up to multiples of the pitch. The value
- * of Phi that is nearest to 0 is used.
+ * angle only up to whole revolutions, and therefore Phi only up to multiples of the pitch. The
+ * value of Phi that is nearest to 0 is used.
  *
  * In the constant-velocity joint, Phi is 4 p_w p_z with the quaternion p of the relative rotation
- * (see spatial_torsion_spring.c). If Phi is 0 because p_z is 0, the axis of the relative rotation is
- * normal to z_a, and the relative angular velocity is normal to z_a + z_b (K. H. Hunt,
+ * (see spatial_torsion_spring.c). If Phi is 0 because p_z is 0, the axis of the relative rotation
+ * is normal to z_a, and the relative angular velocity is normal to z_a + z_b (K. H. Hunt,
  * Constant-velocity shaft couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed
  * axes therefore rotate with equal angular velocities. Phi is also 0 if p_w is 0, which is the case
- * after one shaft is rotated by pi about its axis. The sum x_a . x_b + y_a . y_b is then
- * negative. */
+ * after one shaft is rotated by pi about its axis. The sum x_a . x_b + y_a . y_b is negative then.
+ * */
 #include <math.h>
 #include <string.h>
 

@@ -98,8 +98,8 @@ void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatia
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
 /* Compute second derivatives of the first `count` rows of a joint. Each row is one of the products
- * in `rows`, multiplied by `factor`. w has twelve entries. lambda has `count` entries, or is NULL. The function adds to jw_q
- * and jtl_q of `wide`, and sets gamma_q and gamma_v. */
+ * in `rows`, multiplied by `factor`. w has twelve entries. lambda has `count` entries, or is NULL.
+ * The function adds to jw_q and jtl_q of `wide`, and sets gamma_q and gamma_v. */
 void baum_i_spatial_linearize_products(const baum_i_spatial_pair *pair,
                                        const baum_i_spatial_row *rows, int count, double factor,
                                        const double *w, const double *lambda,

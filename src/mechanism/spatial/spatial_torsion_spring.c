@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Torsion spring and damper in parallel about the axis z_a. The axis z_b may be inclined to z_a. The
- * angle is the twist of the relative rotation about the axis. With the quaternion p of this rotation,
+/* Torsion spring and damper in parallel about the axis z_a. The axis z_b may be inclined to z_a.
+ * The angle is the twist of the relative rotation about the axis. With the quaternion p of this
+ * rotation,
  *
  *   angle = 2 atan2(p_z, p_w) = atan2(s, c)
  *   s = y_a . x_b - x_a . y_b,   c = x_a . x_b + y_a . y_b
