@@ -25,8 +25,7 @@ typedef struct baum_i_fmu_instance {
   void *environment;
 } instance;
 
-/* The saved state of an FMU, in one block of memory: this struct, the numbers, and the saved run.
- * */
+/* The saved state of an FMU, one block of memory with this struct, the numbers and the run. */
 typedef struct baum_i_fmu_state {
   size_t size; /* of the whole block */
   size_t run;  /* size of the saved run, or 0 if there is no run */

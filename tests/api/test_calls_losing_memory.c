@@ -77,7 +77,8 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* Returns the digest of a scene. Of a run, it covers the state, or all that it saves. */
+/* Returns the digest of a scene. For a run, the digest covers its state and, if `all` is true, also
+ * everything that a saved run contains. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};

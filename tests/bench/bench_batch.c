@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Measures what a run costs more in baum_sweep() than alone: it copies, changes and freezes the
- * mechanism. The mechanism is a slider-crank without a driver, and a run takes 0.2 s with rk8 at
- * rtol 1e-8. CPU times are measured in pairs, and the ratio is that of their sums. */
+/* Compares the time of a run in baum_sweep() with that of the same run alone. In baum_sweep(), each
+ * run also copies, changes and freezes the mechanism. The mechanism is a slider-crank without a
+ * driver. A run simulates 0.2 s by rk8 with rtol 1e-8. CPU times are measured in pairs, and the
+ * printed ratio is that of the sums of all pairs. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -34,7 +35,7 @@ static baum_status change(baum_mechanism *copy, int64_t run, void *user)
   const baum_body_id *rod = user;
   baum_planar_body_def def;
   check(baum_mechanism_get_planar_body(copy, *rod, &def, sizeof def));
-  def.mass *= 1.0 + 1e-12 * (double)run; /* so little that all runs take the same steps */
+  def.mass *= 1.0 + 1e-12 * (double)run; /* a change so small that all runs take the same steps */
   return baum_mechanism_set_planar_body(copy, *rod, &def);
 }
 

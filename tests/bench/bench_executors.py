@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run 1000 slider-cranks by baum.sweep() on each kind of executor, and compare all bits.
 
-usage: bench_executors.py [COUNT]                                 Dask if it is installed
-       mpiexec -n 3 python -m mpi4py.futures bench_executors.py   with MPI: a manager, two ranks
+usage: bench_executors.py [COUNT]                                 with Dask, if it is installed
+       mpiexec -n 3 python -m mpi4py.futures bench_executors.py   with MPI: one manager, 2 workers
 """
 
 import concurrent.futures
@@ -42,7 +42,7 @@ class Serial:
 
 
 def count():
-    # Other ranks import this file with other arguments, so it is read only where it is needed.
+    # MPI workers import this file with other arguments, so the argument is read only when needed.
     return int(sys.argv[1]) if len(sys.argv) > 1 else 1000
 
 

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Prints the cost of a step, with all monitors, relative to the cost of its evaluations of the
+/* Compares the cost of a step, with all monitors, with the cost of its evaluations of the
  * accelerations.
  *
  * usage: bench_step                     prints a table
- *        bench_step CASE METHOD COUNT   takes these steps COUNT times, for callgrind
+ *        bench_step CASE METHOD COUNT   simulates one case COUNT times, for callgrind
  *
- * Columns: evaluations per step; instructions of a step and of an evaluation, and step /
- * (evaluations per step x evaluation); the same ratio of times. Instructions are counted on Linux,
- * where the system permits it; otherwise they are nan. Parts of the motion are repeated that do not
- * come near a singular configuration. Steps and evaluations alternate. The
- * evaluations include those of the companion (simulate/companion.c). parts/timing.h defines the
- * time.
+ * The columns are the evaluations per step, the instructions of a step, the instructions of an
+ * evaluation, and two ratios. Each ratio is that of a step to all of its evaluations; the first one
+ * compares instructions, the second one times. Instructions are counted on Linux if the system
+ * permits it; otherwise they are nan.
+ *
+ * Each case repeats a part of the motion that does not come near a singular configuration.
+ * Measurements of steps and of evaluations alternate. The evaluations include those of the
+ * companion (simulate/companion.c). parts/timing.h defines how times are measured.
  */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* syscall() */
@@ -34,7 +36,7 @@ static const struct {
   const char *name;
   scene_kind kind;
   int n;
-  double end; /* [s] of the part of the motion, about 1 rad */
+  double end; /* [s] end of the simulated part of the motion, after about 1 rad */
 } CASES[] = {
   {"slider_crank", SCENE_ONE_GUIDE, 1, 0.01},
   {"andrews", SCENE_ANDREWS, 1, 0.005},
@@ -54,7 +56,7 @@ static const struct {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  int steps; /* of a part, or 0 for steps of variable length */
+  int steps; /* number of steps, or 0 for a variable step */
 } METHODS[] = {
   {"semi_implicit_euler", baum_semi_implicit_euler, BAUM_FORMULATION_BAUMGARTE, 2000},
   {"rk4", baum_rk4, BAUM_FORMULATION_BAUMGARTE, 200},
@@ -71,8 +73,8 @@ typedef struct bench {
   scene at;
   baum_simulation *run;
   double end;             /* [s] */
-  baum_counters counters; /* of one part */
-  int evaluations;        /* of one part, with those of the companion */
+  baum_counters counters; /* of one simulation */
+  int evaluations;        /* of one simulation, with those of the companion */
   double alpha;           /* [1/s] */
   double beta;
 } bench;
@@ -127,7 +129,8 @@ static bool evaluate(bench *b)
   return fine;
 }
 
-/* The resolution of CPU times is better than a tenth of a part. */
+/* The cost is the smallest of these measurements. The resolution of CPU times is better than a
+ * tenth of a measurement. */
 enum { REPETITIONS = 5 };
 
 typedef struct cost {
@@ -178,7 +181,7 @@ static bool make(int k, int method, bench *out)
          baum_simulation_create(out->at.m.mechanism, &options, &out->run) >= BAUM_OK;
 }
 
-/* Counts the steps and evaluations of one part. */
+/* Counts the steps and evaluations of one simulation. */
 static bool count(bench *b)
 {
   const baum_workspace *companion = b->run->beside[1];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ratios of screws, gears, belts and constant-velocity joints, over 100 revolutions forward and
- * backward, also in restored runs. */
+/* Tests the ratios of screws, gears, belts and constant-velocity joints over 100 revolutions
+ * forward and backward, also in restored runs. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@
 static const double PITCH = -0.05;       /* [m] */
 static const double GEAR = -37.0 / 23.0; /* ratio of a gear pair with skew axes */
 static const double BELT = 0.4;          /* ratio of the belt that drives the screw */
-static const double STIFFNESS = 0.2;     /* [N m/rad] of the spring that turns the train back */
+static const double STIFFNESS = 0.2;     /* [N m/rad] of the spring that rotates the train back */
 static const double AMPLITUDE = 640.0;   /* [rad] more than 100 revolutions */
 static const double MOMENT = 0.5;        /* [kg m^2] of each body */
 static const double TRAVEL_MASS = 2.0;   /* [kg] of each body */

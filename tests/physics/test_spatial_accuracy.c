@@ -23,9 +23,9 @@ static const double ORDINARY = 1e-12;
 static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
-/* If large moments of joints on a light body nearly cancel, rounding the positions or J changes its
- * acceleration by more than the solver does. For uneven masses, this many times the change by
- * rounded positions is subtracted from the errors. */
+/* If large moments of joints on a light body nearly cancel, rounding the positions or J changes the
+ * acceleration of the body by more than the error of the solver. For uneven masses, the test
+ * therefore subtracts from the errors ROUNDED times the change that rounded positions cause. */
 static const double ROUNDED = 4.0;
 enum { ROUNDINGS = 3 };
 
@@ -160,7 +160,7 @@ static void meet(posed *p, double gain, double rounded, errors *worst)
   worst->lambda = worse(quad_error(p->nc, p->lambda, p->want_lambda), worst->lambda);
 }
 
-/* Includes the errors at a state, then at one off the constraints. */
+/* Includes the errors at a state, and at a second state that violates the constraints. */
 static void meet_all(posed *p, uint64_t *seed, double rounded, errors *worst)
 {
   meet(p, 0.0, rounded, worst);

@@ -64,7 +64,7 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
 /* [N m/rad] Stiffness of a torsion spring. The rotor winds it up by up to 20 rad. */
 static const double STIFFNESS = 4.0;
 
-/* The spring is a spring of the joint, or one between the two bodies. */
+/* The spring is either a joint spring or a torsion spring between the two bodies. */
 typedef enum winding { OF_JOINT, OF_BODIES, WINDINGS } winding;
 
 static void add_torsion_spring(baum_mechanism *m, double damping)

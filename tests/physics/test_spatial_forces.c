@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bushings and torsion springs in space. Forces are compared with closed forms, small motions with
- * the linear equations of six coordinates. Large motions of every integrator are compared with each
- * other. */
+/* Tests bushings and torsion springs in space. Forces are compared with closed forms, and small
+ * motions with the linear equations of six coordinates. Large motions are compared between all
+ * integrators. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -294,7 +294,7 @@ static double run_pair(bool damped, const baum_simulation_options *given, double
   assert_true(damped == (account.dampers < -1e-3));
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
-  return fabs(account.residual) / 20.0; /* [J] size of the kinetic energy */
+  return fabs(account.residual) / 20.0; /* [J] typical kinetic energy */
 }
 
 /* Returns the allowed error of a method. It is at least three times the measured one. */
@@ -325,7 +325,7 @@ static void check_method(bool damped, step_mode mode, baum_formulation formulati
   }
 }
 
-/* RATTLE does not take part with damping. It refuses forces that depend on velocities. */
+/* RATTLE runs only without damping, because it refuses forces that depend on velocities. */
 static void every_method_makes_the_same_motion(void **state)
 {
   (void)state;

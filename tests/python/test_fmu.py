@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests FMUs: their binary is called directly, and by FMPy if it is installed."""
+"""Tests FMUs. The functions of the binary are called directly and, if FMPy is installed, by FMPy."""
 
 import ctypes
 import importlib.util
@@ -43,7 +43,7 @@ def control(angle, velocity):
 
 
 class Unpacked:
-    """An FMU in a folder, whose functions are called directly. Calls that fail raise OSError."""
+    """An unpacked FMU. Methods call its functions directly, and raise OSError if a call fails."""
 
     def __init__(self, file, folder):
         zipfile.ZipFile(file).extractall(folder)
@@ -358,7 +358,7 @@ class FmpyTest(FmuTest):
         fmu.terminate()
         fmu.freeInstance()
         wanted = loop_in_python(arm(), 100, "rk8", step=1e-3)
-        # The simulator only calls the library, so the digits are the same.
+        # FMPy only calls the functions of the FMU, so all digits are the same.
         np.testing.assert_array_equal(rows, wanted)
 
 

@@ -38,7 +38,7 @@ class Recipes(unittest.TestCase):
         (block,) = [block for block in blocks if text in block]
         names = {"baum": baum, "m": slider_crank()}
         with contextlib.redirect_stdout(io.StringIO()) as out, warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # those of the other packages
+            warnings.simplefilter("ignore")  # of the other packages
             exec(block, names)
         return names, out.getvalue()
 
@@ -63,8 +63,8 @@ class Recipes(unittest.TestCase):
         names, out = self.run_block("Richardson")
         errors = np.array(re.findall(r"rk8 (\S+)   ida (\S+)", out), dtype=float)
         self.assertEqual(errors.shape, (3, 2))
-        # rk8: error of central differences; rounding at the smallest step. ida: noise, which was
-        # 1e-2 in the worst case.
+        # With rk8 the errors are those of central differences and, at the smallest step, those of
+        # rounding. With ida they are noise of up to 1e-2.
         self.assertLess(errors[:, 0].max(), 1e-6)
         self.assertGreater(errors[:, 1].max(), 1e-5)
 

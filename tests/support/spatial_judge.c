@@ -92,7 +92,7 @@ static errors errors_of(const scene *s, const oracle_answer *from)
 }
 
 /* Returns how much the results of the oracle change if positions, inertias and J change by rounding
- * errors. Those of J matter if forces that go through a light body nearly cancel. */
+ * errors. The rounding errors of J matter if forces on a light body nearly cancel. */
 static errors sensitivity(const scene *s)
 {
   chance c = chance_of(s->seed);

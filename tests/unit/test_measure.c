@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the passes over arrays of base/measure_hot.c, in both versions in which hot files are
- * compiled, against plain loops. */
+/* Compares the functions of base/measure_hot.c with plain loops. Hot files are compiled in two
+ * versions, and both are tested. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,8 +73,8 @@ static void numbers_that_are_not_finite_are_found_everywhere(void **state)
   }
 }
 
-/* A polynomial of degree 4 in q has no error of positions and none of velocities. An error of dv
- * changes dv by dv, and dq by h dv / 2. */
+/* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0. If
+ * v at the end is then changed by e, dv changes by e, and the term h dv / 2 of dq by h e / 2. */
 static void polynomials_have_no_local_error(void **state)
 {
   (void)state;
@@ -102,10 +102,10 @@ static void polynomials_have_no_local_error(void **state)
     s.a[k] = numbers[k][2];
   }
   for (int k = 0; k < 2; k++) {
-    /* the terms are below 6, and dq has the error of the Hermite rule, h^5 / 720 q^(5) = 0 */
+    /* exact up to rounding of terms below 6: the Hermite rule has the error h^5 / 720 q^(5) = 0 */
     ASSERT_NEAR(kernel_of(k)->local_error(MOST, &s), 0.0, 0.0, 1e-14);
   }
-  numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* dv = 0.5, dq = -h/2 (0.5 - 0.5) = 0 */
+  numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* dv = 0.5, dq = -h/2 0.5 + h/2 dv = 0 */
   s.dq = nothing;
   for (int k = 0; k < 2; k++) {
     double want = 0.5 * h * 0.5 + 2.0 * 0.5;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares both versions of the loops of the solver of space, the plain one and the one for this
- * processor. The functions are called one after another, and each gets the same numbers in both
- * versions. tests/physics/test_spatial_accuracy.c compares results with quadruple precision. */
+/* Compares the two versions of the solver of space: the plain one, and the one for this processor.
+ * The functions are called in the order of an evaluation. Before each call, both versions get the
+ * same numbers. tests/physics/test_spatial_accuracy.c compares results with quadruple precision. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -91,7 +91,7 @@ static void copy_motion(const pair *p)
   memcpy(p->space[1]->pull, p->space[0]->pull, motion * sizeof(double));
 }
 
-/* Gives both the same numbers in sides, nodes and couplings. */
+/* Copies the numbers of sides, nodes and couplings, so that both versions have the same ones. */
 static void copy_numbers(const pair *p)
 {
   const baum_i_space *from = p->space[0];

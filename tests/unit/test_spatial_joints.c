@@ -334,9 +334,9 @@ static void find_smooth(test_point *p, int joints, uint64_t *seed)
   assert_true(smooth);
 }
 
-/* Tells whether the axes of the first force, if it has axes, are far from two relative
- * orientations. In these, the angle of a torsion spring is undefined, or the rotation vector of a
- * bushing jumps. */
+/* Tells whether the first force is smooth near this point. A force with axes is not smooth near two
+ * relative orientations: in one the angle of a torsion spring is undefined, and in the other the
+ * rotation vector of a bushing jumps. */
 static bool is_moderate(const test_point *p)
 {
   const baum_i_force *force = p->mechanism->force_count > 0 ? p->mechanism->forces[0] : NULL;
@@ -397,7 +397,7 @@ static void check_springs(const element *e, int a, int b)
   test_point_close(&p);
 }
 
-/* Checks the potential of the forces, if they have one; loads with moments have none. */
+/* Checks the potential of the forces, if there is one. Loads with moments have no potential. */
 static void check_elastic_forces(test_point *p)
 {
   if (p->mechanism->force_count == 1) {

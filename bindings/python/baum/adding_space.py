@@ -356,9 +356,9 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a screw joint: body_b rotates about an axis of body_a and moves along this axis by the
-        pitch per revolution. Five rows: two for the directions of the axes [-] and three lengths
-        [m].
+        """Add a screw joint: body_b rotates about an axis of body_a, and moves along this axis by
+        the pitch per revolution. Five rows: two for the directions of the axes [-] and three
+        lengths [m].
 
         pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
         offset: displacement at which the angle is 0 [m]; by default the value in the design

@@ -135,7 +135,7 @@ def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
     struct: Any = mechanism.read(found) if found is not None and found.kind is not None else None
     kind = dict(pair[:2] for pair in struct._fields_).get(field) if struct else None
     if ctypes.c_double not in (kind, getattr(kind, "_type_", None)):
-        raise ValueError(f'{name!r}: "element.field" with a field of numbers is wanted')
+        raise ValueError(f'{name!r} is not "element.field" with a field of numbers')
     value = getattr(struct, field)
     numbers = [value] if kind is ctypes.c_double else list(value)
     for one, start in zip(_numbered(name, len(numbers)), numbers):
@@ -187,8 +187,8 @@ def _description(
 
 
 def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
-    """Copy a mechanism. If a parameter moves a body, the joints in the copy keep their places on the
-    body, because their points are given in body axes, as after Mechanism.copy()."""
+    """Copy a mechanism. If a parameter moves a body, the joints in the copy keep their places on
+    the body, because their points are given in body axes, as after Mechanism.copy()."""
     changes: dict[str, dict[str, Any]] = {}
     for name in parameters:
         element, _, field = name.rpartition(".")

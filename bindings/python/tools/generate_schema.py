@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Write docs/scene.schema.json, the JSON schema of scenes. It is generated from the public headers.
+"""Write docs/scene.schema.json, the JSON schema of scenes, from the public headers.
 
 usage: generate_schema.py [--check] [INCLUDE_DIR [FILE]]
 
@@ -55,7 +55,7 @@ def property_of(field, spelled):
         "POINTER(baum_body_id)": {"type": "array", "items": reference("element")},
     }
     if spelled not in known:
-        raise SystemExit(f"there is no schema for the field {field} of type {spelled}")
+        raise SystemExit(f"not understood: {field} of type {spelled}")
     return known[spelled]
 
 
@@ -155,7 +155,7 @@ def main():
     if not options.check:
         options.file.write_text(text, encoding="utf-8")
     elif options.file.read_text(encoding="utf-8") != text:
-        sys.exit(f"{options.file} does not agree with the headers: run {Path(__file__).name}")
+        sys.exit(f"{options.file} is not what the headers give: run {Path(__file__).name}")
 
 
 if __name__ == "__main__":

@@ -14,8 +14,7 @@
  * is normal to z_a, and the relative angular velocity is normal to z_a + z_b (K. H. Hunt,
  * Constant-velocity shaft couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed
  * axes therefore rotate with equal angular velocities. Phi is also 0 if p_w is 0, which is the case
- * after one shaft is rotated by pi about its axis. The sum x_a . x_b + y_a . y_b is negative then.
- * */
+ * after one shaft is rotated by pi about its axis; x_a . x_b + y_a . y_b is negative there. */
 #include <math.h>
 #include <string.h>
 
