@@ -77,7 +77,7 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* Returns the digest of a scene. If `all` is true, it covers everything that a saved run contains. */
+/* Returns the digest of a scene. If `all` is true, it includes all that a saved run contains. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};
