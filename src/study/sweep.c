@@ -53,10 +53,10 @@ static baum_status run_one(const sweep *s, int64_t k, double *rows)
   if (status == BAUM_OK) {
     status = s->def->change(copy, k, s->def->user);
   }
-  if (status == BAUM_OK) {
+  if (status >= BAUM_OK) {
     status = baum_mechanism_freeze(copy);
   }
-  if (status == BAUM_OK) {
+  if (status >= BAUM_OK) {
     status = sample(s, copy, rows);
   }
   baum_mechanism_destroy(copy);
@@ -144,7 +144,7 @@ baum_status baum_sweep(const baum_mechanism *mechanism, const baum_simulation_op
     return BAUM_ERR_ARGUMENT; /* the call has set the message */
   }
   sweep s = {.mechanism = mechanism, .options = options, .def = &whole, .rows = rows};
-  s.size = whole.time_count * width;
+  s.size = (int64_t)whole.time_count * width;
   s.statuses = statuses;
   s.failed = whole.count;
   return run_all(&s);
