@@ -328,10 +328,16 @@ fmi3Status fmi3DoStep(fmi3Instance fmu, double t, double step, bool never_back, 
   *needs_events = false;
   *terminates = false;
   *returned_early = false;
+  *reached = t;
   if (!fmu->is_initialized) {
     return fail(fmu, "fmi3DoStep: the FMU is not initialized");
   }
   const double now = baum_simulation_time(fmu->run);
+  *reached = now;
+  if (!(step > 0.0)) {
+    const baum_i_text text = baum_i_text_of("fmi3DoStep: the step is %g s, must be > 0", step);
+    return fail(fmu, text.text);
+  }
   if (!(fabs(t - now) <= 1e-9 * (fabs(step) + fabs(now)))) { /* more than rounding errors */
     const baum_i_text text =
       baum_i_text_of("fmi3DoStep: the FMU is at %.17g s, not %.17g s", now, t);

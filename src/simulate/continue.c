@@ -3,6 +3,7 @@
  * mechanism, but the new run has its own options. */
 #include "base/alloc.h"
 #include "mechanism/definition.h"
+#include "mechanism/general/coordinate.h"
 #include "simulate/run.h"
 
 /* Copies of the present state, the inputs and the driver laws of a run. */
@@ -13,6 +14,7 @@ typedef struct standing {
   /* The parameters of elements that this run has changed, or NULL if it uses those of the
    * mechanism. */
   double *parameters;
+  double *angles; /* of joints and forces that count revolutions, or NULL if there are none */
   baum_i_schedule schedule;
 } standing;
 
@@ -27,7 +29,12 @@ static baum_status copy_standing(const baum_simulation *from, standing *out)
     out->parameters =
       baum_i_copy(from->parameters, (size_t)m->parameter_count, sizeof *out->parameters);
   }
-  bool complete = out->q && out->v && out->inputs && (out->parameters || !from->parameters);
+  const double *angles = from->workspace->point.angles;
+  if (angles) {
+    out->angles = baum_i_copy(angles, (size_t)baum_i_angles_size(m), sizeof *angles);
+  }
+  bool complete = out->q && out->v && out->inputs && (out->parameters || !from->parameters) &&
+                  (out->angles || !angles);
   return complete ? baum_i_schedule_copy(&from->schedule, &out->schedule) : baum_i_fail_memory();
 }
 
@@ -37,10 +44,11 @@ static void clear_standing(standing *s)
   baum_i_free(s->v);
   baum_i_free(s->inputs);
   baum_i_free(s->parameters);
+  baum_i_free(s->angles);
   baum_i_free(s->schedule.jumps);
 }
 
-/* Exchange the inputs, parameters and schedule in *s with those of the run. */
+/* Exchange the inputs, parameters, angles and schedule in *s with those of the run. */
 static void exchange(baum_simulation *run, standing *s)
 {
   baum_workspace *w = run->workspace;
@@ -50,6 +58,11 @@ static void exchange(baum_simulation *run, standing *s)
     double input = w->inputs[k];
     w->inputs[k] = s->inputs[k];
     s->inputs[k] = input;
+  }
+  for (int k = 0; s->angles && k < baum_i_angles_size(w->mechanism); k++) {
+    double angle = w->point.angles[k];
+    w->point.angles[k] = s->angles[k];
+    s->angles[k] = angle;
   }
   run->parameters = s->parameters;
   s->parameters = parameters;
@@ -78,13 +91,14 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
+    (void)baum_i_run_follow_angles(simulation, &from->state);
     /* The state of the other run may violate the constraints by more than this run accepts.
      * Projection then removes the violation and changes q and v as little as possible. */
     if (simulation->options.start != BAUM_START_AS_GIVEN) {
       status = baum_i_project(simulation->workspace, from->state.t, theirs.q, theirs.v);
     }
     if (status == BAUM_OK) {
-      status = baum_simulation_set_state(simulation, from->state.t, theirs.q, theirs.v);
+      status = baum_i_run_set_state(simulation, from->state.t, theirs.q, theirs.v);
     }
     if (status != BAUM_OK) {
       exchange(simulation, &theirs);

@@ -179,6 +179,10 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy);
  * changes of energy count from there. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
+/* Do the same as baum_simulation_set_state(). The counted revolutions are those that are nearest to
+ * the angles in the workspace, which need not be the angles of the present state. */
+baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q, const double *v);
+
 /* ---- choose_gains.c, pilot.c ---- */
 
 /* [1/s] Return the fastest angular rate of the trial state, whose accelerations must be in the

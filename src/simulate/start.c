@@ -449,8 +449,8 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   return BAUM_OK;
 }
 
-baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
-                                      const double *v)
+baum_status baum_i_run_set_state(baum_simulation *simulation, double t, const double *q,
+                                 const double *v)
 {
   BAUM_I_TRY(check_state(simulation, t, q, v));
   baum_i_kept_message kept = baum_i_message_keep();
@@ -470,4 +470,12 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
     baum_i_clear_fixed_rows(simulation->workspace);
   }
   return baum_i_run_end_call(simulation, status, &kept);
+}
+
+baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
+                                      const double *v)
+{
+  BAUM_I_TRY(check_state(simulation, t, q, v));
+  (void)baum_i_run_follow_angles(simulation, &simulation->state); /* steps may have skipped this */
+  return baum_i_run_set_state(simulation, t, q, v);
 }

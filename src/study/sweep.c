@@ -13,7 +13,8 @@ typedef struct sweep {
   const baum_mechanism *mechanism;
   const baum_simulation_options *options;
   const baum_sweep_def *def;
-  int64_t size; /* count of the numbers that a run samples */
+  int32_t width; /* count of the numbers of all channels */
+  int64_t size;  /* count of the numbers that a run samples */
   double *rows;
   int32_t *statuses; /* may be NULL */
   atomic_llong next; /* number of the next run */
@@ -43,6 +44,16 @@ static baum_status sample(const sweep *s, const baum_mechanism *mechanism, doubl
   return status;
 }
 
+/* A changed mechanism may have other sizes. */
+static baum_status check_width(const sweep *s, const baum_mechanism *copy)
+{
+  const int32_t width = baum_channels_width(copy, s->def->channels, s->def->channel_count);
+  return width == s->width ? BAUM_OK
+                           : baum_i_fail(BAUM_ERR_ARGUMENT,
+                                         "the channels have %d numbers, and %d before the change",
+                                         (int)width, (int)s->width);
+}
+
 static baum_status run_one(const sweep *s, int64_t k, double *rows)
 {
   baum_mechanism *copy = NULL;
@@ -55,6 +66,9 @@ static baum_status run_one(const sweep *s, int64_t k, double *rows)
   }
   if (status >= BAUM_OK) {
     status = baum_mechanism_freeze(copy);
+  }
+  if (status >= BAUM_OK) {
+    status = check_width(s, copy);
   }
   if (status >= BAUM_OK) {
     status = sample(s, copy, rows);
@@ -144,6 +158,7 @@ baum_status baum_sweep(const baum_mechanism *mechanism, const baum_simulation_op
     return BAUM_ERR_ARGUMENT; /* the call has set the message */
   }
   sweep s = {.mechanism = mechanism, .options = options, .def = &whole, .rows = rows};
+  s.width = width;
   s.size = (int64_t)whole.time_count * width;
   s.statuses = statuses;
   s.failed = whole.count;

@@ -140,6 +140,33 @@ static void a_failed_run_does_not_stop_the_others(void **state)
   }
 }
 
+/* Adds a body in one run, so that the channel of all positions has more numbers in that run. */
+static baum_status add_body(baum_mechanism *copy, int64_t run, void *user)
+{
+  (void)user;
+  const baum_planar_body_def def = baum_planar_body_def_default();
+  return run == BAD ? baum_mechanism_add_planar_body(copy, &def, NULL) : BAUM_OK;
+}
+
+static void a_run_with_more_numbers_fails(void **state)
+{
+  arm *a = *state;
+  double rows[RUNS][SIZE];
+  int32_t statuses[RUNS];
+  baum_sweep_def def = sweep_of(a);
+  baum_channel all;
+  baum_channel_init(&all, sizeof all);
+  all.quantity = BAUM_Q;
+  def.change = add_body;
+  def.channels = &all;
+  def.channel_count = 1;
+  assert_int_equal(baum_sweep(a->mechanism, &a->options, &def, rows[0], statuses),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "run 7: the channels have 6 numbers"));
+  assert_int_equal(statuses[BAD - 1], BAUM_OK);
+  assert_int_equal(statuses[BAD + 1], BAUM_OK);
+}
+
 static void wrong_arguments_are_refused(void **state)
 {
   arm *a = *state;
@@ -181,6 +208,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_run_equals_the_run_alone),
     cmocka_unit_test(a_failed_run_does_not_stop_the_others),
+    cmocka_unit_test(a_run_with_more_numbers_fails),
     cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -153,6 +153,50 @@ static void a_restored_run_goes_on_counting(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void a_continued_run_goes_on_counting(void **state)
+{
+  (void)state;
+  baum_joint_id bearing;
+  baum_mechanism *m = make(false, &bearing);
+  baum_simulation *run = start(m, baum_rk4());
+  baum_simulation *other = start(m, baum_rk8());
+  check(baum_simulation_advance_to(run, 2.0));
+  check(baum_simulation_continue(other, run));
+  assert_true(fabs(angle_of(other, bearing) - angle_of(run, bearing)) < 1e-9);
+  check(baum_simulation_advance_to(other, 3.0));
+  assert_true(fabs(angle_of(other, bearing) - 3.0 * RATE) < 1e-2);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(other);
+  baum_mechanism_destroy(m);
+}
+
+/* Steps follow the angle only after a tenth of a radian. A state that is set 3.1 rad ahead must
+ * count from the angle that the run has at that moment. */
+static void a_state_that_is_set_is_compared_with_the_present_angle(void **state)
+{
+  (void)state;
+  static const double AHEAD = 3.1; /* [rad] */
+  baum_joint_id bearing;
+  baum_mechanism *m = make(false, &bearing);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3 / RATE;
+  for (int k = 0; k < 6; k++) {
+    baum_simulation *run = NULL;
+    baum_simulation *ahead = NULL;
+    double from = (0.5 + 0.017 * k) / RATE;
+    check(baum_simulation_create(m, &o, &run));
+    check(baum_simulation_create(m, &o, &ahead));
+    check(baum_simulation_advance_to(run, from));
+    check(baum_simulation_advance_to(ahead, from + AHEAD / RATE));
+    check(baum_simulation_set_state(run, from, baum_simulation_q(ahead), baum_simulation_v(ahead)));
+    assert_true(fabs(angle_of(run, bearing) - from * RATE - AHEAD) < 1e-6);
+    baum_simulation_destroy(run);
+    baum_simulation_destroy(ahead);
+  }
+  baum_mechanism_destroy(m);
+}
+
 static void a_driver_prescribes_many_revolutions(void **state)
 {
   (void)state;
@@ -355,6 +399,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(angles_count_revolutions),
     cmocka_unit_test(a_restored_run_goes_on_counting),
+    cmocka_unit_test(a_continued_run_goes_on_counting),
+    cmocka_unit_test(a_state_that_is_set_is_compared_with_the_present_angle),
     cmocka_unit_test(a_driver_prescribes_many_revolutions),
     cmocka_unit_test(springs_wind_up_over_revolutions),
     cmocka_unit_test(energies_are_those_of_the_wound_spring),

@@ -256,6 +256,7 @@ class BinaryTest(FmuTest):
         refuses("already initialized", fmu.initialize)
         refuses("cannot change after initialization", fmu.set, MASS, 2.0)
         refuses("is at 0 s, not 0.5 s", fmu.step, 0.5, 0.1)
+        refuses("the step is -0.1 s, must be > 0", fmu.step, 0.0, -0.1)
         refuses("is nan, must be finite", fmu.set, TORQUE, float("nan"))
         refuses("fmi3SetTime is not supported", fmu.call, "fmi3SetTime", REAL(0))
         self.assertIn(("error", "fmi3SetTime is not supported"), self.unpacked.messages)
@@ -301,12 +302,20 @@ class ExportTest(FmuTest):
         m.force("wind", ["arm"], force=lambda t, q, v: -v)
         with self.assertRaisesRegex(ValueError, "cannot contain functions: wind.force"):
             self.export(m)
+        other = baum.Mechanism()
+        other.input("force")
+        other.input("torque")
         for kind, text, given in (
             (TypeError, "cannot have the option max_steps", dict(step=1e-3, max_steps=3)),
             (TypeError, "no option", dict(step=1e-3, stride=1)),
             (baum.Error, "step", dict(rtol=1e-8, step=1e-3)),
             (KeyError, "no channel", dict(step=1e-3, outputs=["arm.poses"])),
             (KeyError, "no input", dict(step=1e-3, inputs=["force"])),
+            (KeyError, "no input", dict(step=1e-3, inputs=[other["force"]])),
+            (ValueError, '"torque" belongs to another mechanism', dict(step=1e-3, inputs=[other["torque"]])),
+            (ValueError, 'the name "arm.mass"', dict(step=1e-3, parameters=["arm.mass"] * 2)),
+            (ValueError, 'the name "torque"', dict(step=1e-3, inputs=["torque"] * 2)),
+            (ValueError, "max_step is inf", dict(rtol=1e-6, max_step=float("inf"))),
             (ValueError, "field of numbers", dict(step=1e-3, parameters=["arm.masss"])),
             (ValueError, "field of numbers", dict(step=1e-3, parameters=["torque.initial"])),
             (ValueError, "field of numbers", dict(step=1e-3, parameters=["pin.body_a"])),
@@ -314,6 +323,14 @@ class ExportTest(FmuTest):
             with self.assertRaisesRegex(kind, text):
                 self.export(None, "rk8", **given)
         self.assertFalse((self.folder / "arm.fmu").exists())
+
+    def test_orientations_that_an_element_needs_are_no_parameters(self):
+        m = baum.Mechanism()
+        m.spatial_body("b", mass=1, inertia=(1, 1, 1))
+        self.export(m.copy(), step=1e-3, outputs=["energy"], parameters=["b.orientation"])
+        m.spatial_torsion_spring("s", "ground", "b", point=(0, 0, 0), stiffness=1)
+        with self.assertRaisesRegex(ValueError, 'force "s" keeps the relative orientation'):
+            self.export(m, step=1e-3, outputs=["energy"], parameters=["b.orientation"])
 
 
 @unittest.skipUnless(HAS_FMPY, "FMPy is missing: pip install fmpy")

@@ -117,6 +117,10 @@ class SceneTest(FileTest):
         text = crank().scene(units="mm, t, s")
         self.assertIn('"units": "mm, t, s"', text)
         self.assertEqual(baum.parse(text).scene(), crank().scene())
+        with self.assertRaisesRegex(TypeError, "units: a text is wanted, not 5"):
+            crank().scene(units=5)
+        with self.assertRaisesRegex(ValueError, "units: .* contains characters"):
+            crank().scene(units="m\0")
         with self.assertRaisesRegex(baum.Error, 'line 3: "units" is a number, must be a text'):
             baum.parse(text.replace('"mm, t, s"', "3"))
 

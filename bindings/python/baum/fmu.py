@@ -8,6 +8,7 @@ import ctypes
 import hashlib
 import importlib.metadata
 import json
+import math
 import os
 import platform
 import sys
@@ -24,6 +25,7 @@ from .channels import Channel, Layout
 from .integrators import lookup
 
 if TYPE_CHECKING:
+    from .elements import Input
     from .mechanism import Mechanism
 
 MODEL = "baum_fmu"  # the name of the binary in every FMU
@@ -105,6 +107,8 @@ def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
                 changed["gains.rule"] = value.rule
                 changed["gains.value"] = list(value.value)
         elif value != getattr(usual, name) and value == value:
+            if math.isinf(value):
+                raise ValueError(f"export_fmu: {name} is {value}, must be finite")
             changed[name] = value
     return changed
 
@@ -193,8 +197,30 @@ def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mecha
     for name in parameters:
         element, _, field = name.rpartition(".")
         if field in ("position", "angle", "orientation"):
-            changes.setdefault(element, {})[field] = mechanism[element].definition[field]
+            present = mechanism[element].definition[field]
+            changes.setdefault(element, {})[field] = present
+            if field == "orientation":
+                w, x, y, z = present
+                rotated = {element: {field: (-x, w, z, -y)}}
+                list(mechanism._kept_when_moved(rotated))  # refuses elements that need it
     return mechanism.thawed(**changes)
+
+
+def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Sequence[Any] | None) -> list[Input]:
+    """Find inputs in the copy by their names, or by elements of the mechanism."""
+    names = []
+    for one in mechanism.inputs if wanted is None else wanted:
+        name = one if isinstance(one, str) else one.name
+        if one is not name and bytes(mechanism.find("input", name).id) != bytes(one.id):
+            raise ValueError(f'export_fmu: the input "{name}" belongs to another mechanism')
+        names.append(name)
+    return [copy.find("input", name) for name in names]
+
+
+def _check_names(names: Sequence[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f'export_fmu: two variables have the name "{name}"')
 
 
 def export(
@@ -220,7 +246,7 @@ def export(
     layout = Layout(copy, [copy.channel(one) for one in outputs])
     with copy.simulation(method, **options) as run:
         run.get(*layout.channels.values())  # fails here if the FMU could not be simulated
-    read = copy.inputs if inputs is None else [copy.find("input", one) for one in inputs]
+    read = _inputs(mechanism, copy, inputs)
     variables = [_Variable("time", "independent", "continuous")]
     variables += [_Variable(one.name, "input", "continuous", one.initial) for one in read]
     for name in parameters:
@@ -237,6 +263,7 @@ def export(
         "outputs": [_channel(channel) for channel in layout.channels.values()],
     }
     names = [one.name for one in variables]
+    _check_names(names)
     token = hashlib.sha256(json.dumps([scene, interface, names]).encode()).hexdigest()
     interface["token"] = token
     description = _description(Path(path).stem, token, variables, chosen.get("rtol"))

@@ -129,6 +129,11 @@ class Scenes:
         units: a note on the units, such as "mm, t, s". baum ignores this note and does not keep it
             when it reads the scene.
         """
+        if units is not None:
+            if not isinstance(units, str):
+                raise TypeError(f"units: a text is wanted, not {units!r}")
+            if not units.isprintable():
+                raise ValueError(f"units: {units!r} contains characters that cannot be printed")
         text = _print(self, _Hooks(self, functions or {}))
         first, rest = text.split(",\n", 1)
         note = f',\n  "units": {json.dumps(units)}' if units is not None else ""

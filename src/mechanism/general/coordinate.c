@@ -201,6 +201,11 @@ double baum_i_follow_angles(baum_i_point *point)
 bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate)
 {
   static const double NEAR = 0.1; /* [rad] */
+  for (int i = 0; i < point->mechanism->force_count; i++) {
+    if (point->mechanism->forces[i]->type->counts_revolutions) {
+      return false; /* such an angle may change much faster than its bodies rotate */
+    }
+  }
   int size = baum_i_angles_size(point->mechanism);
   for (int k = 1; k < size; k += 2) {
     double own = fabs(point->angles[k]);

@@ -77,7 +77,8 @@ static baum_status check_matrix(const double m[MATRIX], const char *label, const
   for (int i = 0; i < SIX; i++) {
     for (int j = 0; j < i; j++) {
       const double a = m[SIX * i + j], b = m[SIX * j + i];
-      if (fabs(a - b) > ROUNDING * fmax(fabs(a), fabs(b))) {
+      const double diagonal = sqrt(fabs(m[(SIX + 1) * i] * m[(SIX + 1) * j]));
+      if (fabs(a - b) > ROUNDING * fmax(diagonal, fmax(fabs(a), fabs(b)))) {
         return baum_i_fail(BAUM_ERR_ARGUMENT,
                            "%s: %s[%d][%d] is %g and %s[%d][%d] is %g, must be equal", label, field,
                            i, j, a, field, j, i, b);
