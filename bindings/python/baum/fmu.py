@@ -210,10 +210,10 @@ def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Sequence[Any] | None)
     """Find inputs in the copy by their names, or by elements of the mechanism."""
     names = []
     for one in mechanism.inputs if wanted is None else wanted:
-        name = one if isinstance(one, str) else one.name
-        if one is not name and bytes(mechanism.find("input", name).id) != bytes(one.id):
-            raise ValueError(f'export_fmu: the input "{name}" belongs to another mechanism')
-        names.append(name)
+        own = mechanism.find("input", one if isinstance(one, str) else one.name)
+        if not isinstance(one, str) and bytes(own.id) != bytes(one.id):
+            raise ValueError(f'export_fmu: the input "{own.name}" belongs to another mechanism')
+        names.append(own.name)
     return [copy.find("input", name) for name in names]
 
 
