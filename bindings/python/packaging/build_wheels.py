@@ -143,6 +143,12 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     licenses = [zig.with_name("LICENSE")]
     if target.system == "Windows":
         licenses.append(zig.with_name("lib") / "libc" / "mingw" / "COPYING")
+    # Small packages: the linker omits the functions that baum does not use, and on Linux the tables
+    # for C++ exceptions, which C does not need, are omitted.
+    compile = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
+    if target.system == "Linux":
+        compile += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
+    link = "-s -Wl,-dead_strip" if target.system == "Darwin" else "-s -Wl,--gc-sections"
     return {
         "BAUM_BUNDLED": sources,
         "BAUM_RUNTIME_LICENSES": ";".join(map(str, licenses)),
@@ -154,8 +160,9 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON",
         "CMAKE_BUILD_WITH_INSTALL_NAME_DIR": "ON",
         "CMAKE_INSTALL_NAME_DIR": "@loader_path",
-        "CMAKE_C_FLAGS": "-g0 -DBAUM_I_CPUID",  # see src/base/hot.c
-        "CMAKE_SHARED_LINKER_FLAGS": "-s",
+        "CMAKE_C_FLAGS": compile,
+        "CMAKE_SHARED_LINKER_FLAGS": link,
+        "CMAKE_MODULE_LINKER_FLAGS": link,
         "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
     }
