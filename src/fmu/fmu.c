@@ -20,6 +20,7 @@ typedef struct baum_i_fmu_instance {
   baum_simulation *run; /* NULL before initialization */
   double *row;          /* (width) the outputs */
   int width;
+  char token[64]; /* the first characters of the instantiation token */
   bool is_initialized;
   fmi3LogMessage *log; /* may be NULL */
   void *environment;
@@ -27,8 +28,9 @@ typedef struct baum_i_fmu_instance {
 
 /* The saved state of an FMU, one block of memory with this struct, the numbers and the run. */
 typedef struct baum_i_fmu_state {
-  size_t size; /* of the whole block */
-  size_t run;  /* size of the saved run, or 0 if there is no run */
+  size_t size;    /* of the whole block */
+  size_t run;     /* size of the saved run, or 0 if there is no run */
+  char token[64]; /* the first characters of the instantiation token of the FMU */
   double start_time;
   double rtol;
   bool is_initialized;
@@ -164,6 +166,9 @@ static fmi3Status load(instance *fmu, const char *folder, const char *token)
   }
   if (strcmp(fmu->resources.token, token) != 0) {
     return fail(fmu, "the instantiation token is that of another FMU");
+  }
+  for (size_t k = 0; k < sizeof fmu->token && token[k]; k++) {
+    fmu->token[k] = token[k];
   }
   fmu->numbers = baum_i_alloc((size_t)fmu->resources.number_count, sizeof(double));
   return fmu->numbers ? fmi3Reset(fmu) : converted(fmu, baum_i_fail_memory());
@@ -380,6 +385,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
   }
   saved->size = size;
   saved->run = run_size;
+  memcpy(saved->token, fmu->token, sizeof saved->token);
   saved->start_time = fmu->options.start_time;
   saved->rtol = fmu->options.rtol;
   saved->is_initialized = fmu->is_initialized;
@@ -405,7 +411,7 @@ static bool needs_other_run(const instance *fmu, const state *saved)
 FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance, fmi3FMUState);
 fmi3Status fmi3SetFMUState(fmi3Instance fmu, fmi3FMUState saved)
 {
-  if (!saved || saved->size != sizeof(state) + numbers_size(fmu) + saved->run) {
+  if (!saved || memcmp(saved->token, fmu->token, sizeof fmu->token) != 0) {
     return fail(fmu, "fmi3SetFMUState: the state is that of another FMU");
   }
   if (needs_other_run(fmu, saved)) {
@@ -418,11 +424,16 @@ fmi3Status fmi3SetFMUState(fmi3Instance fmu, fmi3FMUState saved)
   if (saved->run == 0) {
     return FMI3_OK;
   }
-  const fmi3Status status = start_run(fmu);
-  const char *bytes = (const char *)saved + sizeof(state) + numbers_size(fmu);
-  return status == FMI3_ERROR
-           ? status
-           : converted(fmu, baum_simulation_restore(fmu->run, bytes, saved->run));
+  fmi3Status status = start_run(fmu);
+  if (status != FMI3_ERROR) {
+    const char *bytes = (const char *)saved + sizeof(state) + numbers_size(fmu);
+    status = converted(fmu, baum_simulation_restore(fmu->run, bytes, saved->run));
+  }
+  if (status == FMI3_ERROR) {
+    end_run(fmu);
+    fmu->is_initialized = false;
+  }
+  return status;
 }
 
 FMI3_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance, fmi3FMUState, size_t *);
@@ -451,7 +462,8 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance fmu, const uint8_t *bytes, size_
   const size_t least = sizeof(state) + numbers_size(fmu);
   state head = {.size = 0};
   memcpy(&head, bytes, size < least ? 0 : sizeof head);
-  if (head.size < least || head.size > size || head.run != head.size - least) {
+  if (head.size < least || head.size > size || head.run != head.size - least ||
+      memcmp(head.token, fmu->token, sizeof fmu->token) != 0) {
     return fail(fmu, "fmi3DeserializeFMUState: the bytes are not a state of this FMU");
   }
   state *copy = baum_i_copy(bytes, head.size, 1);

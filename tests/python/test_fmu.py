@@ -222,6 +222,11 @@ class BinaryTest(FmuTest):
         for wrong in (size.value - 1, 3):
             with self.assertRaisesRegex(OSError, "not a state of this FMU"):
                 other.call("fmi3DeserializeFMUState", bytes, SIZE(wrong), ctypes.byref(copy))
+        stranger = self.create(step=5e-4)  # an FMU with the same variables
+        with self.assertRaisesRegex(OSError, "not a state of this FMU"):
+            stranger.call("fmi3DeserializeFMUState", bytes, size, ctypes.byref(copy))
+        with self.assertRaisesRegex(OSError, "that of another FMU"):
+            stranger.call("fmi3SetFMUState", state)
         for one in (state, copy):
             fmu.call("fmi3FreeFMUState", ctypes.byref(one))
             self.assertIsNone(one.value)

@@ -29,22 +29,27 @@ def slider_crank():
 
 
 class Recipes(unittest.TestCase):
-    def run_block(self, text, *packages):
-        """Execute the block of the page that contains this text, and return its variables."""
+    def run_block(self, text, *packages, **names):
+        """Execute the block of the page that contains this text, and return its variables. `names`
+        are variables of earlier blocks."""
         for package in packages:
             if importlib.util.find_spec(package) is None:
                 self.skipTest(f"{package} is missing")
         blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.S)
         (block,) = [block for block in blocks if text in block]
-        names = {"baum": baum, "m": slider_crank()}
+        names = {"baum": baum, "m": slider_crank(), **names}
         with contextlib.redirect_stdout(io.StringIO()) as out, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of the other packages
             exec(block, names)
         return names, out.getvalue()
 
     def test_scipy_finds_the_masses(self):
-        names, _ = self.run_block("least_squares", "scipy")
+        names, _ = self.run_block("import least_squares", "scipy")
         np.testing.assert_allclose(names["fit"].x, [0.038, 0.076], rtol=1e-6)
+        iterations = names.pop("fit").njev
+        names, _ = self.run_block("def jacobian", **names)
+        np.testing.assert_allclose(names["fit"].x, [0.038, 0.076], rtol=1e-6)
+        self.assertLessEqual(names["fit"].njev, iterations)
 
     def test_salib_finds_the_most_important_mass(self):
         names, _ = self.run_block("SALib", "SALib")
@@ -59,14 +64,15 @@ class Recipes(unittest.TestCase):
             self.assertGreater(best, run["slider.pose"][-1, 0] - 1e-4)
 
     @unittest.skipUnless(baum.has("sundials"), "no SUNDIALS")
-    def test_differences_over_a_fixed_step_are_smooth_and_others_are_not(self):
-        names, out = self.run_block("Richardson")
-        errors = np.array(re.findall(r"rk8 (\S+)   ida (\S+)", out), dtype=float)
-        self.assertEqual(errors.shape, (3, 2))
-        # With rk8 the errors are those of central differences and, at the smallest step, those of
-        # rounding. With ida they are noise of up to 1e-2.
-        self.assertLess(errors[:, 0].max(), 1e-6)
-        self.assertGreater(errors[:, 1].max(), 1e-5)
+    def test_the_errors_of_derivatives_are_estimated(self):
+        _, out = self.run_block("def derivative")
+        rows = re.findall(r"^(\w+) +(\S+) (\S+)  (\d) warnings", out, flags=re.M)
+        found = {row[0]: [float(x) for x in row[1:]] for row in rows}
+        self.assertEqual(list(found), ["rk8", "cvode_bdf", "ida"])
+        # The values of ida are noise, so only their magnitude is known.
+        self.assertLess(found["rk8"][1], 1e-8)
+        self.assertGreater(found["ida"][1], 1e-6)
+        self.assertEqual([found["rk8"][2], found["ida"][2]], [0, 1])
 
 
 if __name__ == "__main__":

@@ -41,6 +41,7 @@ from .errors import (
     SingularityCrossedWarning,
     SingularStartWarning,
     Status,
+    UncertainSensitivityWarning,
     ViolationWarning,
     Warning,
 )
@@ -65,6 +66,7 @@ from .mechanism import Mechanism, Mobility, Report, Sizes
 from .outlines import Box, Circle, Cylinder, Mesh, Outline, Polygon, Sphere
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .scenes import load, parse
+from .sensitivity import Sensitivities, sensitivities
 from .simulation import Simulation
 from .studies import Recommendation, ReferenceSamples, Study, study
 from .sweeps import Sweep, sweep
@@ -132,6 +134,7 @@ __all__ = [
     "Report",
     "Retry",
     "Run",
+    "Sensitivities",
     "Simulation",
     "SingularStartWarning",
     "SingularityCrossedWarning",
@@ -143,6 +146,7 @@ __all__ = [
     "StudyMethod",
     "StudyReference",
     "Sweep",
+    "UncertainSensitivityWarning",
     "View",
     "ViolationWarning",
     "Warning",
@@ -167,6 +171,7 @@ __all__ = [
     "phi_rate",
     "q",
     "scaled",
+    "sensitivities",
     "stability",
     "stability_best",
     "stability_best_on_ray",

@@ -77,6 +77,10 @@ class Error(Exception):
         return Error, (self.status, str(self))
 
 
+class UncertainSensitivityWarning(UserWarning):
+    """The error of a derivative that sensitivities() has computed may exceed 1e-4 of it."""
+
+
 class Retry(Exception):
     """Raise this in a function of the mechanism to ask the integrator for a smaller step."""
 
