@@ -62,6 +62,8 @@ static baum_status run_one(const sweep *s, int64_t k, double *rows)
   }
   baum_status status = baum_mechanism_copy(s->mechanism, &copy);
   if (status == BAUM_OK) {
+    /* change() may fail without setting another message */
+    (void)baum_i_fail(BAUM_OK, "change() returned an error without a message");
     status = s->def->change(copy, k, s->def->user);
   }
   if (status >= BAUM_OK) {

@@ -167,6 +167,37 @@ static void a_run_with_more_numbers_fails(void **state)
   assert_int_equal(statuses[BAD + 1], BAUM_OK);
 }
 
+static baum_status fail_with_a_message(baum_mechanism *copy, int64_t run, void *user)
+{
+  (void)copy;
+  (void)run;
+  (void)user;
+  return baum_fail(BAUM_ERR_CALLBACK, "a message");
+}
+
+static baum_status fail_silently(baum_mechanism *copy, int64_t run, void *user)
+{
+  (void)copy;
+  (void)run;
+  (void)user;
+  return BAUM_ERR_CALLBACK;
+}
+
+static void a_failure_without_a_message_has_no_old_message(void **state)
+{
+  arm *a = *state;
+  double rows[RUNS][SIZE];
+  baum_sweep_def def = sweep_of(a);
+  def.change = fail_with_a_message;
+  def.threads = 1;
+  def.count = 1;
+  assert_int_equal(baum_sweep(a->mechanism, &a->options, &def, rows[0], NULL), BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(), "run 0: a message");
+  def.change = fail_silently;
+  assert_int_equal(baum_sweep(a->mechanism, &a->options, &def, rows[0], NULL), BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(), "run 0: change() returned an error without a message");
+}
+
 static void wrong_arguments_are_refused(void **state)
 {
   arm *a = *state;
@@ -209,6 +240,7 @@ int main(void)
     cmocka_unit_test(each_run_equals_the_run_alone),
     cmocka_unit_test(a_failed_run_does_not_stop_the_others),
     cmocka_unit_test(a_run_with_more_numbers_fails),
+    cmocka_unit_test(a_failure_without_a_message_has_no_old_message),
     cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
