@@ -27,7 +27,7 @@ static const double UNEVEN = 1e-11;
  * acceleration of the body by more than the error of the solver. For uneven masses, the test
  * therefore subtracts from the errors ROUNDED times the change that rounded positions cause. */
 static const double ROUNDED = 4.0;
-enum { ROUNDINGS = 3 };
+enum { ROUNDINGS = 10 };
 
 enum { POSES = 5, LINKS = 10 };
 
