@@ -165,6 +165,7 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_MODULE_LINKER_FLAGS": link,
         "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
+        "CMAKE_C_FLAGS_RELEASE": "-O2 -DNDEBUG",  # hot files are compiled with -O3
     }
 
 
