@@ -148,6 +148,9 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     compile = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
     if target.system == "Linux":
         compile += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
+    # Hot files are compiled with -O3. Code for Windows is larger. With -O2 the package would have
+    # 1.7 MB; with -Os runs take 3 to 15 % longer.
+    optimize = "-Os" if target.system == "Windows" else "-O2"
     link = "-s -Wl,-dead_strip" if target.system == "Darwin" else "-s -Wl,--gc-sections"
     return {
         "BAUM_BUNDLED": sources,
@@ -165,7 +168,7 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_MODULE_LINKER_FLAGS": link,
         "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
-        "CMAKE_C_FLAGS_RELEASE": "-O2 -DNDEBUG",  # hot files are compiled with -O3
+        "CMAKE_C_FLAGS_RELEASE": optimize + " -DNDEBUG",
     }
 
 
