@@ -20,6 +20,7 @@ make_root() {
     return 1
   }
   # Documents write sudo for commands that need root, and expect that users confirm what apt asks.
+  mkdir -p "$root/usr/local/bin" "$root/etc/apt/apt.conf.d"
   printf '#!/bin/sh\nexec "$@"\n' >"$root/usr/local/bin/sudo"
   chmod +x "$root/usr/local/bin/sudo"
   echo 'APT::Get::Assume-Yes "true";' >"$root/etc/apt/apt.conf.d/80yes"
