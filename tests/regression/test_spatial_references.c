@@ -16,8 +16,18 @@
 
 #include "check.h"
 
-static const char *const ENTRIES[] = {
-  "spatial_slider_crank", "bricard", "flyball", "flyball_stiff", "heavy_top", "rssr", "robot_arm"};
+static const char *const ENTRIES[] = {"spatial_slider_crank",
+                                      "bricard",
+                                      "flyball",
+                                      "flyball_stiff",
+                                      "heavy_top",
+                                      "rssr",
+                                      "robot_arm",
+                                      "rolling_disc",
+                                      "stewart",
+                                      "differential",
+                                      "gimbals",
+                                      "double_wishbone"};
 
 static double run(const char *entry, const baum_simulation_options *o)
 {
