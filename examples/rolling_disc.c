@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A thin disc rolls on a plane without slipping. The joint restricts the height of the disc and two
- * velocities of its contact point, so the disc has three degrees of freedom of velocity, but five of
- * position: rolling around, it can reach every place and every heading.
+ * velocities of its contact point, so the disc has three degrees of freedom of velocity, but five
+ * of position: rolling around, it can reach every place and every heading.
  *
  * The first disc rolls steadily on a circle. If b is the elevation of its axis, W the angular
  * velocity of its heading, and A and C are the moments of inertia across and along the axis, the
@@ -9,8 +9,8 @@
  *
  *   n W cos b (C + m R^2) = A W^2 sin b cos b - m g R sin b
  *
- * The second disc rolls faster and wobbles. For both, the program prints the coefficient of friction
- * that the ground needs, and checks the energy. */
+ * The second disc rolls faster and wobbles. For both, the program prints the coefficient of
+ * friction that the ground needs, and checks the energy. */
 #include <string.h>
 
 #include <baum/baum.h>
@@ -41,8 +41,8 @@ static double steady_rate(void)
   return right / (TURNING * (along + MASS * RADIUS * RADIUS));
 }
 
-/* Builds a disc whose axis is the y axis of the body. It starts at the origin of the plane's circle
- * and rolls along x. */
+/* Builds a disc whose axis is the y axis of the body. It rolls along x at the start. The centre of
+ * the circle is the origin. */
 static disc build(double rate)
 {
   disc d;

@@ -3,8 +3,8 @@
  * on the carrier about an axis that is perpendicular to x, and engages with both wheels. If s is
  * the angle of the carrier, the angles of the wheels are s + d and s - d, and the spider rotates by
  * r d relative to the carrier, where r is the ratio of the numbers of teeth. A torque T acts on the
- * carrier, the loads L1 and L2 act on the wheels, and both wheels have dampers c. The kinetic energy
- * is (A s'^2 + B d'^2) / 2, so
+ * carrier, the loads L1 and L2 act on the wheels, and both wheels have dampers c. The kinetic
+ * energy is (A s'^2 + B d'^2) / 2, so
  *
  *   A s'' = T + L1 + L2 - 2 c s',   B d'' = L1 - L2 - 2 c d'
  *   A = I_carrier + m e^2 + I_spider / 2 + 2 I_wheel,   B = 2 I_wheel + r^2 I_spider
@@ -49,14 +49,17 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of carrier and wheels at start", BAUM_I_ANY},
 };
 
-/* Solves inertia x'' = torque - 2 damping x', x(0) = 0. */
+/* Solves inertia x'' = torque - 2 damping x', x(0) = 0, x'(0) = start. Adds the sizes of all terms
+ * to `sum`, to which rounding errors are proportional. */
 static double spin_up(double inertia, double torque, double damping, double start, double t,
-                      double *rate)
+                      double *rate, double *sum)
 {
   double decay = 2 * damping / inertia;
   double last = torque / (2 * damping);
+  double lag = (start - last) * expm1(-decay * t) / decay;
   *rate = last + (start - last) * exp(-decay * t);
-  return last * t - (start - last) * expm1(-decay * t) / decay;
+  *sum += fabs(last) + fabs(last * t) + fabs(lag);
+  return last * t - lag;
 }
 
 static double ratio_of(const double *p)
@@ -70,9 +73,10 @@ static double solution(const double *p, double t, double *q, double *v)
                  p[SPIDER_INERTIA] / 2 + 2 * p[WHEEL_INERTIA];
   double apart = 2 * p[WHEEL_INERTIA] + ratio_of(p) * ratio_of(p) * p[SPIDER_INERTIA];
   double both = p[LEFT_LOAD] + p[RIGHT_LOAD];
-  q[0] = spin_up(whole, p[TORQUE] + both, p[DAMPING], p[SPEED], t, &v[0]);
-  q[1] = spin_up(apart, p[LEFT_LOAD] - p[RIGHT_LOAD], p[DAMPING], 0.0, t, &v[1]);
-  return 4 * DBL_EPSILON * (fabs(q[0]) + (1.0 + ratio_of(p)) * fabs(q[1]));
+  double sums[2] = {0.0, 0.0};
+  q[0] = spin_up(whole, p[TORQUE] + both, p[DAMPING], p[SPEED], t, &v[0], &sums[0]);
+  q[1] = spin_up(apart, p[LEFT_LOAD] - p[RIGHT_LOAD], p[DAMPING], 0.0, t, &v[1], &sums[1]);
+  return 2 * DBL_EPSILON * (sums[0] + (1.0 + ratio_of(p)) * sums[1]);
 }
 
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)

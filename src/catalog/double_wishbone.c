@@ -4,12 +4,12 @@
  * connects their ball joints. A tie rod of constant length connects it to a rack, which a driver
  * moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
  *
- * Every body follows in closed form from the angle of the lower wishbone and the positions of the
+ * Every body follows in closed form from the angle of the lower wishbone and the position of the
  * rack. In each step a part rotates about a known axis until one of its points has a known distance
  * from a point that is known: the upper wishbone until its ball joint has the right distance from
  * that of the lower wishbone, and the upright, about the line through both ball joints, until its
- * steering arm has the distance of the tie rod from the rack. Newton's method finds the angle of the
- * lower wishbone at which the wheel has the height of the plate.
+ * steering arm has the distance of the tie rod from the rack. Newton's method finds the angle of
+ * the lower wishbone at which the wheel has the height of the plate.
  */
 #include <float.h>
 #include <math.h>
@@ -136,7 +136,8 @@ static baum_i_axes pivot_axes(int arm)
   return baum_i_axes_between(&front, &rear);
 }
 
-/* Returns axes of the upright in the design configuration, from the lower to the upper ball joint. */
+/* Returns axes of the upright in the design configuration. They point from the lower to the upper
+ * ball joint. */
 static baum_i_axes kingpin_axes(void)
 {
   const baum_i_axes lower = baum_i_axes_at(BALL[0], baum_i_zeros);

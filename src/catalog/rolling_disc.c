@@ -35,13 +35,16 @@ static double axial_rate(const double *p)
   return moment / (turning * (p[AXIAL] + p[MASS] * p[RADIUS] * p[RADIUS]));
 }
 
+/* The disc lies below the plane if cos b is negative. */
 static double solution(const double *p, double t, double *q, double *v)
 {
   v[0] = p[TURNING];
   v[1] = axial_rate(p) - p[TURNING] * sin(p[TILT]);
   q[0] = v[0] * t;
   q[1] = v[1] * t;
-  return DBL_EPSILON * (fabs(q[0]) + fabs(q[1]));
+  double circle = fabs(p[RADIUS] * axial_rate(p) / p[TURNING]);
+  double off = DBL_EPSILON * (fabs(q[0]) + fabs(q[1])) * (1.0 + circle);
+  return cos(p[TILT]) > 0.0 ? off : (double)INFINITY;
 }
 
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)

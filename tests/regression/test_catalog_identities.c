@@ -145,8 +145,8 @@ static double length_error(double t, const double *q)
 }
 
 /* Every body starts in another wrong pose. The lengths of the legs belong to another time in each
- * start. Assembly must find a pose of the platform with these lengths. There are several such poses,
- * and nearly always assembly finds that of the given motion. */
+ * start. Assembly must find a pose of the platform with these lengths. There are several such
+ * poses, and nearly always assembly finds that of the given motion. */
 static void assembly_solves_the_forward_kinematics_from_100_starts(void **state)
 {
   (void)state;
