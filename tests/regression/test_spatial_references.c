@@ -86,7 +86,7 @@ static void references_are_met(void **state)
 static void rattle_meets_them_with_its_order(void **state)
 {
   (void)state;
-  static const char *const taken[] = {"spatial_slider_crank", "bricard"};
+  static const char *const taken[] = {"spatial_slider_crank", "bricard", "gimbals"};
   for (size_t k = 0; k < sizeof taken / sizeof *taken; k++) {
     double error[2];
     for (int i = 0; i < 2; i++) {
