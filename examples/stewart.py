@@ -7,7 +7,6 @@ them. The forward kinematics has no simple formula. The library finds the pose o
 the lengths of the legs by assembly, also from rough guesses."""
 
 import sys
-from typing import Any
 
 import baum
 import numpy as np
@@ -71,33 +70,44 @@ def lengths(pose: Array) -> Array:
     return norms
 
 
+def add_leg(m: baum.Mechanism, k: int, foot: Array, leg: Array) -> baum.Joint:
+    """Add leg k, which is a vector from its foot, in two parts. Return the joint between them."""
+    along: Array = leg / np.linalg.norm(leg)
+    across: Array = np.cross(np.array([1.0, 0, 0]), along)  # second axis of the universal joint
+    across = across / np.linalg.norm(across)
+    axes = np.stack([along, np.cross(across, along), across], axis=1)
+    for name, mass, centre in (
+        ("lower", LOWER, foot + 0.35 * along),
+        ("upper", UPPER, foot + leg - 0.35 * along),
+    ):
+        m.spatial_body(
+            f"{name} {k}",
+            mass=mass,
+            inertia=inertia.cylinder(mass, 0.03, 0.7, axis="x"),
+            position=centre,
+            orientation=axes,
+        )
+    m.universal(None, m.ground, f"lower {k}", point=foot, axis=(1, 0, 0), axis_b=across)
+    m.spherical(None, f"upper {k}", "platform", point=foot + leg)
+    return m.prismatic(f"leg {k}", f"lower {k}", f"upper {k}", point=foot, axis=along)
+
+
 def mechanism(times: Array, commands: Array) -> baum.Mechanism:
     """Build the platform with driven legs. commands: the lengths of the legs (n x 6)."""
     m = baum.Mechanism(up="z")
     position, axes = wanted_pose(0)
-    solid = inertia.cylinder(PLATFORM, BALL_RADIUS, 0.05, axis="z")
-    platform = m.spatial_body(
-        "platform", mass=PLATFORM, inertia=solid, position=position, orientation=axes
+    m.spatial_body(
+        "platform",
+        mass=PLATFORM,
+        inertia=inertia.cylinder(PLATFORM, BALL_RADIUS, 0.05, axis="z"),
+        position=position,
+        orientation=axes,
     )
+    feet = on_circle(FOOT_RADIUS, FEET)
     for k, leg in enumerate(legs(position, axes)):
-        foot = on_circle(FOOT_RADIUS, FEET)[k]
-        along = leg / np.linalg.norm(leg)
-        across = np.cross((1, 0, 0), along)  # second axis of the universal joint
-        across /= np.linalg.norm(across)
-        third = np.stack([along, np.cross(across, along), across], axis=1)
-
-        def part(name: str, mass: float, centre: Array, turned: Array = third) -> Any:
-            rod = inertia.cylinder(mass, 0.03, 0.7, axis="x")
-            return m.spatial_body(name, mass=mass, inertia=rod, position=centre, orientation=turned)
-
-        lower = part(f"lower {k + 1}", LOWER, foot + 0.35 * along)
-        upper = part(f"upper {k + 1}", UPPER, foot + leg - 0.35 * along)
-        m.universal(None, m.ground, lower, point=foot, axis=(1, 0, 0), axis_b=across)
-        slide = m.prismatic(f"leg {k + 1}", lower, upper, point=foot, axis=along)
-        m.spherical(None, upper, platform, point=foot + leg)
-        m.spline_driver(
-            f"actuator {k + 1}", slide, times, commands[:, k] - commands[0, k], periodic=True
-        )
+        slide = add_leg(m, k + 1, feet[k], leg)
+        change = commands[:, k] - commands[0, k]  # the coordinate is 0 at the start
+        m.spline_driver(f"actuator {k + 1}", slide, times, change, periodic=True)
     return m.freeze()
 
 
@@ -146,7 +156,7 @@ def main() -> int:
     most = np.tile([0.1, 0.1, 0.1, 0.2, 0.2, 0.2], 13)
     errors = []
     for k in random.integers(0, COMMANDS, STARTS):
-        pose = forward(m, times[k], random.uniform(-most, most))
+        pose = forward(m, float(times[k]), random.uniform(-most, most))
         errors.append([abs(lengths(pose) - commands[k]).max(), abs(pose[:3] - wanted[k]).max()])
     report.expect(f"lengths from {STARTS} guesses, off by [m]", np.max(errors, axis=0)[0], 1e-12)
     report.expect(f"poses from {STARTS} guesses, off by [m]", np.max(errors, axis=0)[1], 1e-11)
