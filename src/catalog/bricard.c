@@ -8,7 +8,6 @@
  * One of the 30 rows is redundant in every configuration.
  */
 #include <math.h>
-#include <string.h>
 
 #include "catalog/catalog.h"
 #include "catalog/data/bricard.h"
@@ -65,7 +64,6 @@ static void build(baum_i_parts *parts, const double *p)
   for (int k = 0; k <= RODS; k++) {
     baum_i_axes at = axes_of(p, &p[ANGLE], &p[SPEED], k < RODS ? k : RODS - 1);
     baum_body_id next = BAUM_GROUND;
-    const double unit[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
     baum_i_axes pin = at;
     if (k < RODS) {
       double inertia[3];
@@ -78,10 +76,9 @@ static void build(baum_i_parts *parts, const double *p)
       baum_i_axes_go(&pin, p[LENGTH] * EDGE[k - 1][0], p[LENGTH] * EDGE[k - 1][1],
                      p[LENGTH] * EDGE[k - 1][2]);
     }
-    baum_i_axes tip = baum_i_axes_at(baum_i_zeros, baum_i_zeros);
-    memcpy(tip.p, pin.p, sizeof tip.p);
-    baum_i_axes_go(&tip, unit[0], unit[1], unit[2]);
-    baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, pin.r, tip.r});
+    double axis[3];
+    baum_i_axes_direction(&pin, AXIS[k], axis);
+    baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, pin.r, axis});
     last = next;
   }
 }

@@ -92,7 +92,9 @@ typedef struct baum_i_catalog_mechanism {
   X(slider_crank_sundials) X(four_bar) X(n_four_bar) \
   X(andrews_angles) X(andrews_bodies) X(andrews_a03) \
   X(car_axis) X(chain_of_3) X(chain_of_n) \
-  X(spatial_slider_crank) X(rssr) X(bricard) X(flyball) X(flyball_stiff) X(heavy_top) X(robot_arm)
+  X(spatial_slider_crank) X(rssr) X(bricard) X(flyball) X(flyball_stiff) X(heavy_top) X(robot_arm) \
+  X(rolling_disc) X(chaplygin_sleigh) X(stewart) X(differential) X(gimbals) X(double_wishbone) \
+  X(quadruped)
 /* clang-format on */
 
 #define BAUM_I_CATALOG_DECLARE(name) extern const baum_i_catalog_mechanism baum_i_##name;

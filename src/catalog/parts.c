@@ -133,6 +133,15 @@ void baum_i_parts_motor(baum_i_parts *parts, baum_joint_id joint, double value, 
   BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &def, NULL));
 }
 
+void baum_i_parts_law(baum_i_parts *parts, const char *name, baum_joint_id joint, baum_law_fn *law)
+{
+  baum_driver_def def = baum_driver_def_default();
+  def.name = name;
+  def.joint = joint;
+  def.law = law;
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &def, NULL));
+}
+
 void baum_i_parts_constraint(baum_i_parts *parts, baum_body_id body, baum_user_constraint_def def)
 {
   def.bodies = &body;

@@ -73,6 +73,8 @@ void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum
                       double length);
 /* Adds a driver that moves a joint at a constant rate. */
 void baum_i_parts_motor(baum_i_parts *parts, baum_joint_id joint, double value, double rate);
+/* Adds a driver that moves a joint by a law. */
+void baum_i_parts_law(baum_i_parts *parts, const char *name, baum_joint_id joint, baum_law_fn *law);
 /* Adds a constraint on one body. Its name, its number of rows and its functions are those of
  * `def`. */
 void baum_i_parts_constraint(baum_i_parts *parts, baum_body_id body, baum_user_constraint_def def);

@@ -93,11 +93,9 @@ static void build(baum_i_parts *parts, const double *p)
     const double inertia[3] = {k == 0 ? across : axial, across, k == 0 ? axial : across};
     const double axis[3] = {AXIS[k] == 0, AXIS[k] == 1, AXIS[k] == 2};
     baum_body_id next = baum_i_parts_spatial_body(parts, NULL, mass, inertia, state(p, q, v, k));
-    baum_driver_def motor = baum_driver_def_default();
-    motor.joint =
+    baum_joint_id hinge =
       baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, at.r, axis});
-    motor.law = LAWS[k];
-    BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_driver(parts->mechanism, &motor, NULL));
+    baum_i_parts_law(parts, NULL, hinge, LAWS[k]);
     go(p, &at, k, 1.0);
     last = next;
   }

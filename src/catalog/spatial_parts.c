@@ -87,6 +87,12 @@ baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *en
   return axes;
 }
 
+void baum_i_axes_direction(const baum_i_axes *axes, int axis, double out[3])
+{
+  const double unit[3] = {axis == 0, axis == 1, axis == 2};
+  turn_vector(axes->p, unit, out);
+}
+
 baum_i_body_state baum_i_axes_state(const baum_i_axes *axes)
 {
   baum_i_body_state out = {{0.0}, {0.0}};
@@ -147,12 +153,14 @@ void baum_i_parts_spherical(baum_i_parts *parts, const char *name, baum_i_place 
   BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_spherical(parts->mechanism, &def, NULL));
 }
 
-void baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place)
+baum_joint_id baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place)
 {
+  baum_joint_id id = {0};
   baum_spatial_prismatic_def def = baum_spatial_prismatic_def_default();
   PLACE(def, name, place);
   memcpy(def.axis, place.axis, sizeof def.axis);
-  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_prismatic(parts->mechanism, &def, NULL));
+  BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_spatial_prismatic(parts->mechanism, &def, &id));
+  return id;
 }
 
 void baum_i_parts_universal(baum_i_parts *parts, const char *name, baum_i_place place,

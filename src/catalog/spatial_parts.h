@@ -26,6 +26,8 @@ void baum_i_axes_go(baum_i_axes *axes, double x, double y, double z);
 /* Returns axes whose origin is `origin` and whose x axis points to `end`. Their z axis is
  * perpendicular to the x axis of the ground. */
 baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *end);
+/* Writes the direction of one of the axes (0 is x, 1 is y, 2 is z), in ground axes. */
+void baum_i_axes_direction(const baum_i_axes *axes, int axis, double out[3]);
 /* Returns the state of a body whose axes these are. */
 baum_i_body_state baum_i_axes_state(const baum_i_axes *axes);
 
@@ -46,7 +48,7 @@ baum_body_id baum_i_parts_spatial_body(baum_i_parts *parts, const char *name, do
 baum_joint_id baum_i_parts_spatial_revolute(baum_i_parts *parts, const char *name,
                                             baum_i_place place);
 void baum_i_parts_spherical(baum_i_parts *parts, const char *name, baum_i_place place);
-void baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place);
+baum_joint_id baum_i_parts_prismatic(baum_i_parts *parts, const char *name, baum_i_place place);
 void baum_i_parts_universal(baum_i_parts *parts, const char *name, baum_i_place place,
                             const double axis_b[3]);
 

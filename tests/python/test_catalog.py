@@ -89,6 +89,75 @@ class Catalog(unittest.TestCase):
             np.arcsin(known.q[:, 0] / 2), 0.01 * np.cos(rate * known.t), rtol=0, atol=5e-8
         )
 
+    def test_mechanisms_with_formulas_follow_them(self):
+        for name in (
+            "rolling_disc",
+            "chaplygin_sleigh",
+            "stewart",
+            "differential",
+            "gimbals",
+            "double_wishbone",
+        ):
+            with self.subTest(name):
+                run = catalog.build(name).simulate(catalog.times(name), "rk8", rtol=1e-9)
+                # The largest error measured is 3e-8, of the rolling disc.
+                self.assertLess(catalog.compare(run, name).q, 3e-7)
+
+    def test_the_motions_obey_their_laws(self):
+        t = np.linspace(0, 2, 11)
+
+        def run(name, method="rk8", **options):
+            options = options if method == "kinematics" else dict(rtol=1e-11, **options)
+            return catalog.build(name).simulate(t, method, **options)
+
+        one = run("differential")
+        left, right = (one[f"{side} wheel.velocity"][:, 3] for side in ("left", "right"))
+        self.assertGreater(abs(left - right).max(), 1)
+        self.assertLess(abs((left + right) / 2 - one["carrier.velocity"][:, 3]).max(), 1e-13)
+
+        x, y, angle = run("chaplygin_sleigh")["sleigh.pose"].T
+        vx, vy, rate = run("chaplygin_sleigh")["sleigh.velocity"].T
+        across = vy * np.cos(angle) - vx * np.sin(angle) - 0.3 * rate  # of the blade
+        self.assertLess(abs(across).max(), 1e-14)
+
+        centre = run("rolling_disc")["disc.pose"]
+        self.assertLess(abs(centre[:, 2] - 0.5 * np.cos(0.3)).max(), 1e-9)
+
+        inner = run("gimbals")["inner ring.pose"]
+        self.assertLess(abs(inner[:, 2] - 0.05 * np.sin(0.4)).max(), 1e-9)
+        azimuth = np.unwrap(np.arctan2(inner[:, 1], inner[:, 0]))
+        np.testing.assert_allclose(azimuth - azimuth[0], 2.0 * t, rtol=0, atol=1e-8)
+
+        one = run("double_wishbone", "kinematics", record=["bumps.effort"])
+        wheel = one["upright.pose"][:, 2]
+        self.assertLess(abs(wheel - 0.32 - 0.05 * np.sin(5 * t)).max(), 1e-14)
+        tie_rod = one["rack.pose"][:, 1]
+        self.assertLess(abs(tie_rod - 0.02 * np.sin(3 * t)).max(), 1e-14)
+
+        m = catalog.build("quadruped")
+        one = m.simulate(t / 2, "rk8", rtol=1e-11, record=["energy"])
+        names = ["trunk", *(f"body{k}" for k in range(2, 15))]
+        mass = np.array([m[name].definition["mass"] for name in names])
+        share = mass / mass.sum()
+        centre = np.tensordot(share, [one[f"{name}.pose"][:, :3] for name in names], 1)
+        speed = share @ [one[f"{name}.velocity"][0, :3] for name in names]
+        fall = np.outer((t / 2) ** 2 / 2, (0, 0, -9.81))
+        self.assertLess(abs(centre - centre[0] - np.outer(t / 2, speed) - fall).max(), 1e-12)
+        energy = one["energy"].sum(axis=1)
+        self.assertLess(abs(energy - energy[0]).max(), 1e-9)
+
+    def test_assembly_solves_the_forward_kinematics_of_the_stewart_platform(self):
+        m = catalog.build("stewart")
+        workspace = baum.Workspace(m)
+        q, v = workspace.design()
+        random = np.random.default_rng(0)
+        for t in random.uniform(0, 2, 10):
+            guess = workspace.move(random.uniform(-0.1, 0.1, len(v)), q)
+            found, _ = workspace.assemble(t, guess, np.full(len(v), np.nan))
+            np.testing.assert_allclose(
+                found[:3], catalog.reference("stewart", t).q[0, :3], rtol=0, atol=1e-11
+            )
+
     def test_nothing_is_compared_with_a_reference_that_does_not_hold(self):
         with self.assertRaisesRegex(baum.Error, "crank = 1 m, it is not known for 1.5"):
             catalog.reference("four_bar", crank=1.5)

@@ -263,7 +263,23 @@ static void formulas_hold_for_other_parameters(void **state)
   static const baum_catalog_setting far[] = {
     {"crank", 0.05}, {"pivot_z", -0.1}, {"pivot_x", 0.1}, {"speed", -9.0}, {"rocker_mass", 5.0}};
   static const baum_catalog_setting reach[] = {{"reach", 3.0}, {"payload", 40.0}, {"gravity", 1.0}};
-  static const baum_catalog_choice choices[] = {{"rssr", far, 5},
+  static const baum_catalog_setting leaning[] = {
+    {"tilt", -0.5}, {"turning", -2.0}, {"mass", 4.0}, {"radius", 0.3}, {"axial", 0.1}};
+  static const baum_catalog_setting backward[] = {
+    {"speed", -0.7}, {"rate", -2.0}, {"inertia", 0.6}, {"distance", 0.2}};
+  static const baum_catalog_setting spinning[] = {
+    {"wheel_teeth", 31.0}, {"spider_teeth", 17.0}, {"left_load", 3.0}, {"speed", -5.0}};
+  static const baum_catalog_setting rising[] = {
+    {"tilt", -0.7}, {"precession", -3.0}, {"arm", 0.1}, {"inner", 3e-3}, {"across", 4e-3}};
+  static const baum_catalog_setting heavy[] = {{"upright", 60.0}, {"stiffness", 1e5}};
+  static const baum_catalog_setting light[] = {{"platform", 0.5}, {"gravity", 1.0}};
+  static const baum_catalog_choice choices[] = {{"rolling_disc", leaning, 5},
+                                                {"chaplygin_sleigh", backward, 4},
+                                                {"differential", spinning, 4},
+                                                {"gimbals", rising, 5},
+                                                {"double_wishbone", heavy, 2},
+                                                {"stewart", light, 2},
+                                                {"rssr", far, 5},
                                                 {"robot_arm", reach, 3},
                                                 {"pendulum", over, 5},
                                                 {"pendulum", up, 3},

@@ -16,8 +16,18 @@
 
 #include "check.h"
 
-static const char *const ENTRIES[] = {
-  "spatial_slider_crank", "bricard", "flyball", "flyball_stiff", "heavy_top", "rssr", "robot_arm"};
+static const char *const ENTRIES[] = {"spatial_slider_crank",
+                                      "bricard",
+                                      "flyball",
+                                      "flyball_stiff",
+                                      "heavy_top",
+                                      "rssr",
+                                      "robot_arm",
+                                      "rolling_disc",
+                                      "stewart",
+                                      "differential",
+                                      "gimbals",
+                                      "double_wishbone"};
 
 static double run(const char *entry, const baum_simulation_options *o)
 {
@@ -76,7 +86,7 @@ static void references_are_met(void **state)
 static void rattle_meets_them_with_its_order(void **state)
 {
   (void)state;
-  static const char *const taken[] = {"spatial_slider_crank", "bricard"};
+  static const char *const taken[] = {"spatial_slider_crank", "bricard", "gimbals"};
   for (size_t k = 0; k < sizeof taken / sizeof *taken; k++) {
     double error[2];
     for (int i = 0; i < 2; i++) {

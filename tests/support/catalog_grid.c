@@ -136,19 +136,31 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 
 /* ---- checks ---- */
 
-/* Tells whether the entry has fixed gains with which violations do not decay. */
-static bool has_unstable_constants(const baum_study_entry *entry)
+/* Tells whether the entry has fixed gains with which violations do not decay. Violations of
+ * positions and of rows of velocity level decay differently. */
+static bool has_unstable_constants(const pair *p, const baum_study_entry *entry)
 {
-  baum_amplification a;
-  double x = entry->gains.value[0] * entry->step;
+  baum_amplification a = {.spectral_radius = 0.0};
+  baum_amplification b = {.spectral_radius = 0.0};
+  baum_mobility mobility;
+  int32_t nv = 0;
+  double x = fabs(entry->gains.value[0] * entry->step);
   double y = entry->gains.value[1] * entry->step;
-  return entry->formulation == BAUM_FORMULATION_BAUMGARTE &&
-         entry->gains.rule == BAUM_GAINS_FIXED && !isnan(entry->step) &&
-         baum_stability_at(entry->integrator, fabs(x), y * y, &a, sizeof a) == BAUM_OK &&
-         a.spectral_radius >= 1.0;
+  if (entry->formulation != BAUM_FORMULATION_BAUMGARTE || entry->gains.rule != BAUM_GAINS_FIXED ||
+      isnan(entry->step) || baum_mechanism_sizes(p->mechanism, NULL, &nv, NULL) != BAUM_OK ||
+      baum_mechanism_mobility(p->mechanism, &mobility, sizeof mobility) != BAUM_OK) {
+    return false;
+  }
+  if (mobility.position_degrees_of_freedom < nv) {
+    (void)baum_stability_at(entry->integrator, x, y * y, &a, sizeof a);
+  }
+  if (mobility.degrees_of_freedom < mobility.position_degrees_of_freedom) {
+    (void)baum_stability_velocity_at(entry->integrator, x, &b, sizeof b);
+  }
+  return fmax(a.spectral_radius, b.spectral_radius) >= 1.0;
 }
 
-static bool is_marked(const baum_study_entry *own, const baum_study_entry *stored)
+static bool is_marked(const pair *p, const baum_study_entry *own, const baum_study_entry *stored)
 {
   bool other_motion = stored->error_q > 0.1 || own->branch_warnings > 0;
   if (own->state == BAUM_STUDY_DONE && stored->state == BAUM_STUDY_DONE &&
@@ -156,7 +168,7 @@ static bool is_marked(const baum_study_entry *own, const baum_study_entry *store
     return false;
   }
   bool looked_at = own->state == BAUM_STUDY_DONE || own->status == BAUM_ERR_UNSTABLE;
-  return !looked_at || own->unstable == has_unstable_constants(own) ||
+  return !looked_at || own->unstable == has_unstable_constants(p, own) ||
          (own->unstable && own->gains.rule != BAUM_GAINS_FIXED);
 }
 
@@ -190,7 +202,7 @@ static void judge_entry(const pair *p, int32_t k, catalog_tally *t)
   one.state[own.state] = 1;
   one.at_floor = own.at_floor;
   one.missing = own.state == BAUM_STUDY_WAITING || stored.state == BAUM_STUDY_WAITING;
-  one.unmarked = !is_marked(&own, &stored);
+  one.unmarked = !is_marked(p, &own, &stored);
   one.compared = own.state == BAUM_STUDY_DONE && stored.state == BAUM_STUDY_DONE;
   one.better = one.compared && (is_better(&own, p->own) || is_better(&stored, p->stored));
   one.differ = one.compared && !is_consistent(p, &own, &stored);
