@@ -46,6 +46,8 @@ class Recipes(unittest.TestCase):
     def test_scipy_finds_the_masses(self):
         names, _ = self.run_block("import least_squares", "scipy")
         np.testing.assert_allclose(names["fit"].x, [0.038, 0.076], rtol=1e-6)
+        found, _ = self.run_block("differential_evolution", **names)
+        np.testing.assert_allclose(found["found"].x, [0.038, 0.076], rtol=1e-3)
         iterations = names.pop("fit").njev
         names, _ = self.run_block("def jacobian", **names)
         np.testing.assert_allclose(names["fit"].x, [0.038, 0.076], rtol=1e-6)
