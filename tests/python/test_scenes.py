@@ -68,6 +68,12 @@ class SceneTest(FileTest):
         runs = [x.freeze().simulate(times, "rk8", rtol=1e-9) for x in (m, back)]
         np.testing.assert_array_equal(runs[0].q, runs[1].q)
 
+    def test_messages_about_a_file_begin_with_its_path(self):
+        self.path.write_text('{"baum_scene": 1,\n "bodis": []}')
+        with self.assertRaises(baum.Error) as caught:
+            baum.load(self.path)
+        self.assertTrue(str(caught.exception).startswith(f"{self.path}: line 2: "), caught.exception)
+
     def test_functions_get_the_names_that_are_given(self):
         text = pendulum().scene({"friction": drag})
         self.assertIn('"force": "friction(0)"', text)

@@ -15,7 +15,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
-from . import _abi, _calls, callbacks
+from . import _abi, _calls, callbacks, errors
 from ._lib import lib
 from ._motion import ROOM
 from .definitions import ARGUMENTS, KINDS
@@ -297,5 +297,9 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from a file that Mechanism.save() or a C program has written. The
-    arguments and errors are those of baum.parse()."""
-    return parse(Path(path).read_text(encoding="utf-8"), functions)
+    arguments and errors are those of baum.parse(); messages begin with the path."""
+    try:
+        return parse(Path(path).read_text(encoding="utf-8"), functions)
+    except errors.Error as error:
+        where = str(error).removeprefix("scene: ")
+        raise errors.Error(error.status, f"{os.fspath(path)}: {where}") from None
