@@ -22,7 +22,9 @@ foreach(library baum baum_static)
 endforeach()
 
 if(TARGET baum_fmu)
-  install(TARGETS baum_fmu LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/baum COMPONENT runtime)
+  set(folder ${CMAKE_INSTALL_LIBDIR}/baum)
+  install(TARGETS baum_fmu COMPONENT runtime LIBRARY DESTINATION ${folder} RUNTIME DESTINATION ${folder}
+          ARCHIVE EXCLUDE_FROM_ALL DESTINATION ${folder})
 endif()
 
 configure_package_config_file(cmake/baum-config.cmake.in baum-config.cmake

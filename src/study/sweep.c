@@ -62,9 +62,9 @@ static baum_status run_one(const sweep *s, int64_t k, double *rows)
   }
   baum_status status = baum_mechanism_copy(s->mechanism, &copy);
   if (status == BAUM_OK) {
-    /* change() may fail without setting another message */
+    const baum_i_kept_message kept = baum_i_message_keep();
     (void)baum_i_fail(BAUM_OK, "change() returned an error without a message");
-    status = s->def->change(copy, k, s->def->user);
+    status = baum_i_message_settle(s->def->change(copy, k, s->def->user), &kept);
   }
   if (status >= BAUM_OK) {
     status = baum_mechanism_freeze(copy);

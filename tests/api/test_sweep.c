@@ -183,7 +183,7 @@ static baum_status fail_silently(baum_mechanism *copy, int64_t run, void *user)
   return BAUM_ERR_CALLBACK;
 }
 
-static void a_failure_without_a_message_has_no_old_message(void **state)
+static void messages_are_those_of_the_failure(void **state)
 {
   arm *a = *state;
   double rows[RUNS][SIZE];
@@ -196,6 +196,10 @@ static void a_failure_without_a_message_has_no_old_message(void **state)
   def.change = fail_silently;
   assert_int_equal(baum_sweep(a->mechanism, &a->options, &def, rows[0], NULL), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "run 0: change() returned an error without a message");
+  (void)baum_fail(BAUM_ERR_STATE, "an earlier message");
+  def.change = change_mass;
+  check(baum_sweep(a->mechanism, &a->options, &def, rows[0], NULL));
+  assert_string_equal(baum_message(), "an earlier message");
 }
 
 static void wrong_arguments_are_refused(void **state)
@@ -240,7 +244,7 @@ int main(void)
     cmocka_unit_test(each_run_equals_the_run_alone),
     cmocka_unit_test(a_failed_run_does_not_stop_the_others),
     cmocka_unit_test(a_run_with_more_numbers_fails),
-    cmocka_unit_test(a_failure_without_a_message_has_no_old_message),
+    cmocka_unit_test(messages_are_those_of_the_failure),
     cmocka_unit_test(wrong_arguments_are_refused),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);

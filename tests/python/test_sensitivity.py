@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Derivatives of results with respect to parameters, and the warnings about their errors."""
 
+import time
 import unittest
 import warnings
 
@@ -24,8 +25,10 @@ def pendulum():
 
 class Sensitivity(unittest.TestCase):
     def setUp(self):
+        raised = warnings.catch_warnings()
+        raised.__enter__()
+        self.addCleanup(raised.__exit__, None, None, None)
         warnings.simplefilter("error")
-        self.addCleanup(warnings.resetwarnings)
 
     def test_a_free_fall_has_the_derivatives_of_its_formula(self):
         times = [0.0, 0.5, 2.0]
@@ -35,7 +38,7 @@ class Sensitivity(unittest.TestCase):
         self.assertEqual(
             found.parameters, ("stone.mass", "stone.velocity[0]", "stone.velocity[1]"))
         value = found["stone.pose"]
-        self.assertEqual(value.shape, (3, found["stone.pose"].shape[1], 3))
+        self.assertEqual(value.shape, (3, 2, 3))
         wanted = np.zeros((3, 2, 3))  # x = vx t, y = vy t - g t^2 / 2; the mass has no influence
         wanted[:, 0, 1] = wanted[:, 1, 2] = times
         np.testing.assert_allclose(value[:, :2], wanted, atol=1e-11)
@@ -55,14 +58,43 @@ class Sensitivity(unittest.TestCase):
         self.assertAlmostEqual(found["value"][0] / wanted, 1.0, delta=1e-8)
         self.assertLess(abs(found["value"][0] - wanted), found.error("value")[0])
 
+    def uncertain(self, reduce, **options):
+        given = {"times": [0, 3.0], "method": "rk4", "step": 0.01, **options}
+        pattern = "the derivative of value with respect to arm.inertia is uncertain"
+        with self.assertWarnsRegex(baum.UncertainSensitivityWarning, pattern):
+            return baum.sensitivities(pendulum(), {"arm.inertia": 0.02}, reduce=reduce, **given)
+
     def test_results_that_jump_are_told(self):
-        with self.assertWarnsRegex(baum.UncertainSensitivityWarning, "value with respect to arm.mass"):
+        def jump(run):
+            return np.round(run.q[-1, 0], 4)
+
+        self.uncertain(jump)
+        self.uncertain(lambda run: [float("nan"), jump(run)])
+        self.uncertain(lambda run: [1e5, jump(run)])
+        self.uncertain(lambda run: [[jump(run)], [jump(run)]])
+        self.uncertain(lambda run: float("nan"))
+
+    def test_named_results_and_vectors_of_steps(self):
+        found = baum.sensitivities(
+            falling(), {"stone.velocity": [3.0, 2.0]}, [0.0, 1.0], "rk4", step=0.1,
+            steps={"stone.velocity": [0.1, 0.2]},
+            reduce=lambda run: {"x": run.q[-1, 0], "all": run.q})  # fmt: skip
+        self.assertEqual(found.keys(), ["x", "all"])
+        np.testing.assert_allclose(found["x"], [1, 0], atol=1e-12)
+        self.assertEqual(found["all"].shape, (2, 2, 2))
+        with self.assertRaisesRegex(ValueError, "different names"):
             baum.sensitivities(
-                pendulum(), {"arm.inertia": 0.02, "arm.mass": 1.0}, [0, 3.0], "rk4", step=0.01,
-                reduce=lambda run: np.round(run.q[-1], 4))  # fmt: skip
+                falling(), {"stone.mass": 2.0}, [0.0, 1.0], "rk4", step=0.1,
+                reduce=lambda run: {str(time.perf_counter()): 1.0})  # fmt: skip
+
+    def test_an_influence_of_rounding_is_no_reason_to_warn(self):
+        found = baum.sensitivities(
+            pendulum(), {"arm.mass": 1.0}, [0, 3.0], "rk4", step=0.01,
+            reduce=lambda run: 100 + 1e-14 * run.q[-1])  # fmt: skip
+        self.assertLess(np.abs(found["value"]).max(), 1e-9)
 
     def test_warnings_of_runs_are_repeated(self):
-        with self.assertWarnsRegex(baum.GainsWarning, "of 4 runs"):
+        with self.assertWarnsRegex(baum.GainsWarning, "GainsWarning in 4 of 4 runs"):
             baum.sensitivities(
                 pendulum(), {"arm.mass": 1.0}, [0, 0.1], "euler", step=1e-3,
                 gains=baum.fixed(0.0, 0.0), reduce=lambda run: run.q[-1])  # fmt: skip
@@ -75,8 +107,16 @@ class Sensitivity(unittest.TestCase):
             baum.sensitivities(pendulum(), {"arm.mass": 1.0}, steps={"arm.mass": -1}, **given)
         with self.assertRaisesRegex(ValueError, "its step is nan"):
             baum.sensitivities(pendulum(), {"arm.mass": float("nan")}, **given)
-        with self.assertRaisesRegex(baum.Error, "mass"):
+        with self.assertRaisesRegex(ValueError, "is 1e-19, which is below 1e-08 of 1"):
+            baum.sensitivities(pendulum(), {"arm.mass": 1.0}, steps={"arm.mass": 1e-19}, **given)
+        with self.assertRaisesRegex(baum.Error, "the run with arm.mass = -0.999: .*mass"):
             baum.sensitivities(pendulum(), {"arm.mass": -1.0}, **given)
+        with self.assertRaisesRegex(KeyError, "'arm.mas' is not one of the parameters"):
+            baum.sensitivities(pendulum(), {"arm.mass": 1.0}, steps={"arm.mas": 1.0}, **given)
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'samples'"):
+            baum.sensitivities(pendulum(), {"arm.mass": 1.0}, samples="grid", **given)
+        with self.assertRaisesRegex(ValueError, "no parameters"):
+            baum.sensitivities(pendulum(), {}, **given)
         found = baum.sensitivities(
             pendulum(), {"arm.angular_velocity": 0.0}, steps={"arm.angular_velocity": 1e-3}, **given)
         with self.assertRaisesRegex(KeyError, "there are: "):

@@ -77,10 +77,6 @@ class Error(Exception):
         return Error, (self.status, str(self))
 
 
-class UncertainSensitivityWarning(UserWarning):
-    """The error of a derivative that sensitivities() has computed may exceed 1e-4 of it."""
-
-
 class Retry(Exception):
     """Raise this in a function of the mechanism to ask the integrator for a smaller step."""
 
@@ -190,11 +186,16 @@ class SingularStartWarning(DoubtWarning):
     code = 104
 
 
+class UncertainSensitivityWarning(Warning):
+    """sensitivities() found different derivatives with two steps. This warning is not one of a
+    run."""
+
+
 KINDS = {
     kind.code: kind
     for base in (Warning, DoubtWarning)
     for kind in base.__subclasses__()
-    if kind is not DoubtWarning
+    if kind.code != 0
 }
 
 

@@ -297,7 +297,7 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from a file that Mechanism.save() or a C program has written. The
-    arguments and errors are those of baum.parse(); messages begin with the path."""
+    arguments and errors are those of baum.parse(). Messages of baum.Error begin with the path."""
     try:
         return parse(Path(path).read_text(encoding="utf-8"), functions)
     except errors.Error as error:

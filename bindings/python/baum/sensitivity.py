@@ -15,31 +15,33 @@ from .typing import Array, ArrayLike, ChannelLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-CHANGES = np.array([1.0, -1.0, 0.5, -0.5])  # of a parameter in four runs, in steps
+CHANGES = np.array([1.0, -1.0, 0.5, -0.5])  # of a number in its four runs, in steps
 UNCERTAIN = 1e-4  # share of the largest derivative
-NEGLIGIBLE = 1e-6  # share of result / parameter, below which a derivative may be uncertain
+LEAST_STEP = 1e-8  # share of the number that changes
+ROUNDING = 1e4 * float(np.finfo(float).eps)  # share of a result
 
 
 class Sensitivities:
-    """The derivatives of results with respect to p parameters.
+    """The derivatives of results with respect to p numbers.
 
     parameters: their names. A vector field has one name for each number, such as "rod.position[0]".
 
     sensitivities["rod.pose"] contains the derivatives (samples x columns x p) of a channel. If
     `reduce` was given, sensitivities["value"] contains those of its results (... x p).
-    error(name) is an array of the same shape, an estimate of the errors of these derivatives.
+    error(name) is an array of the same shape: by how much the difference quotients of two steps
+    differ. This contains the jumps of methods with variable steps, but not the integration errors
+    that all runs have in common.
     """
 
-    def __init__(
-        self, parameters: Sequence[str], steps: Array, results: Mapping[str, Array]
-    ) -> None:
+    def __init__(self, parameters: Sequence[str], values: Array, runs: Sweep) -> None:
+        """values: the value of each number in its four runs (p x 4)."""
         self.parameters = tuple(parameters)
         self._values: dict[str, Array] = {}
         self._errors: dict[str, Array] = {}
-        for name, values in results.items():
-            # axis 0: parameters, axis 1: the four runs of each parameter
-            runs = np.moveaxis(values.reshape(len(steps), 4, *values.shape[1:]), (0, 1), (-1, 0))
-            coarse, fine = (runs[0] - runs[1]) / (2 * steps), (runs[2] - runs[3]) / steps
+        for name in runs.keys():
+            found = runs[name].reshape(*values.shape, *runs[name].shape[1:])
+            x, y = values.T, np.moveaxis(found, (0, 1), (-1, 0))
+            coarse, fine = (y[0] - y[1]) / (x[0] - x[1]), (y[2] - y[3]) / (x[2] - x[3])
             self._values[name] = (4 * fine - coarse) / 3  # Richardson's extrapolation
             self._errors[name] = np.abs(fine - coarse)
 
@@ -57,8 +59,7 @@ class Sensitivities:
         return found
 
     def error(self, name: str) -> Array:
-        """An estimate of the errors of the derivatives. It is the difference between the difference
-        quotients of two steps. It contains the errors of the runs, too."""
+        """The differences between the difference quotients of two steps."""
         self[name]  # raises KeyError
         return self._errors[name]
 
@@ -72,68 +73,91 @@ def sensitivities(
     record: ChannelLike | Sequence[ChannelLike] = (),
     reduce: Reduce | None = None,
     relative_step: float = 1e-3,
-    steps: Mapping[str, float] | None = None,
+    steps: Mapping[str, ArrayLike] | None = None,
     executor: Any = None,
     **options: Any,
 ) -> Sensitivities:
     """Compute derivatives of results with respect to parameters by central differences. Four runs
     for each number of a parameter give differences for two steps. Richardson's extrapolation from
-    both gives the derivative, and their difference estimates its error.
+    both gives the derivative, and their difference shows how certain it is.
 
     parameters: the values at which the derivatives are computed, by "element.field", such as
-        {"rod.mass": 0.2}.
-    relative_step: change of a parameter, relative to its value; for a vector, relative to its
-        largest number.
+        {"rod.mass": 0.2}. An orientation cannot be a parameter.
+    relative_step: change of a number, relative to its value. A 0 in a vector changes by as much as
+        the largest number of the vector.
     steps: changes of single parameters, in place of relative_step. A parameter that is 0 needs one.
     times, method, record, reduce, executor, options: as in baum.sweep().
 
-    Take a method with a fixed step, such as "rk8" with `step`. Results of methods with variable
-    steps do not depend smoothly on parameters. Warns with UncertainSensitivityWarning if the error
-    of a derivative may exceed 1e-4 of the largest derivative of the same result with respect to
-    this parameter. Raises baum.Error if a run fails, and ValueError for a step that is not > 0.
+    Take a method with a fixed step, such as "rk8" with `step`, and check the integration error by a
+    second call with half the step. Results of methods with variable steps do not depend smoothly on
+    parameters. Warns with UncertainSensitivityWarning if both difference quotients of a derivative
+    differ by more than 1e-4 of the largest one, unless rounding of the result explains it. For
+    channels, "largest" refers to all samples of a column. Warnings of the runs are repeated.
+    Raises baum.Error if a run fails, and ValueError for a step that is not > 0 or that is below
+    1e-8 of the number.
     """
-    names, changes, rows = [], [], []
+    for name in {"samples", "count", "progress", "file"} & set(options):
+        raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")
+    for name in set(steps or {}) - set(parameters):
+        raise KeyError(f"steps: {name!r} is not one of the parameters: {', '.join(parameters)}")
+    names: list[str] = []
+    values: list[list[float]] = []
+    rows: list[dict[str, Array]] = []
     point = {name: np.asarray(value, dtype=float) for name, value in parameters.items()}
     for name, value in point.items():
-        relative = relative_step * float(np.max(np.abs(value), initial=0.0))
-        step = float(steps[name]) if steps and name in steps else relative
-        if not 0 < step < np.inf:
-            raise ValueError(f"{name}: its step is {step:g}, must be > 0: pass it in `steps`")
+        scale = np.where(value == 0, np.max(np.abs(value), initial=0.0), np.abs(value))
+        given = steps[name] if steps and name in steps else relative_step * scale
+        step = np.broadcast_to(np.asarray(given, dtype=float), value.shape)
         for place in np.ndindex(value.shape):
             names.append(name + "".join(f"[{k}]" for k in place))
-            changes.append(step)
-            for change in step * CHANGES:
-                rows.append({**point, name: value.copy()})
-                rows[-1][name][place] += change
+            _check_step(names[-1], float(step[place]), float(value[place]))
+            runs_of = [{**point, name: value.copy()} for _ in CHANGES]
+            for row, change in zip(runs_of, step[place] * CHANGES):
+                row[name][place] += change
+            values.append([float(row[name][place]) for row in runs_of])
+            rows += runs_of
+    if not rows:
+        raise ValueError("sensitivities(): there are no parameters")
     columns = {name: np.array([row[name] for row in rows]) for name in point}
     runs = sweep(mechanism, columns, times, method, record=record, reduce=reduce, executor=executor,
                  **options)  # fmt: skip
     for k, message in runs.messages.items():
-        raise errors.Error(runs.status[k], message)
-    made = Sensitivities(names, np.array(changes), {name: runs[name] for name in runs.keys()})
-    _warn(made, runs, np.array(changes) / relative_step)
+        where = f"{names[k // 4]} = {values[k // 4][k % 4]:.9g}"
+        raise errors.Error(runs.status[k], f"the run with {where}: {message}")
+    made = Sensitivities(names, np.array(values), runs)
+    _warn(made, np.array(values), runs, is_channel=reduce is None)
     return made
 
 
-def _warn(made: Sensitivities, runs: Sweep, scales: Array) -> None:
-    """Repeat the warnings of the runs, and warn of derivatives that are uncertain. `scales` are the
-    magnitudes of the parameters."""
+def _check_step(name: str, step: float, value: float) -> None:
+    if not 0 < step < np.inf:
+        raise ValueError(f"{name}: its step is {step:g}, must be > 0: pass it in `steps`")
+    if step < LEAST_STEP * abs(value):
+        raise ValueError(
+            f"{name}: its step is {step:g}, which is below {LEAST_STEP:g} of {value:g}"
+        )
+
+
+def _warn(made: Sensitivities, values: Array, runs: Sweep, is_channel: bool) -> None:
+    """Repeat the warnings of the runs, and warn of derivatives that are uncertain."""
     for kind in sorted({kind for found in runs.warnings for kind in found}):
         count = sum(kind in found for found in runs.warnings)
-        warnings.warn(f"{count} of {len(runs)} runs have this warning", getattr(errors, kind),
-                      stacklevel=3)  # fmt: skip
+        warnings.warn(f"{kind} in {count} of {len(runs)} runs; Mechanism.simulate() gives its text",
+                      getattr(errors, kind), stacklevel=3)  # fmt: skip
     for name in made.keys():
-        values, doubts = (np.abs(x).reshape(-1, len(scales)).max(axis=0, initial=0.0)
-                          for x in (made[name], made.error(name)))  # fmt: skip
-        negligible = NEGLIGIBLE * np.max(np.abs(runs[name]), initial=0.0) / scales
-        shares = doubts / np.maximum(values, np.finfo(float).tiny)
-        doubtful = (shares > UNCERTAIN) & (doubts > negligible)
-        if np.any(doubtful):
-            worst = int(np.argmax(np.where(doubtful, shares, 0.0)))
+        error = made.error(name)
+        over = 0 if is_channel else tuple(range(error.ndim - 1))
+        largest = np.fmax.reduce(np.abs(made[name]), axis=over, keepdims=True)
+        rounding = (
+            ROUNDING * np.nanmax(np.abs(runs[name]), initial=0.0) / (values[:, 0] - values[:, 1])
+        )
+        # a comparison with NaN is false, so a derivative that is not a number is uncertain
+        doubtful = ~((error <= UNCERTAIN * largest) | (error <= rounding))
+        for k in np.flatnonzero(doubtful.reshape(-1, len(values)).any(axis=0))[:1]:
             warnings.warn(
-                f"the derivative of {name} with respect to {made.parameters[worst]} is uncertain "
-                f"by {shares[worst]:.1g} of its largest value: two steps give different values. "
-                'Take a method with a fixed step, such as "rk8" with step, or another step.',
+                f"the derivative of {name} with respect to {made.parameters[k]} is uncertain: two "
+                "steps give different values. Take a method with a fixed step, such as "
+                '"rk8" with step, or another step of the parameter.',
                 errors.UncertainSensitivityWarning,
                 stacklevel=3,
             )

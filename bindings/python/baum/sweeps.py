@@ -184,6 +184,8 @@ class Sweep:
         self.warnings = [r.warnings if r else () for r in results]
         done = [r.values for r in results if r and r.values]
         shapes = {name: values.shape for name, values in done[0].items()} if done else {}
+        if any(values.keys() != shapes.keys() for values in done):
+            raise ValueError("reduce() returned different names")
         self._values = {name: _stacked(name, shape, results) for name, shape in shapes.items()}
 
     def __len__(self) -> int:

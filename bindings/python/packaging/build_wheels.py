@@ -145,9 +145,9 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         licenses.append(zig.with_name("lib") / "libc" / "mingw" / "COPYING")
     # Small packages: the linker omits the functions that baum does not use, and on Linux the tables
     # for C++ exceptions, which C does not need, are omitted.
-    compile = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
+    flags = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
     if target.system == "Linux":
-        compile += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
+        flags += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
     # Hot files are compiled with -O3. Code for Windows is larger. With -O2 the package would have
     # 1.7 MB; with -Os runs take 3 to 15 % longer.
     optimize = "-Os" if target.system == "Windows" else "-O2"
@@ -163,9 +163,8 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
         "CMAKE_BUILD_WITH_INSTALL_RPATH": "ON",
         "CMAKE_BUILD_WITH_INSTALL_NAME_DIR": "ON",
         "CMAKE_INSTALL_NAME_DIR": "@loader_path",
-        "CMAKE_C_FLAGS": compile,
+        "CMAKE_C_FLAGS": flags,
         "CMAKE_SHARED_LINKER_FLAGS": link,
-        "CMAKE_MODULE_LINKER_FLAGS": link,
         "CMAKE_C_STANDARD_LIBRARIES": "",  # baum needs no libraries of Windows
         "CMAKE_BUILD_TYPE": "Release",
         "CMAKE_C_FLAGS_RELEASE": optimize + " -DNDEBUG",
