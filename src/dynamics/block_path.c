@@ -7,6 +7,7 @@
 
 #include "base/hot.h"
 #include "linear/block_pull.h"
+#include "mechanism/planar/frames.h"
 
 enum { MOST_REFINEMENTS = 3 };
 
@@ -305,6 +306,7 @@ static baum_i_space_pass pass_of(const baum_workspace *w, const baum_i_block_pat
                              .q = q,
                              .v = v,
                              .normalized = w->point.normalized,
+                             .frames = w->point.frames,
                              .spatial = w->point.spatial,
                              .gravity = right->force ? w->mechanism->gravity : NULL,
                              .moments = w->point.moments,
@@ -322,10 +324,9 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
 {
   const baum_i_space_pass pass = pass_of(w, path, q, v, right);
   const baum_i_block_rows rows = rows_of(w, v, right);
+  begin_point(&w->point, t, q, v);
   if (path->has_planar) {
-    baum_i_point_set(&w->point, t, q, v);
-  } else {
-    begin_point(&w->point, t, q, v);
+    w->point.kernel->set(w->mechanism, q, v, w->point.frames);
   }
   path->joints_kernel->set_bodies(path->space, &pass);
   w->eliminated_by = NULL;

@@ -57,31 +57,30 @@ static baum_i_space_kind kind_of(const baum_i_body *body)
 /* Tell whether the omitted rows of a joint become rows of zeros, so that space_joints_hot.c can
  * evaluate the joint. This is not possible if a row is omitted that makes points coincide, or if
  * all rows are omitted. */
-static bool stays_whole(const baum_mechanism *m, const baum_i_joint *joint,
-                        const unsigned char *omitted)
+static bool stays_whole(const baum_i_joint *joint, const unsigned char *omitted)
 {
-  baum_i_space_shape shape = baum_i_shape_of(m, joint);
-  bool coincide = shape <= BAUM_I_SHAPE_PDED;
+  baum_i_space_shape shape = baum_i_shape_of(joint);
+  int coincide = shape == BAUM_I_SHAPE_PIN ? 2 : shape <= BAUM_I_SHAPE_PDED ? 3 : 0;
   int left = 0;
+  bool met = true;
   for (int i = 0; i < joint->rows; i++) {
     left += omitted[i] ? 0 : 1;
+    met = met && !(omitted[i] && i < coincide);
   }
-  return shape != BAUM_I_SHAPES && left > 0 &&
-         !(coincide && (omitted[0] || omitted[1] || omitted[2]));
+  return shape != BAUM_I_SHAPES && left > 0 && met;
 }
 
-/* Return the number of body_a if the first three rows make points of bodies in space coincide and
- * the others compare directions; otherwise -1. */
-static int pinned_body(const baum_mechanism *m, const baum_i_joint *joint)
+/* Return the number of the body whose E is -I if the first three rows, or the rows of a planar pin,
+ * make points coincide and the others compare directions; otherwise -1. */
+static int pinned_body(const baum_i_joint *joint)
 {
+  if (joint->type->is_pin) {
+    return joint->span.bodies[1];
+  }
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(joint);
   bool pinned = rows && rows[0].x == BAUM_I_X_GROUND;
   for (int i = 3; pinned && i < joint->rows; i++) {
     pinned = rows[i].y != BAUM_I_APART;
-  }
-  for (int k = 0; pinned && k < 2; k++) {
-    int body = joint->span.bodies[k];
-    pinned = body == 0 || baum_i_is_spatial(m->bodies[body]->type->frame);
   }
   return pinned ? joint->span.bodies[0] : -1;
 }
@@ -107,7 +106,7 @@ static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
   }
   for (int i = 0; i < m->joint_count; i++) {
     const baum_i_joint *joint = m->joints[i];
-    out->pinned[i] = pinned_body(m, joint);
+    out->pinned[i] = pinned_body(joint);
     if (joint->type->is_pin) {
       out->pins[i] = (baum_i_block_pin){
         .is_pin = true, .body_a = joint->span.bodies[0] - 1, .body_b = joint->span.bodies[1] - 1};
@@ -116,7 +115,7 @@ static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
       bool redundant = w->rows.omitted[k];
       out->omitted[k] = redundant || (for_motion && joint->fixed) ? 1 : 0;
     }
-    out->whole[i] = stays_whole(m, joint, out->omitted + joint->row) ? 1 : 0;
+    out->whole[i] = stays_whole(joint, out->omitted + joint->row) ? 1 : 0;
   }
 }
 

@@ -8,8 +8,8 @@
 #include "dynamics/block_path.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-static const char *const SHAPES[BAUM_I_SHAPES] = {"ppp",   "pppd", "pppde", "pppded", "dess",
-                                                  "dessd", "des",  "ss",    "s"};
+static const char *const SHAPES[BAUM_I_SHAPES] = {"pp",   "ppp",   "pppd", "pppde", "pppded",
+                                                  "dess", "dessd", "des",  "ss",    "s"};
 
 /* Return the kind of a row, see space_joints.h. `before` is the preceding row of the joint, or
  * NULL. */
@@ -27,12 +27,11 @@ static char kind_of(const baum_i_spatial_row *row, const baum_i_spatial_row *bef
   return before && before->x < BAUM_I_X_B && before->y == row->y ? 'e' : 'd';
 }
 
-baum_i_space_shape baum_i_shape_of(const baum_mechanism *m, const baum_i_joint *joint)
+baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint)
 {
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(joint);
-  for (int k = 0; rows && k < 2; k++) {
-    int body = joint->span.bodies[k];
-    rows = body == 0 || baum_i_is_spatial(m->bodies[body]->type->frame) ? rows : NULL;
+  if (joint->type->is_pin) {
+    return BAUM_I_SHAPE_PIN;
   }
   char kinds[BAUM_I_SPACE_ROWS + 1] = {0};
   for (int i = 0; rows && i < joint->rows; i++) {
@@ -62,16 +61,18 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   const baum_i_joint *of = w->mechanism->joints[node->row_block];
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(of);
   const double *numbers = w->point.parameters + of->element.parameter;
+  bool pin = of->type->is_pin; /* its points have two numbers, and that of body_b is the first */
   double *axes = out + BAUM_I_JOINT_AXES;
   for (int k = 0; k < 2; k++) {
-    const double *s = numbers + BAUM_I_SPATIAL_POINTS + (ptrdiff_t)3 * k;
-    memcpy(out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k, s, 3 * sizeof *s);
+    double *s = out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k;
+    memcpy(s, numbers + (pin ? 2 - 2 * k : BAUM_I_SPATIAL_POINTS + 3 * k),
+           (pin ? 2 : 3) * sizeof *s);
     set_arms(&space->bodies[joint->body[k]], s, k == 0 ? 1.0 : -1.0,
              out + BAUM_I_JOINT_ARMS + (ptrdiff_t)12 * k);
   }
   for (int i = 0; i < node->rows; i++) {
     out[BAUM_I_JOINT_KEEP + i] = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
-    if (rows[i].x < BAUM_I_X_B) {
+    if (!pin && rows[i].x < BAUM_I_X_B) {
       memcpy(axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)3 * (int)(rows[i].x - BAUM_I_X_A),
              3 * sizeof *axes);
       if (rows[i].y < BAUM_I_X_GROUND) {
@@ -126,17 +127,18 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
   for (int k = 0; k < space->node_count; k++) {
     baum_i_space_node *node = &space->list[k];
     const baum_i_joint *joint = m->joints[node->row_block];
-    baum_i_space_shape shape = baum_i_shape_of(m, joint);
+    baum_i_space_shape shape = baum_i_shape_of(joint);
     node->direct = shape != BAUM_I_SHAPES && node->rows == joint->rows;
     if (node->direct) {
       is_done[node->row_block] = 1;
-      const int *bodies = joint->span.bodies;
-      out->list[out->count++] = (baum_i_space_joint){
-        .shape = (int32_t)shape,
-        .node = k,
-        .row = joint->row,
-        .body = {bodies[0], bodies[1]},
-        .side = {side_on(space, node, bodies[0]), side_on(space, node, bodies[1])}};
+      int first = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 1 : 0];
+      int second = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 0 : 1];
+      out->list[out->count++] =
+        (baum_i_space_joint){.shape = (int32_t)shape,
+                             .node = k,
+                             .row = joint->row,
+                             .body = {first, second},
+                             .side = {side_on(space, node, first), side_on(space, node, second)}};
     }
   }
   qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);

@@ -19,11 +19,12 @@ typedef struct baum_i_space_frame {
   double w[4]; /* angular velocity in ground axes */
 } baum_i_space_frame;
 
-/* Each letter in the name of a shape is a kind of row, in the order of the rows. P: three rows that
- * make points coincide. D: the product of two axes, one on each body. E: a row D with the same axis
+/* A planar revolute joint is a PIN. In the names of the other shapes, each letter is a kind of row,
+ * in the order of the rows. P: three rows that make points coincide. D: the product of two axes, one on each body. E: a row D with the same axis
  * on body_b as the row before. S: the product of an axis on body_a and the vector between the
  * points. */
 typedef enum baum_i_space_shape {
+  BAUM_I_SHAPE_PIN,
   BAUM_I_SHAPE_P,
   BAUM_I_SHAPE_PD,
   BAUM_I_SHAPE_PDE,
@@ -49,7 +50,7 @@ typedef struct baum_i_space_joint {
   int32_t shape; /* baum_i_space_shape */
   int32_t node;
   int32_t row; /* the first of its rows */
-  int32_t body[2];
+  int32_t body[2]; /* Phi is x_1 - x_0; for a pin, whose Phi is x_a - x_b, body_b is the first */
   int32_t side[2]; /* -1: the body is ground */
   int32_t numbers; /* start of its constants */
 } baum_i_space_joint;
@@ -63,8 +64,8 @@ typedef struct baum_i_space_joints {
 } baum_i_space_joints;
 
 /* Return the shape of a joint. Returns BAUM_I_SHAPES if the joint must be evaluated by its J,
- * because one of its bodies is planar or it has other kinds of rows. */
-baum_i_space_shape baum_i_shape_of(const baum_mechanism *mechanism, const baum_i_joint *joint);
+ * because it has other kinds of rows. */
+baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint);
 
 /* Input and output. */
 typedef struct baum_i_space_pass {
@@ -73,6 +74,7 @@ typedef struct baum_i_space_pass {
   const double *q;
   const double *v;               /* NULL: at rest */
   double *normalized;            /* (nq) receives q, normalized; NULL: not wanted */
+  const baum_i_frame *frames;    /* (body_count) planar frames */
   baum_i_spatial_frame *spatial; /* (body_count) the same frames for other elements */
   const double *gravity;         /* NULL: no forces are wanted */
   const double *moments;         /* (nv) in place of gyroscopic moments, or NULL */
@@ -86,7 +88,7 @@ typedef struct baum_i_space_pass {
 } baum_i_space_pass;
 
 typedef struct baum_i_space_joints_kernel {
-  /* Sets the frames of rigid bodies and particles in space, their forces and a0. */
+  /* Sets the frames of all bodies, and the forces and a0 of those in space. */
   void (*set_bodies)(baum_i_space *space, const baum_i_space_pass *pass);
   /* Sets sides, r, D and J a0 - r of the joints' nodes, and their rows of Phi, Phi' and gamma. */
   void (*set_joints)(baum_i_space *space, const baum_i_space_pass *pass);

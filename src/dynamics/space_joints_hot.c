@@ -140,12 +140,37 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
+/* Lifts the frame of a planar body. Only the last column of its L^-T is not 0. */
+BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
+{
+  const baum_i_frame *f = &pass->frames[body];
+  const baum_i_body_place *place = &pass->places[body];
+  baum_i_space_frame *to = &pass->joints.frames[body];
+  const double c = f->c, s = f->s;
+  baum_i_four_store(to->axes, baum_i_four_set(c, s, 0.0, 0.0));
+  baum_i_four_store(to->axes + 4, baum_i_four_set(-s, c, 0.0, 0.0));
+  baum_i_four_store(to->axes + 8, baum_i_four_set(0.0, 0.0, 1.0, 0.0));
+  baum_i_four_store(to->turned + 8, baum_i_four_set(0.0, 0.0, b->bodies[body].whiten[10], 0.0));
+  baum_i_four_store(to->r, baum_i_four_of(baum_i_load(&f->x)));
+  baum_i_four_store(to->v, baum_i_four_of(baum_i_load(&f->vx)));
+  baum_i_four_store(to->w, baum_i_four_set(0.0, 0.0, f->w, 0.0));
+  if (place->in_space) {
+    pass->spatial[body] = baum_i_lifted(f);
+  }
+  if (pass->normalized) {
+    size_t size = place->kind == BAUM_I_FRAME_BODY ? 3 : 2;
+    memcpy(pass->normalized + place->q, pass->q + place->q, size * sizeof *pass->q);
+  }
+}
+
 static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
 {
   const baum_i_space_pass at = *pass;
   for (int i = 1; i < b->body_count; i++) {
     if (baum_i_is_spatial((baum_i_frame_kind)at.places[i].kind)) {
       set_body(b, i, &at);
+    } else {
+      set_planar_body(b, i, &at);
     }
   }
 }
@@ -355,17 +380,18 @@ BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *
                                bool points, bool slides, const rows *row, const double *keep,
                                column d[BAUM_I_SPACE_ROWS])
 {
-  double weight = b->bodies[joint->body[0]].weight[0] + b->bodies[joint->body[1]].weight[0];
+  const double *weights[2] = {b->bodies[joint->body[0]].weight, b->bodies[joint->body[1]].weight};
   int first = joint->side[0] < 0 ? 1 : 0;
   const double *move = b->sides + b->side_list[joint->side[first]].move;
-  double sign = first == 0 ? -weight : weight; /* E_a = -move */
+  double sign = first == 0 ? -1.0 : 1.0; /* E_a = -move */
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
     d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
-    put(&d[j], j, baum_i_four_all((points && j < 3 ? weight : 0.0) + 1.0 - keep[j]), 0);
+    double weight = points && j < 3 ? weights[0][j] + weights[1][j] : 0.0;
+    put(&d[j], j, baum_i_four_all(weight + 1.0 - keep[j]), 0);
     BAUM_I_UNROLL(3)
     for (int c = 0; slides && c < 3; c++) {
-      double s = sign * move[baum_i_column_entry(3, j, c)];
+      double s = sign * (weights[0][c] + weights[1][c]) * move[baum_i_column_entry(3, j, c)];
       d[j] = baum_i_column_add(d[j], row->move[c], s, j >= 4);
     }
   }
@@ -459,6 +485,7 @@ static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
   const baum_i_space_joint *end = at.joints.list + at.joints.count;
   for (const baum_i_space_joint *joint = at.joints.list; joint < end; joint++) {
     switch ((baum_i_space_shape)joint->shape) {
+    case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, true, 0, 0, &at); break;
     case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, 0, &at); break;
     case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, 0, &at); break;
     case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, true, 0, 4, &at); break;

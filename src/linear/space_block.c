@@ -140,12 +140,13 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
   int n = block->size;
   bool positive = m[0] > 0.0;
   body->mass = m[0];
+  bool planar = body->slots[2] == 5;
   for (int i = 0; i < 3; i++) {
-    body->weight[i] = 1.0 / m[0];
+    body->weight[i] = planar && i == 2 ? 0.0 : 1.0 / m[0];
   }
   if (n == 6) {
     positive = whiten(body) && positive;
-  } else if (n == 3 && body->slots[2] == 5) {
+  } else if (n == 3 && planar) {
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);
     body->whiten[10] = 1.0 / body->unwhite[8];
@@ -221,9 +222,10 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
 
 enum { MOST = BAUM_I_SPACE_ROWS };
 
-/* Add w G G^T to the lower triangle of s, for a part G (E or R) of three columns. s[j] is column j
- * of the triangle. */
-BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double s[MOST][MOST])
+/* Add G W G^T to the lower triangle of s, for a part G (E or R) of three columns and a diagonal
+ * matrix W. s[j] is column j of the triangle. */
+BAUM_I_INLINE void add_products(const double *part, const double w[3], bool tall,
+                                double s[MOST][MOST])
 {
   const int rows = tall ? 6 : 4;
   for (int c = 0; c < 3; c++) {
@@ -231,7 +233,7 @@ BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double 
     const double *low = part + 12 + 2 * (ptrdiff_t)c;
     BAUM_I_UNROLL(6)
     for (int j = 0; j < rows; j++) {
-      baum_i_pair factor = baum_i_both(w * (j < 4 ? high[j] : low[j - 4]));
+      baum_i_pair factor = baum_i_both(w[c] * (j < 4 ? high[j] : low[j - 4]));
       BAUM_I_UNROLL(3)
       for (int i = j - j % 2; i < rows; i += 2) {
         baum_i_pair g = baum_i_load(i < 4 ? high + i : low);
@@ -244,10 +246,11 @@ BAUM_I_INLINE void add_products(const double *part, double w, bool tall, double 
 BAUM_I_INLINE void add_sides(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                              double s[MOST][MOST])
 {
+  static const double ONES[3] = {1.0, 1.0, 1.0};
   for (int k = node->first_side; k < node->first_side + node->side_count; k++) {
     const baum_i_space_side *side = &b->side_list[k];
-    add_products(b->sides + side->move, b->bodies[side->body].weight[0], tall, s);
-    add_products(b->sides + side->turn, 1.0, tall, s);
+    add_products(b->sides + side->move, b->bodies[side->body].weight, tall, s);
+    add_products(b->sides + side->turn, ONES, tall, s);
   }
 }
 

@@ -14,7 +14,8 @@
  *
  * The first three rows of many joints make two points coincide. Their E is +I or -I, and E of the
  * rows that compare directions is 0. Such a side is *lean*: only R is stored. A planar body is a
- * body whose E has no third column and whose R has only the third. Body 0 is the ground, W = 0.
+ * body whose W is 0 for the third entry of x and for the first two of y. Body 0 is the ground, W =
+ * 0.
  *
  * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
  * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
@@ -39,9 +40,9 @@ typedef enum baum_i_space_kind {
 typedef struct baum_i_space_layout {
   const baum_i_kkt_structure *structure;
   const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
-  /* (row_block_count) -1 unless the first three rows make points of two rigid bodies or particles
-   * in space coincide and all other rows compare directions; then the number of the body whose E is
-   * -I (0: ground) */
+  /* (row_block_count) -1 unless the first three rows, or the two rows of a planar pin, make points
+   * coincide and all other rows compare directions; then the number of the body whose E is -I (0:
+   * ground) */
   const int *pinned;
   /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
    * that its size is that of the joint */
@@ -99,7 +100,7 @@ typedef struct baum_i_space_measure {
 
 /* Constants of a body. */
 typedef struct baum_i_space_body {
-  double weight[4];   /* 1 / m, three times, and 0 */
+  double weight[4];   /* 1 / m, three times (planar: twice), and 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
   double inertia[12]; /* I likewise */
   double unwhite[9];  /* L^T, row-major */

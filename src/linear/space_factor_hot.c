@@ -36,7 +36,9 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
   static const double UNITS[3][4] = {{1.0}, {0.0, 1.0}, {0.0, 0.0, 1.0}};
   const double *other = b->sides + pair->turn[1];
   const double *other_move = b->sides + pair->move[1];
-  double weight = b->bodies[pair->body].weight[0];
+  const double *weight = b->bodies[pair->body].weight;
+  const baum_i_four lean_weight =
+    baum_i_four_times(baum_i_four_load(weight), baum_i_four_all(pair->sign));
   double *to = b->off + pair->to;
   /* The columns are loaded before the loop. The compiler would otherwise load them again in each
    * iteration, because it cannot exclude that the stores to `to` change them. */
@@ -46,6 +48,7 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
   for (int c = 0; c < 3; c++) {
     turn[c] = baum_i_column_load(b->sides + pair->turn[0], 3, c, tall);
     move[c] = baum_i_column_load(b->sides + pair->move[0], 3, c, tall);
+    move[c] = baum_i_column_times(move[c], weight[c], tall);
   }
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
@@ -58,11 +61,12 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
       ptrdiff_t at = baum_i_column_entry(3, j, c);
       sum = baum_i_column_add(sum, turn[c], other[at], tall);
       if (!lean) {
-        sum = baum_i_column_add(sum, move[c], weight * other_move[at], tall);
+        sum = baum_i_column_add(sum, move[c], other_move[at], tall);
       }
     }
     if (lean && j < 3) {
-      sum.low = baum_i_four_add(sum.low, baum_i_four_load(UNITS[j]), pair->sign * weight);
+      sum.low = baum_i_four_plus(sum.low,
+                                 baum_i_four_times(baum_i_four_load(UNITS[j]), lean_weight));
     }
     baum_i_column_store(to, n, j, tall, sum);
   }

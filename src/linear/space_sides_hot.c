@@ -29,7 +29,7 @@ static void set_force(baum_i_space *b, const double *force)
   }
 }
 
-/* Copies E and R of a side from the rows of J. */
+/* Copies E and R of a side from the rows of J. Columns that the body does not have stay 0. */
 static void take_side(const baum_i_space *b, const baum_i_space_node *node,
                       const baum_i_space_side *side, const double *jacobian)
 {
@@ -44,11 +44,13 @@ static void take_side(const baum_i_space *b, const baum_i_space_node *node,
     }
     for (int c = 0; c < 3; c++) {
       ptrdiff_t at = baum_i_column_entry(3, i, c);
-      if (side->sign == 0) {
+      if (side->sign == 0 && side->from[c] >= 0) {
         b->sides[side->move + at] = six[c];
       }
-      b->sides[side->turn + at] =
-        whiten[c] * six[3] + whiten[4 + c] * six[4] + whiten[8 + c] * six[5];
+      if (side->from[3 + c] >= 0) {
+        b->sides[side->turn + at] =
+          whiten[c] * six[3] + whiten[4 + c] * six[4] + whiten[8 + c] * six[5];
+      }
     }
   }
 }
@@ -77,10 +79,13 @@ static void add_side(const baum_i_space *b, const baum_i_space_side *side, int n
 {
   const double *a0 = b->from + (ptrdiff_t)MOTION * side->body;
   for (int c = 0; c < 6; c++) {
+    if (side->from[c] < 0) {
+      continue;
+    }
     const double *part = b->sides + (c < 3 ? side->move : side->turn);
     baum_i_space_column g =
       n > 4 ? baum_i_column_load(part, 3, c % 3, true) : baum_i_column_load(part, 3, c % 3, false);
-    double w = c < 3 ? b->bodies[side->body].weight[0] : 1.0;
+    double w = c < 3 ? b->bodies[side->body].weight[c] : 1.0;
     *sum = baum_i_column_add(*sum, g, a0[c < 3 ? c : c + 1], true);
     for (int j = 0; j < n; j++) {
       baum_i_space_column old = baum_i_column_load(d[j], 1, 0, true);

@@ -117,8 +117,9 @@ static baum_status add_nodes(builder *u, int row_block)
       }
     }
     if (node.rows > 0) {
-      node.lean = u->layout->pinned[row_block] >= 0 && node.rows >= 3 &&
-                  node.row[2] == rows->row + 2 && (node.omitted & 7u) == 0;
+      int points = rows->rows < 3 ? rows->rows : 3;
+      node.lean = u->layout->pinned[row_block] >= 0 && node.rows >= points &&
+                  node.row[points - 1] == rows->row + points - 1 && (node.omitted & 7u) == 0;
       BAUM_I_TRY(add_sides(u, rows, &node));
       baum_i_space_node *added = baum_i_vector_append(&u->nodes);
       if (!added) {

@@ -228,16 +228,27 @@ static baum_status mark_velocity_rows(baum_mechanism *m)
   return BAUM_OK;
 }
 
-static bool has_spatial_elements(const baum_mechanism *m)
+/* Mark the bodies of a spatial element, whose frames in space it reads. */
+static void mark_in_space(baum_mechanism *m, const baum_i_span *span)
 {
-  bool found = false;
+  m->spatial = true;
+  for (int k = 0; k < span->body_count; k++) {
+    m->places[span->bodies[k]].in_space = 1;
+  }
+}
+
+static void mark_spatial_elements(baum_mechanism *m)
+{
   for (int i = 0; i < m->joint_count; i++) {
-    found = found || m->joints[i]->type->width == BAUM_I_SPACE;
+    if (m->joints[i]->type->width == BAUM_I_SPACE) {
+      mark_in_space(m, &m->joints[i]->span);
+    }
   }
   for (int i = 0; i < m->force_count; i++) {
-    found = found || m->forces[i]->type->spatial;
+    if (m->forces[i]->type->spatial) {
+      mark_in_space(m, &m->forces[i]->span);
+    }
   }
-  return found;
 }
 
 static void place_bodies(baum_mechanism *mechanism)
@@ -247,7 +258,7 @@ static void place_bodies(baum_mechanism *mechanism)
   mechanism->all_planar = true;
   mechanism->constant_mass = true;
   mechanism->flat = true;
-  mechanism->spatial = has_spatial_elements(mechanism);
+  mechanism->spatial = false;
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
     bool held = false;
@@ -255,9 +266,10 @@ static void place_bodies(baum_mechanism *mechanism)
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
     mechanism->flat &= !body->manifold;
-    mechanism->spatial |= baum_i_is_spatial(body->type->frame);
-    mechanism->places[i] =
-      (baum_i_body_place){.q = body->q, .v = body->v, .kind = body->type->frame};
+    const bool spatial = baum_i_is_spatial(body->type->frame);
+    mechanism->spatial |= spatial;
+    mechanism->places[i] = (baum_i_body_place){
+      .q = body->q, .v = body->v, .kind = body->type->frame, .in_space = spatial ? 1 : 0};
     mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;
     mechanism->constant_mass &=
       !body->type->constant_mass || body->type->constant_mass(body->element.def);
@@ -270,6 +282,7 @@ static void place_bodies(baum_mechanism *mechanism)
       mechanism->held[body->v + j] = held;
     }
   }
+  mark_spatial_elements(mechanism);
 }
 
 static baum_status lower_elements(baum_mechanism *m)

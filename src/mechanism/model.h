@@ -142,11 +142,21 @@ typedef struct baum_i_spatial_frame {
   double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
 } baum_i_spatial_frame;
 
+/* Return the frame of a planar body as a frame in space. */
+static inline baum_i_spatial_frame baum_i_lifted(const baum_i_frame *f)
+{
+  return (baum_i_spatial_frame){.r = {f->x, f->y},
+                                .v = {f->vx, f->vy},
+                                .w = {0.0, 0.0, f->w},
+                                .axes = {f->c, -f->s, 0.0, f->s, f->c, 0.0, 0.0, 0.0, 1.0}};
+}
+
 /* The coordinates from which the frame of a body is computed: their indices in q and v. */
 typedef struct baum_i_body_place {
-  int32_t q;    /* first position */
-  int32_t v;    /* first velocity */
-  int32_t kind; /* baum_i_frame_kind */
+  int32_t q;        /* first position */
+  int32_t v;        /* first velocity */
+  int32_t kind;     /* baum_i_frame_kind */
+  int32_t in_space; /* whether its frame in space is needed: it is spatial, or has such elements */
 } baum_i_body_place;
 
 typedef struct baum_i_frames_kernel baum_i_frames_kernel;
@@ -168,7 +178,8 @@ typedef struct baum_i_point {
   double *normalized;   /* (nq) normalized q; NULL if the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
-  baum_i_spatial_frame *spatial; /* (body_count + 1); NULL if nothing is spatial */
+  /* (body_count + 1) only those of places with `in_space` are set; NULL if nothing is spatial */
+  baum_i_spatial_frame *spatial;
   /* Expected angles of spatial joints, see general/coordinate.h. `angles` points to own_angles or
    * to an array of a run. */
   double *angles;

@@ -1,17 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The spatial frames of all bodies that have a position. */
+/* The spatial frames of bodies. */
 #include <string.h>
 
 #include "mechanism/spatial/spatial.h"
 
 /* ---- frames ---- */
-
-static void set_turn(baum_i_spatial_frame *frame, double cosine, double sine, double rate)
-{
-  const double axes[9] = {cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0};
-  memcpy(frame->axes, axes, sizeof axes);
-  frame->w[2] = rate;
-}
 
 baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
                                              const double *v)
@@ -20,15 +13,18 @@ baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const doubl
   if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
     return frame;
   }
-  bool planar = kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY;
-  size_t size = (planar ? 2 : 3) * sizeof *q;
-  memcpy(frame.r, q, size);
-  if (v) {
-    memcpy(frame.v, v, size);
+  if (!baum_i_is_spatial(kind)) {
+    baum_i_frame planar = baum_i_frame_at(kind, q);
+    planar.vx = v ? v[0] : 0.0;
+    planar.vy = v ? v[1] : 0.0;
+    planar.w = v && kind == BAUM_I_FRAME_BODY ? v[2] : 0.0;
+    return baum_i_lifted(&planar);
   }
-  if (kind == BAUM_I_FRAME_BODY) {
-    set_turn(&frame, cos(q[2]), sin(q[2]), v ? v[2] : 0.0);
-  } else if (kind == BAUM_I_FRAME_SPATIAL_BODY) {
+  memcpy(frame.r, q, sizeof frame.r);
+  if (v) {
+    memcpy(frame.v, v, sizeof frame.v);
+  }
+  if (kind == BAUM_I_FRAME_SPATIAL_BODY) {
     baum_i_rotation_of(q + 3, frame.axes);
     if (v) {
       baum_i_turn(frame.axes, v + 3, frame.w);
@@ -55,7 +51,12 @@ void baum_i_point_set_spatial(baum_i_point *point)
   const baum_mechanism *m = point->mechanism;
   for (int i = 1; i <= m->body_count; i++) {
     const baum_i_body_place *place = &m->places[i];
-    point->spatial[i] = baum_i_spatial_frame_at((baum_i_frame_kind)place->kind, point->q + place->q,
-                                                point->v ? point->v + place->v : NULL);
+    const baum_i_frame_kind kind = (baum_i_frame_kind)place->kind;
+    if (place->in_space && baum_i_is_spatial(kind)) {
+      point->spatial[i] = baum_i_spatial_frame_at(kind, point->q + place->q,
+                                                  point->v ? point->v + place->v : NULL);
+    } else if (place->in_space) {
+      point->spatial[i] = baum_i_lifted(&point->frames[i]);
+    }
   }
 }
