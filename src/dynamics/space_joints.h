@@ -49,7 +49,7 @@ enum {
 typedef struct baum_i_space_joint {
   int32_t shape; /* baum_i_space_shape */
   int32_t node;
-  int32_t row; /* the first of its rows */
+  int32_t row;     /* the first of its rows */
   int32_t body[2]; /* Phi is x_1 - x_0; for a pin, whose Phi is x_a - x_b, body_b is the first */
   int32_t side[2]; /* -1: the body is ground */
   int32_t numbers; /* start of its constants */

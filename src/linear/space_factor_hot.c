@@ -65,8 +65,8 @@ BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *p
       }
     }
     if (lean && j < 3) {
-      sum.low = baum_i_four_plus(sum.low,
-                                 baum_i_four_times(baum_i_four_load(UNITS[j]), lean_weight));
+      sum.low =
+        baum_i_four_plus(sum.low, baum_i_four_times(baum_i_four_load(UNITS[j]), lean_weight));
     }
     baum_i_column_store(to, n, j, tall, sum);
   }

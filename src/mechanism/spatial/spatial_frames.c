@@ -53,8 +53,8 @@ void baum_i_point_set_spatial(baum_i_point *point)
     const baum_i_body_place *place = &m->places[i];
     const baum_i_frame_kind kind = (baum_i_frame_kind)place->kind;
     if (place->in_space && baum_i_is_spatial(kind)) {
-      point->spatial[i] = baum_i_spatial_frame_at(kind, point->q + place->q,
-                                                  point->v ? point->v + place->v : NULL);
+      point->spatial[i] =
+        baum_i_spatial_frame_at(kind, point->q + place->q, point->v ? point->v + place->v : NULL);
     } else if (place->in_space) {
       point->spatial[i] = baum_i_lifted(&point->frames[i]);
     }
