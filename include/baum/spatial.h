@@ -14,7 +14,8 @@
  *
  *  Reaction of a joint: the force [N] and the moment [N m] that the joint exerts on body_b, in
  *  ground axes. The moment is about the joint's point on body_b. If a driver acts on the joint, the
- *  reaction does not include the force or torque of the driver.
+ *  reaction does not include the force or torque of the driver. If a body is planar, the reaction
+ *  includes the force across the plane and the moments about x and y, which the plane supports.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H

@@ -31,8 +31,9 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
   baum_i_frame_kind kind = baum_i_frame_of(body);
   if (kind == BAUM_I_FRAME_NONE || baum_i_is_spatial(kind)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no position in the plane", label,
-                       field, baum_i_label(&body->element).text);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no position in the plane%s",
+                       label, field, baum_i_label(&body->element).text,
+                       baum_i_is_spatial(kind) ? "; take the spatial element" : "");
   }
   return BAUM_OK;
 }
