@@ -450,6 +450,74 @@ class Coordinates(unittest.TestCase):
             m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record="sleeve.angle_b")
 
 
+class PlanarBodies(unittest.TestCase):
+    """A planar crank carries a spatial bob, and a planar particle a spatial spring."""
+
+    def setUp(self):
+        m = baum.Mechanism()
+        crank = m.planar_body("crank", inertia=0.01, position=(0.1, 0), angular_velocity=8)
+        bead = m.planar_particle("bead", position=(1, 0))
+        m.revolute("pin", m.ground, crank, point=(0, 0))
+        bob = m.spatial_body("bob", mass=0.5, inertia=(0.02, 0.02, 0.02), position=(0.2, -0.3, 0.1))
+        m.spherical("ball", crank, bob, point=(0.2, 0, 0))
+        m.spatial_spring("spring", bead, bob, point_a=(0, 0, 0), point_b=(0, 0, 0), stiffness=9)
+        self.m = m
+
+    def run_to(self, m, record):
+        return m.freeze().simulate(np.linspace(0, 1, 5), "rk8", rtol=1e-10, record=record)
+
+    def test_scenes_and_saved_runs_continue_identically(self):
+        again = baum.parse(self.m.scene())
+        want = self.run_to(self.m, ["ball.reaction", "energy"])
+        got = self.run_to(again, ["ball.reaction", "energy"])
+        np.testing.assert_array_equal(got["q"], want["q"])
+        np.testing.assert_array_equal(got["ball.reaction"], want["ball.reaction"])
+        np.testing.assert_allclose(want["energy"].sum(1), want["energy"][0].sum(), rtol=1e-8)
+        runs = [again.simulation("rk8", rtol=1e-10) for _ in range(2)]
+        runs[0].advance_to(0.5)
+        runs[1].restore(runs[0].save())
+        for run in runs:
+            run.advance_to(1)
+        np.testing.assert_array_equal(runs[0].q, runs[1].q)
+
+    def test_the_plane_supports_planar_bodies(self):
+        run = self.run_to(self.m, ["ball.reaction", "pin.reaction", "ball.phi"])
+        self.assertEqual(run["pin.reaction"].shape[1], 3)
+        self.assertGreater(abs(run["ball.reaction"][:, 2]).min(), 1e-3)
+        self.assertLess(abs(run["ball.phi"]).max(), 1e-9)
+
+    def test_user_functions_see_both_kinds(self):
+        self.m.constraint("tie", ["bead", "bob"], 1, lambda t, q: [q[0] - q[2] - 0.8])
+        self.m.force("wind", ["crank", "bob"], lambda t, q, v: [0, 1, 0, 0, 0, 2, 0, 0, 0])
+        run = self.run_to(self.m, ["bead.pose", "bob.pose"])
+        apart = run["bead.pose"][:, 0] - run["bob.pose"][:, 0]
+        np.testing.assert_allclose(apart, 0.8, atol=1e-9)
+
+    def test_pages_show_the_plane_in_space(self):
+        drawing = str(self.m.draw())
+        self.assertIn("crank", drawing)
+        self.assertIn("bob", drawing)
+        run = self.run_to(self.m, [])
+        page = str(self.m.page([0, 1], run["q"][[0, -1]]))
+        self.assertTrue('"spatial":true' in page)
+        self.assertTrue('{"name":"crank","kind":"body"' in page)
+
+    def test_rows_across_the_plane_are_redundant_or_violated(self):
+        m = baum.Mechanism()
+        arm = m.planar_body("arm", inertia=0.1)
+        m.spatial_revolute("hinge", m.ground, arm, point=(0, 0, 0.3))
+        self.assertEqual(m.freeze().mobility().redundant_rows, 3)
+        tilted = m.copy(hinge=dict(axis_b=(0, 0.1, 1)))
+        with self.assertRaisesRegex(baum.Error, 'contradict each other in joint 1 "hinge"'):
+            tilted.simulation("rk8", rtol=1e-6)
+
+    def test_planar_elements_name_the_remedy(self):
+        with self.assertRaisesRegex(baum.Error, "no position in the plane; take the spatial"):
+            self.m.revolute("no", "crank", "bob", point=(0, 0))
+        with self.assertRaisesRegex(baum.Error, "which has no orientation"):
+            self.m.spatial_revolute("no", "bead", "bob", point=(1, 0, 0))
+
+
 class MovedCopies(unittest.TestCase):
     """A copy with other positions and orientations must be the same mechanism in another
     configuration."""
