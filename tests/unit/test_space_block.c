@@ -16,6 +16,7 @@
 #include "dynamics/block_path.h"
 #include "random_spatial.h"
 #include "spatial.h"
+#include "spatial_scenes.h"
 
 enum { MOST = 400 };
 
@@ -275,11 +276,33 @@ static void random_mechanisms_are_the_same_in_both_builds(void **state)
   assert_true(compared >= 50);
 }
 
+/* A planar four-bar with pins, of which the coupler carries a spatial body. */
+static void planar_pins_are_the_same_in_both_builds(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  baum_body_id bob;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  spatial_build_planar_four_bar(m);
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.position[2] = 0.3;
+  assert_int_equal(baum_mechanism_add_spatial_body(m, &def, &bob), BAUM_OK);
+  baum_spatial_spherical_def ball = baum_spatial_spherical_def_default();
+  ball.body_a = baum_mechanism_body_at(m, 1);
+  ball.body_b = bob;
+  memset(ball.point, 0, sizeof ball.point);
+  assert_int_equal(baum_mechanism_add_spatial_spherical(m, &ball, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_true(compare(m));
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_are_the_same_in_both_builds),
     cmocka_unit_test(random_mechanisms_are_the_same_in_both_builds),
+    cmocka_unit_test(planar_pins_are_the_same_in_both_builds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
