@@ -479,25 +479,30 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   set_pivot(b, joint, n, points, slides != 0, &row, at);
 }
 
+BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_joint *joint,
+                                      const baum_i_space_pass *at)
+{
+  switch ((baum_i_space_shape)joint->shape) {
+  case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_PDED: set_joint(b, joint, 6, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_DESS: set_joint(b, joint, 4, false, 0xc, 1, at); break;
+  case BAUM_I_SHAPE_DESSD: set_joint(b, joint, 5, false, 0xc, 1, at); break;
+  case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, false, 0x4, 1, at); break;
+  case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, 0, at); break;
+  case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, 0, at); break;
+  case BAUM_I_SHAPES:
+  default: break;
+  }
+}
+
 static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
 {
   const baum_i_space_pass at = *pass;
-  const baum_i_space_joint *end = at.joints.list + at.joints.count;
-  for (const baum_i_space_joint *joint = at.joints.list; joint < end; joint++) {
-    switch ((baum_i_space_shape)joint->shape) {
-    case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, true, 0, 0, &at); break;
-    case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, 0, &at); break;
-    case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, 0, &at); break;
-    case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, true, 0, 4, &at); break;
-    case BAUM_I_SHAPE_PDED: set_joint(b, joint, 6, true, 0, 4, &at); break;
-    case BAUM_I_SHAPE_DESS: set_joint(b, joint, 4, false, 0xc, 1, &at); break;
-    case BAUM_I_SHAPE_DESSD: set_joint(b, joint, 5, false, 0xc, 1, &at); break;
-    case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, false, 0x4, 1, &at); break;
-    case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, 0, &at); break;
-    case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, 0, &at); break;
-    case BAUM_I_SHAPES:
-    default: break;
-    }
+  for (int i = 0; i < at.joints.count; i++) {
+    set_joint_of_shape(b, &at.joints.list[i], &at);
   }
 }
 

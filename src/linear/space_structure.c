@@ -102,6 +102,14 @@ static baum_status add_sides(builder *u, const baum_i_row_block *rows, baum_i_sp
   return BAUM_OK;
 }
 
+/* Tells whether the points of a joint coincide in the first rows of the node. */
+static bool is_lean(const builder *u, const baum_i_row_block *rows, const baum_i_space_node *node)
+{
+  int points = rows->rows < 3 ? rows->rows : 3;
+  return u->layout->pinned[node->row_block] >= 0 && node->rows >= points &&
+         node->row[points - 1] == rows->row + points - 1 && (node->omitted & 7u) == 0;
+}
+
 /* Adds a node for each group of up to six rows. Omitted rows are skipped, unless the layout marks
  * the row block as `whole`. */
 static baum_status add_nodes(builder *u, int row_block)
@@ -117,9 +125,7 @@ static baum_status add_nodes(builder *u, int row_block)
       }
     }
     if (node.rows > 0) {
-      int points = rows->rows < 3 ? rows->rows : 3;
-      node.lean = u->layout->pinned[row_block] >= 0 && node.rows >= points &&
-                  node.row[points - 1] == rows->row + points - 1 && (node.omitted & 7u) == 0;
+      node.lean = is_lean(u, rows, &node);
       BAUM_I_TRY(add_sides(u, rows, &node));
       baum_i_space_node *added = baum_i_vector_append(&u->nodes);
       if (!added) {
