@@ -190,6 +190,12 @@ class SingularStartWarning(DoubtWarning):
     code = 104
 
 
+class BushingWarning(DoubtWarning):
+    """The rotation of a bushing has passed pi, where its moment jumps."""
+
+    code = 105
+
+
 KINDS = {
     kind.code: kind
     for base in (Warning, DoubtWarning)
