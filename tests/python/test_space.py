@@ -27,6 +27,12 @@ class Rotation:
         return np.roll(self.p, -1)
 
 
+def saddle(xyz):
+    """The curve in which z = x y and x + 0.5 z = 0 intersect."""
+    x, y, z = xyz
+    return [z - x * y, -y, -x, 1, 0, -1, 0, 0, 0, 0, x + 0.5 * z, 1, 0, 0.5, 0, 0, 0, 0, 0, 0]
+
+
 def add_every_joint(m, a, b, p):
     """Add one joint of each kind between two bodies and a particle. Some have a common point in
     ground axes, others have points and axes in the axes of both bodies."""
@@ -43,6 +49,9 @@ def add_every_joint(m, a, b, p):
     m.constant_velocity("cage", a, b, point=point, axis=(1, 0, 0), axis_b=(1, 1, 0))
     m.point_on_line("line", a, p, point_a=point, point_b=(0, 0, 0), axis=(1, 0, 2))
     m.point_on_plane("plane", a, p, point=(1, 2, 3), axis=(0, 1, 0))
+    m.spatial_curve("curve", a, p, saddle, point=(1, 2, 3))
+    m.spatial_knife_edge("edge", a, point=point, axis=(1, 0, 2), body_b=b)
+    m.cable("cable", [a, m.ground, b], [point, (1, 1, 1), (0, 0, 0.2)], stiffness=2, damping=0.1)
     m.spatial_spring(
         "spring", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0), stiffness=3, damping=0.1
     )
@@ -325,6 +334,7 @@ class Joints(unittest.TestCase):
         q = w.move(0.1 * np.sin(np.arange(15)), w.design()[0])
         moved = w.move([1, 2, 3, 0, 0, 0, 2, -1, 5, 0, 0, 0, 0, 1, 1], q)
         units = [unit for one in m if one.family == "joint" for unit in one.kind.units]
+        units[m.rows("edge").start] = "-"  # a row of velocity level, whose Phi is 0
         for before, after, unit in zip(w.phi(0, q), w.phi(0, moved), units):
             if unit == "-":
                 self.assertAlmostEqual(before, after, 13)
@@ -394,6 +404,36 @@ class Forces(unittest.TestCase):
         m.spatial_spring("s", "ground", "bob", point_a=(0, 0, 0), point_b=(0, 0, 0), law=law)
         g = baum.Workspace(m.freeze()).force(0, (0, 0, 2), (0, 0, 0))
         np.testing.assert_allclose(g, (0, 0, -4))
+
+    def test_the_drag_of_a_plate(self):
+        """The function gives only the force. Implicit methods use derivatives by differences."""
+
+        def drag(t, q, v):
+            normal = matrix(q[3:7])[:, 2]
+            speed = normal @ v[:3]
+            return [*(-0.8 * abs(speed) * speed * normal), *(-0.3 * v[3:])]
+
+        def plate(orientation):
+            m = baum.Mechanism(gravity=(0, 0, 0))
+            body = m.spatial_body(
+                "plate", mass=2, inertia=(1, 1, 2), orientation=orientation, velocity=(0.5, -1, 6),
+                angular_velocity=(0, 0, 3),
+            )  # fmt: skip
+            m.force("air", body, drag)
+            return m.freeze()
+
+        for method, accuracy in (("rk8", 1e-8), ("cvode_bdf", 1e-5), ("ida", 1e-5)):
+            options = {"rtol": 1e-9, "check_derivatives": True}
+            s = plate((1, 0, 0, 0)).simulation(method, **options)
+            s.advance_to(1)
+            # The speed v along the normal and the spin w obey 2 v' = -0.8 v^2 and 2 w' = -0.3 w.
+            want = (0.5, -1, 6 / (1 + 0.4 * 6), 0, 0, 3 * math.exp(-0.15))
+            np.testing.assert_allclose(s.v, want, rtol=accuracy, atol=accuracy)
+            s = plate(TILTED).simulation(method, **options)
+            s.advance_to(1)
+            if method == "rk8":
+                tilted = s.v
+            np.testing.assert_allclose(s.v, tilted, rtol=accuracy, atol=accuracy)
 
     def test_a_moment_turns_a_body(self):
         m = baum.Mechanism(gravity=(0, 0, 0))
@@ -582,6 +622,15 @@ class MovedCopies(unittest.TestCase):
         hinge.driver("motor", "J")
         with self.assertRaisesRegex(ValueError, 'joint "J" keeps'):
             hinge.copy(a=dict(orientation=TILTED))
+
+    def test_a_cable_keeps_its_free_length(self):
+        m = everything().freeze()
+        moved = m.copy(b=dict(position=(1, 1, 1)))
+        length = moved["cable"].definition["free_length"]
+        w, there = baum.Workspace(m), baum.Workspace(m.copy(cable=dict(free_length=length)))
+        q = w.design()[0]
+        np.testing.assert_allclose(w.force(0, q, np.zeros(15)), there.force(0, q, np.zeros(15)), atol=1e-14)
+        self.assertTrue(math.isnan(m.copy(p=dict(position=(1, 2, 3)))["cable"].definition["free_length"]))
 
     def test_planar_bodies_take_part(self):
         m = baum.Mechanism()
