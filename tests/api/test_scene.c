@@ -174,7 +174,8 @@ static void random_mechanisms_survive(void **state)
                             .pins = 50,
                             .span = 10.0,
                             .loads = 3,
-                            .springs = 3};
+                            .springs = 3,
+                            .velocity_rows = 3};
   for (uint64_t seed = 0; seed < (uint64_t)random_count; seed++) {
     random_mechanism planar;
     random_mechanism_make(&planar, seed, &kind);

@@ -25,7 +25,8 @@ static const double AS_OTHERS = 30.0;
 static const double ROUNDING = 1e-11;
 
 /* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
- * coordinates, in structures without joints, without loops, and with many loops. The last two kinds
+ * coordinates, in structures without joints, without loops, and with many loops. One kind has rows
+ * of velocity level. The last two kinds
  * have a hub, which is a body that has most of the joints. The block solver can handle the smaller
  * hub, but not the larger one. */
 static const random_kind kinds[] = {
@@ -48,6 +49,8 @@ static const random_kind kinds[] = {
    .span = 3.0,
    .loads = 3},
   {.bodies = 6, .joints = 14, .pins = 60, .span = 3.0, .loads = 2},
+  {.bodies = 8, .joints = 6, .pins = 60, .particles = 10, .span = 3.0, .loads = 2,
+   .velocity_rows = 3},
   {.bodies = 6, .joints = 5, .pins = 60, .span = 1e5, .loads = 4},
   {.bodies = 5, .joints = 0, .particles = 40, .coordinates = 20, .span = 3.0, .loads = 2},
   {.bodies = 40, .joints = 44, .pins = 85, .span = 3.0, .loads = 10},

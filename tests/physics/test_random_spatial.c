@@ -66,12 +66,28 @@ static void contradictions_of_omitted_rows_are_refused(void **state)
   check_refused(seeds, 4);
 }
 
+/* In these mechanisms, a coupling only repeats what other joints enforce, so its row is zero up to
+ * rounding. */
+static void couplings_without_effect_are_redundant(void **state)
+{
+  static const uint64_t seeds[] = {5375, 6167};
+  static random_spatial room;
+  (void)state;
+  spatial_tally tally = {0};
+  for (int k = 0; k < 2; k++) {
+    spatial_judge(&room, seeds[k], true, &tally);
+  }
+  assert_int_equal(spatial_bad(&tally), 0);
+  assert_true(tally.counts[SPATIAL_MET] >= 2);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(accelerations_and_reactions_are_met),
     cmocka_unit_test(contradictions_that_rounding_hides_are_refused),
     cmocka_unit_test(contradictions_of_omitted_rows_are_refused),
+    cmocka_unit_test(couplings_without_effect_are_redundant),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
