@@ -15,12 +15,14 @@
 static void report(const random_tally *t)
 {
   (void)printf(
-    "%ld mechanisms with %ld rows of velocity level, %ld configurations: %ld met (%ld of them with dependent rows), %ld rightly "
+    "%ld mechanisms with %ld rows of velocity level, %ld configurations: %ld met (%ld of them with "
+    "dependent rows), %ld rightly "
     "refused, "
     "%ld wrong, %ld with rows that contradict each other, %ld false alarms; degrees of freedom of "
     "%ld mechanisms compared, %ld wrong; largest error of those met %.2g\n",
-    t->mechanisms, t->velocity_rows, t->poses, t->counts[RANDOM_MET], t->dependent, t->counts[RANDOM_REFUSED],
-    t->counts[RANDOM_WRONG], t->counts[RANDOM_CONFLICT], t->counts[RANDOM_FALSE_ALARM], t->mobilities, t->counts[RANDOM_MOBILITY], t->worst);
+    t->mechanisms, t->velocity_rows, t->poses, t->counts[RANDOM_MET], t->dependent,
+    t->counts[RANDOM_REFUSED], t->counts[RANDOM_WRONG], t->counts[RANDOM_CONFLICT],
+    t->counts[RANDOM_FALSE_ALARM], t->mobilities, t->counts[RANDOM_MOBILITY], t->worst);
 }
 
 int main(int count, char **arguments)

@@ -24,17 +24,16 @@ static void report(const spatial_tally *t)
     "of freedom %ld; false alarms %ld\n"
     "largest errors of those met: accelerations %.2g (seed %llu), reactions %.2g\n",
     t->mechanisms, t->configurations, t->not_projected, t->counts[SPATIAL_MET], t->dependent,
-    t->ill_conditioned, t->reactions, t->counts[SPATIAL_REFUSED], t->velocity_rows,
-    t->mobilities, t->counts[SPATIAL_CONFLICT],
-    t->counts[SPATIAL_OFF], t->counts[SPATIAL_ACCELERATED], t->counts[SPATIAL_REACTION],
-    t->counts[SPATIAL_BALANCE], t->counts[SPATIAL_MOBILITY], t->counts[SPATIAL_FALSE_ALARM], t->worst,
-    (unsigned long long)t->worst_seed, t->worst_reaction);
+    t->ill_conditioned, t->reactions, t->counts[SPATIAL_REFUSED], t->velocity_rows, t->mobilities,
+    t->counts[SPATIAL_CONFLICT], t->counts[SPATIAL_OFF], t->counts[SPATIAL_ACCELERATED],
+    t->counts[SPATIAL_REACTION], t->counts[SPATIAL_BALANCE], t->counts[SPATIAL_MOBILITY],
+    t->counts[SPATIAL_FALSE_ALARM], t->worst, (unsigned long long)t->worst_seed, t->worst_reaction);
   (void)printf("%ld screws, %ld constant-velocity joints, %ld rolling discs, %ld knife edges, %ld "
                "couplings, %ld user constraints, %ld torsion springs, %ld bushings\n",
                t->joints[ORACLE_SCREW], t->joints[ORACLE_CONSTANT_VELOCITY],
                t->joints[ORACLE_ROLLING_DISC], t->joints[ORACLE_KNIFE_EDGE],
-               t->joints[ORACLE_COUPLING], t->joints[ORACLE_USER],
-               t->forces[ORACLE_TORSION_SPRING], t->forces[ORACLE_BUSHING]);
+               t->joints[ORACLE_COUPLING], t->joints[ORACLE_USER], t->forces[ORACLE_TORSION_SPRING],
+               t->forces[ORACLE_BUSHING]);
 }
 
 int main(int count, char **arguments)

@@ -352,10 +352,14 @@ static const struct {
   const char *name;
   void (*sweep)(cell_list *list);
 } OTHERS[] = {
-  {"start_time", sweep_start_time},         {"violation", sweep_planar_violation},
-  {"singular", sweep_planar_singular},      {"bodies", sweep_bodies},
-  {"redundancy", sweep_planar_redundancy},  {"space_violation", sweep_space_violation},
-  {"space_singular", sweep_space_singular}, {"space_redundancy", sweep_space_redundancy},
+  {"start_time", sweep_start_time},
+  {"violation", sweep_planar_violation},
+  {"singular", sweep_planar_singular},
+  {"bodies", sweep_bodies},
+  {"redundancy", sweep_planar_redundancy},
+  {"space_violation", sweep_space_violation},
+  {"space_singular", sweep_space_singular},
+  {"space_redundancy", sweep_space_redundancy},
   {"elements_redundancy", sweep_elements_redundancy},
 };
 

@@ -12,8 +12,8 @@
  *   (A - I_t) cos p W^2 - A x' W + m g R cot p = 0
  *
  * The bushing has equal stiffness k in all directions, and also damping d. Its points are at the
- * distance b from the axis of the revolute joint, and it is relaxed RELAXED before the start. If h is
- * the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ * distance b from the axis of the revolute joint, and it is relaxed RELAXED before the start. If h
+ * is the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
  */
 #include "elements.h"
 
@@ -144,9 +144,9 @@ typedef struct builder {
   double length, mass, time; /* units */
 } builder;
 
-#define ADD(KIND, DEF, ID)                                                \
-  if (b->status == BAUM_OK) {                                             \
-    b->status = baum_mechanism_add_spatial_##KIND(b->m, &(DEF), (ID));    \
+#define ADD(KIND, DEF, ID)                                             \
+  if (b->status == BAUM_OK) {                                          \
+    b->status = baum_mechanism_add_spatial_##KIND(b->m, &(DEF), (ID)); \
   }
 
 static void set_point(const builder *b, long double x, long double y, long double z, double out[3])

@@ -57,13 +57,11 @@ scene scene_of(scene_kind kind)
 const char *scene_name(const scene *s)
 {
   static const char *const NAMES[SCENE_KINDS] = {
-    "bob",           "pendulum", "crank",   "four_bar", "windows", "sleigh", "chain",
-    "spatial crank", "rssr",     "bricard", "top",      "wheel",   "disc",   "screw",
-    "shafts",        "bushing"};
-  static const char *const TILTED[SCENE_KINDS] = {"tilted bob",     "tilted pendulum",
-                                                  "tilted crank",   "tilted four_bar",
-                                                  "tilted windows", "tilted sleigh",
-                                                  "tilted chain"};
+    "bob",  "pendulum", "crank", "four_bar", "windows", "sleigh", "chain",  "spatial crank",
+    "rssr", "bricard",  "top",   "wheel",    "disc",    "screw",  "shafts", "bushing"};
+  static const char *const TILTED[SCENE_KINDS] = {
+    "tilted bob",     "tilted pendulum", "tilted crank", "tilted four_bar",
+    "tilted windows", "tilted sleigh",   "tilted chain"};
   return s->tilted ? TILTED[s->kind] : NAMES[s->kind];
 }
 
@@ -74,24 +72,15 @@ int scene_width(const scene *s)
 
 int scene_bodies(const scene *s)
 {
-  switch (s->kind) {
+  if (s->kind > SCENE_CHAIN) {
+    return space_bodies(s);
+  }
+  switch ((int)s->kind) {
   case SCENE_CRANK:
   case SCENE_FOUR_BAR: return 3;
   case SCENE_WINDOWS: return 2 * s->count + 1;
-  case SCENE_CHAIN: return s->count;
-  case SCENE_SPATIAL_CRANK:
-  case SCENE_RSSR:
-  case SCENE_BRICARD:
-  case SCENE_TOP:
-  case SCENE_WHEEL:
-  case SCENE_DISC:
-  case SCENE_SCREW:
-  case SCENE_SHAFTS:
-  case SCENE_BUSHING: return space_bodies(s);
   case SCENE_SLEIGH: return 2;
-  case SCENE_BOB:
-  case SCENE_PENDULUM:
-  case SCENE_KINDS:
+  case SCENE_CHAIN: return s->count;
   default: return 1;
   }
 }
@@ -177,19 +166,18 @@ static curve pose_in_windows(int body, turn first)
   return body % 2 ? level(tip) : along(left, first, CRANK / 2);
 }
 
-/* Returns the pose of the sleigh, whose angular velocity W is constant. Its velocity along the blade
- * is 0 at the start and has the derivative -g sin x. It is W (c + k cos x) with k = g / W^2, and its
- * integral is the position. The body on the pin does not rotate. */
+/* Returns the pose of the sleigh, whose angular velocity W is constant. Its velocity along the
+ * blade is 0 at the start and has the derivative -g sin x. It is W (c + k cos x) with k = g / W^2,
+ * and its integral is the position. The body on the pin does not rotate. */
 static curve pose_of_sleigh(const scene *s, int body, long double x)
 {
   long double k = s->gravity / ((long double)s->rate * s->rate);
   long double c = -k * cosl(s->angle);
   long double along_ = c + k * cosl(x);
-  curve p = {{c * sinl(x) + k * (x / 2 + sinl(2 * x) / 4), -c * cosl(x) + k * sinl(x) * sinl(x) / 2,
-              x},
-             {along_ * cosl(x), along_ * sinl(x), 1},
-             {-along_ * sinl(x) - k * sinl(x) * cosl(x), along_ * cosl(x) - k * sinl(x) * sinl(x),
-              0}};
+  curve p = {
+    {c * sinl(x) + k * (x / 2 + sinl(2 * x) / 4), -c * cosl(x) + k * sinl(x) * sinl(x) / 2, x},
+    {along_ * cosl(x), along_ * sinl(x), 1},
+    {-along_ * sinl(x) - k * sinl(x) * cosl(x), along_ * cosl(x) - k * sinl(x) * sinl(x), 0}};
   return body == 0 ? p : level(p);
 }
 

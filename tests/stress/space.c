@@ -43,7 +43,7 @@ bool space_is(const scene *s)
 
 int space_bodies(const scene *s)
 {
-  return s->kind > SCENE_TOP         ? elements_bodies(s)
+  return s->kind > SCENE_TOP        ? elements_bodies(s)
          : s->kind == SCENE_TOP     ? 1
          : s->kind == SCENE_BRICARD ? RODS
                                     : 3;

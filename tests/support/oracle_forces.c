@@ -123,8 +123,10 @@ static void add_torsion_spring(const oracle_force *f, const motion *bodies, wide
     along[i] = (m.axes[0][2][i].d[0] + m.axes[1][2][i].d[0]) / (1 + c);
     rate += along[i] * (w[1][i].d[0] - w[0][i].d[0]);
   }
-  const jet cosine = jet_add(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][1]));
-  const jet sine = jet_less(jet_dot(m.axes[0][1], m.axes[1][0]), jet_dot(m.axes[0][0], m.axes[1][1]));
+  const jet cosine =
+    jet_add(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][1]));
+  const jet sine =
+    jet_less(jet_dot(m.axes[0][1], m.axes[1][0]), jet_dot(m.axes[0][0], m.axes[1][1]));
   const jet angle = jet_angle(cosine, sine);
   wide torque = f->stiffness * (angle.d[0] - f->free_length) + f->damping * rate;
   for (int k = 0; k < 2; k++) {
@@ -145,7 +147,8 @@ static void rotation_vector(jet r[3][3], jet out[3])
 {
   enum { HALVED = 3, TERMS = 28 };
   const jet one = {{1, 0, 0}};
-  jet w = jet_scale((wide)1 / 2, jet_root(jet_add(one, jet_add(r[0][0], jet_add(r[1][1], r[2][2])))));
+  jet w =
+    jet_scale((wide)1 / 2, jet_root(jet_add(one, jet_add(r[0][0], jet_add(r[1][1], r[2][2])))));
   for (int i = 0; i < 3; i++) {
     int j = (i + 1) % 3;
     int k = (i + 2) % 3;

@@ -248,8 +248,8 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
   joint->length = wide_root(dot3(apart, apart));
 }
 
-/* With n = z_a x z and c = z_a . z, the smallest rotation that takes z_a to z takes x to x + n x x +
- * n x (n x x) / (1 + c). */
+/* With n = z_a x z and c = z_a . z, the smallest rotation that takes z_a to z takes x to x + n x x
+ * + n x (n x x) / (1 + c). */
 void oracle_incline(const spatial_oracle *o, oracle_joint *joint, const wide z[3])
 {
   wide unit[3] = {z[0], z[1], z[2]};
@@ -342,16 +342,15 @@ static int add_equal_speeds(const oracle_joint *joint, const moving *m, const mo
     relative[i] = jet_less(w[1][i], w[0][i]);
   }
   const jet slip = jet_dot(sum, relative);
-  const jet twist = jet_less(jet_dot(m->axes[0][1], m->axes[1][0]),
-                             jet_dot(m->axes[0][0], m->axes[1][1]));
+  const jet twist =
+    jet_less(jet_dot(m->axes[0][1], m->axes[1][0]), jet_dot(m->axes[0][0], m->axes[1][1]));
   out[0] = (jet){{twist.d[0], slip.d[0], slip.d[1]}};
   return 1;
 }
 
-static int rows_of(const oracle_joint *joint, const motion *bodies, jet out[ORACLE_ROWS])
+/* Evaluates the rows of a joint whose rows are products of vectors, or the length of a vector. */
+static int basic_rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_ROWS])
 {
-  const moving moving_ = oracle_moving_of(joint, bodies);
-  const moving *m = &moving_;
   int n = 0;
   switch ((int)joint->kind) {
   case ORACLE_SPHERICAL: return add_coincident(m, out);
@@ -373,16 +372,25 @@ static int rows_of(const oracle_joint *joint, const motion *bodies, jet out[ORAC
     out[0].d[0] -= joint->length;
     return 1;
   case ORACLE_ON_LINE: return add_on_line(m, out);
+  default: return add_product(m->axes[0][2], m->e, out);
+  }
+}
+
+static int rows_of(const oracle_joint *joint, const motion *bodies, jet out[ORACLE_ROWS])
+{
+  const moving m = oracle_moving_of(joint, bodies);
+  int n = 0;
+  switch ((int)joint->kind) {
   case ORACLE_SCREW:
-    n = add_on_line(m, out);
-    n += add_same(m, 2, out + n);
+    n = add_on_line(&m, out);
+    n += add_same(&m, 2, out + n);
     return n + add_thread(joint, bodies, out + n);
   case ORACLE_CONSTANT_VELOCITY:
-    n = add_coincident(m, out);
-    return n + add_equal_speeds(joint, m, bodies, out + n);
+    n = add_coincident(&m, out);
+    return n + add_equal_speeds(joint, &m, bodies, out + n);
   case ORACLE_ROLLING_DISC: return oracle_disc_rows(joint, bodies, out);
   case ORACLE_KNIFE_EDGE: return oracle_edge_rows(joint, bodies, out);
-  default: return add_product(m->axes[0][2], m->e, out);
+  default: return basic_rows_of(joint, &m, out);
   }
 }
 

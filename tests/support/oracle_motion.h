@@ -81,8 +81,8 @@ int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const mot
 /* Returns whether a row of a joint is of velocity level. */
 bool oracle_is_velocity_row(const oracle_joint *joint, int row);
 
-/* Lists the bodies of a joint in the order of the library, and returns how many there are. Ground is
- * listed only for joints between two bodies. */
+/* Lists the bodies of a joint in the order of the library, and returns how many there are. Ground
+ * is listed only for joints between two bodies. */
 int oracle_members_of(const spatial_oracle *o, const oracle_joint *joint,
                       int members[ORACLE_MEMBERS]);
 
@@ -92,9 +92,9 @@ const oracle_joint *oracle_pair_of(const spatial_oracle *o, const oracle_joint *
 /* Computes the vector from the origin of body_b to the point of its reaction. */
 void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3]);
 
-/* These functions are in oracle_contact.c. The first three evaluate the rows of a rolling disc, of a
- * knife edge and of a user constraint. The last one computes the point of contact in ground axes, or
- * the point of the blade. */
+/* These functions are in oracle_contact.c. The first three evaluate the rows of a rolling disc, of
+ * a knife edge and of a user constraint. The last one computes the point of contact in ground axes,
+ * or the point of the blade. */
 int oracle_disc_rows(const oracle_joint *joint, const motion *bodies, jet *out);
 int oracle_edge_rows(const oracle_joint *joint, const motion *bodies, jet *out);
 int oracle_user_rows(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,

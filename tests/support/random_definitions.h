@@ -10,8 +10,8 @@ void random_vector(chance *c, double size, double out[3]);
 void wide_to_double(const wide x[3], double out[3]);
 void wide_from_double(const double x[3], wide out[3]);
 
-/* The first function returns whether a body has an orientation. The second one returns whether it is
- * a planar body or particle. */
+/* The first function returns whether a body has an orientation. The second one returns whether it
+ * is a planar body or particle. */
 bool random_turns(const oracle_body *b);
 bool random_is_planar(const oracle_body *b);
 

@@ -238,9 +238,9 @@ static bool define_frame(random_spatial *r, oracle_joint *frame, baum_spatial_re
 }
 
 /* Copies the members that the definitions of all elements with one axis share. */
-#define COPY_HEAD(TYPE, DEF, FROM, END)                                         \
-  memcpy((char *)&(DEF) + offsetof(TYPE, body_a),                               \
-         (const char *)&(FROM) + offsetof(baum_spatial_revolute_def, body_a),   \
+#define COPY_HEAD(TYPE, DEF, FROM, END)                                       \
+  memcpy((char *)&(DEF) + offsetof(TYPE, body_a),                             \
+         (const char *)&(FROM) + offsetof(baum_spatial_revolute_def, body_a), \
          offsetof(TYPE, END) - offsetof(TYPE, body_a))
 
 static void add_torsion_spring(random_spatial *r)

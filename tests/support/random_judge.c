@@ -157,8 +157,9 @@ static void compare_mobility(scene *s, const baum_mobility *mobility)
   s->tally->mobilities++;
   if (got[0] != want[0] || got[1] != want[1]) {
     s->tally->counts[RANDOM_MOBILITY]++;
-    (void)printf("seed %llu: %d degrees of freedom of velocity, %d of position, must be %d, %d: %s\n",
-                 (unsigned long long)s->seed, got[0], got[1], want[0], want[1], mobility->text);
+    (void)printf(
+      "seed %llu: %d degrees of freedom of velocity, %d of position, must be %d, %d: %s\n",
+      (unsigned long long)s->seed, got[0], got[1], want[0], want[1], mobility->text);
   }
 }
 

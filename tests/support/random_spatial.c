@@ -197,8 +197,8 @@ static void choose_apart(chance *c, oracle_kind kind, const double axis[3], doub
   random_vector(c, 1.0, beside);
   cross(axis, beside, away);
   for (int i = 0; i < 3; i++) {
-    bool along = kind == ORACLE_CYLINDRICAL || kind == ORACLE_PRISMATIC ||
-                 kind == ORACLE_ON_LINE || kind == ORACLE_SCREW;
+    bool along = kind == ORACLE_CYLINDRICAL || kind == ORACLE_PRISMATIC || kind == ORACLE_ON_LINE ||
+                 kind == ORACLE_SCREW;
     bool across = kind == ORACLE_PLANAR || kind == ORACLE_ON_PLANE;
     apart[i] = along ? slide * axis[i] : across ? slide * away[i] : 0.0;
   }
@@ -313,7 +313,8 @@ static void add_joint(random_spatial *r, int one, int other, bool loop)
   oracle_kind kind = choose_kind(r, bodies[0], bodies[1], loop);
   double point[3];
   double axis[3];
-  bool planar = random_is_planar(&r->oracle.bodies[one]) || random_is_planar(&r->oracle.bodies[other]);
+  bool planar =
+    random_is_planar(&r->oracle.bodies[one]) || random_is_planar(&r->oracle.bodies[other]);
   choose_point(r, kind, bodies[0], bodies[1], point);
   choose_axis(r, point, planar, axis);
   add_joint_at(r, kind, bodies, point, axis);

@@ -152,8 +152,8 @@ static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const 
 static void count(scene *s, spatial_verdict verdict, const errors *e, const errors *own)
 {
   static const char *const names[SPATIAL_VERDICTS] = {
-    "met",           "refused",   "conflict", "off the constraints",
-    "accelerations", "reactions", "balance",  "false alarm", "degrees of freedom"};
+    "met",       "refused", "conflict",    "off the constraints", "accelerations",
+    "reactions", "balance", "false alarm", "degrees of freedom"};
   s->tally->counts[verdict]++;
   if (verdict > SPATIAL_REFUSED) {
     print(s, names[verdict], e, own);

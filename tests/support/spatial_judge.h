@@ -33,9 +33,9 @@ typedef struct spatial_tally {
   long configurations;
   long not_projected; /* configurations whose projection failed */
   long counts[SPATIAL_VERDICTS];
-  long dependent;       /* SPATIAL_MET configurations with dependent rows */
-  long mobilities;      /* mechanisms whose degrees of freedom were compared with ranks of J */
-  long velocity_rows;   /* rows of velocity level in all configurations */
+  long dependent;     /* SPATIAL_MET configurations with dependent rows */
+  long mobilities;    /* mechanisms whose degrees of freedom were compared with ranks of J */
+  long velocity_rows; /* rows of velocity level in all configurations */
   long joints[ORACLE_KINDS];
   long forces[ORACLE_FORCE_KINDS];
   long reactions;       /* number of compared reactions */

@@ -4,9 +4,9 @@
  * bodies. J v and gamma follow from the first and second time derivatives of Phi along motions.
  * These derivatives are computed with truncated Taylor series. Coordinates of joints are computed
  * in the same way. Rows of velocity level are defined by the velocities of points along the motion.
- * Rows may be dependent. For example, z_a - z_b = 0 for parallel axes has three rows, but their rank
- * is 2. Every body has six velocities, which are r' in ground axes and the
- * angular velocity in body axes. Planar bodies and particles use only some of them. */
+ * Rows may be dependent. For example, z_a - z_b = 0 for parallel axes has three rows, but their
+ * rank is 2. Every body has six velocities, which are r' in ground axes and the angular velocity in
+ * body axes. Planar bodies and particles use only some of them. */
 #ifndef BAUM_TEST_SPATIAL_ORACLE_H
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
@@ -86,16 +86,16 @@ typedef struct oracle_joint {
   wide s[2][3];    /* points in body axes */
   wide axes[2][9]; /* x, y and z axis of the joint, in body axes */
   wide length;
-  double pitch;        /* of a screw */
-  double radius, rim;  /* of a rolling disc */
-  int of;              /* the joint that a driver moves, or the first joint of a coupling */
-  int coordinate;      /* number of the coordinate of this joint, in the order of the library */
-  int to;              /* the second joint of a coupling */
-  int to_coordinate;   /* number of its coordinate */
-  double ratio;        /* of a coupling: c_to = ratio c_of + offset */
-  wide offset;         /* of a coupling or a screw */
-  double period;       /* [rad or m] whole revolutions change Phi by multiples of it; 0 if none */
-  double start[2];     /* of a driver: a time [s], and the value that it prescribes at this time */
+  double pitch;       /* of a screw */
+  double radius, rim; /* of a rolling disc */
+  int of;             /* the joint that a driver moves, or the first joint of a coupling */
+  int coordinate;     /* number of the coordinate of this joint, in the order of the library */
+  int to;             /* the second joint of a coupling */
+  int to_coordinate;  /* number of its coordinate */
+  double ratio;       /* of a coupling: c_to = ratio c_of + offset */
+  wide offset;        /* of a coupling or a screw */
+  double period;      /* [rad or m] whole revolutions change Phi by multiples of it; 0 if none */
+  double start[2];    /* of a driver: a time [s], and the value that it prescribes at this time */
   oracle_user user;
 } oracle_joint;
 
@@ -142,8 +142,8 @@ typedef struct oracle_answer {
   double phi;  /* largest |Phi| of all rows */
   double rate; /* largest |Phi'| of all rows, relative to the largest velocity */
   wide a[ORACLE_COLUMNS];
-  /* Force and moment on body_b at its point, in ground axes. For couplings and user constraints, the
-   * generalized force on all bodies. */
+  /* Force and moment on body_b at its point, in ground axes. For couplings and user constraints,
+   * the generalized force on all bodies. */
   wide reaction[ORACLE_JOINTS][ORACLE_REACTION];
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
