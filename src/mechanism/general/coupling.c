@@ -14,7 +14,7 @@
  * revolutions were made. There are two exceptions: a coupling with a law, and a ratio of two
  * spatial angles that is not rational.
  *
- * If the coupling only repeats what other joints already enforce, as between the angles of two hinges
+ * If a coupling only repeats what other joints already enforce, as between the angles of two hinges
  * of one door, the gradients of c_a and c_b cancel up to rounding. The row is then set to zero.
  * Otherwise it would look like an independent row.
  *
