@@ -144,6 +144,10 @@ static baum_status number_family(baum_mechanism *mechanism, const baum_i_family 
 
 /* ---- characteristic length ---- */
 
+/* Points whose distance is below this part of their distance from the origin coincide up to
+ * rounding. */
+static const double COINCIDENT = 1e-12;
+
 void baum_i_box_include(baum_i_box *box, double x, double y, double z)
 {
   const double at[3] = {x, y, z};
@@ -172,11 +176,11 @@ static double design_size(const baum_mechanism *mechanism)
     }
   }
   double diagonal = hypot(hypot(b.high[0] - b.low[0], b.high[1] - b.low[1]), b.high[2] - b.low[2]);
-  if (isfinite(diagonal) && diagonal > 0.0) {
+  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]);
+  if (isfinite(diagonal) && diagonal > COINCIDENT * offset) {
     return diagonal;
   }
-  /* All points coincide. Take their distance from the origin. */
-  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]);
+  /* All points coincide up to rounding. Take their distance from the origin. */
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 

@@ -84,6 +84,7 @@ static random_kind draw_kind(chance *c)
   kind.loads = chance_below(c, 3);
   kind.springs = chance_below(c, 4);
   kind.drivers_begin = true;
+  kind.velocity_rows = chance_below(c, 3) == 0 ? 1 + chance_below(c, 2) : 0;
   return kind;
 }
 

@@ -303,6 +303,68 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
   }
 }
 
+/* ---- a coupling of equal angles ---- */
+
+/* Makes a door on two hinges whose common axis is oblique. The coupling of both angles only repeats
+ * what the hinges enforce. Its row is zero up to rounding. */
+static baum_mechanism *make_door(bool coupled)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id door;
+  baum_joint_id joints[2];
+  baum_spatial_body_def body = baum_spatial_body_def_default();
+  const double axis[3] = {1.0, 2.0, 3.0};
+  check(baum_mechanism_create(&m));
+  body.position[0] = 0.7;
+  body.angular_velocity[0] = 0.1;
+  body.angular_velocity[1] = 0.2;
+  body.angular_velocity[2] = 0.3;
+  check(baum_mechanism_add_spatial_body(m, &body, &door));
+  for (int k = 0; k < 2; k++) {
+    baum_spatial_revolute_def hinge = baum_spatial_revolute_def_default();
+    hinge.body_a = BAUM_GROUND;
+    hinge.body_b = door;
+    for (int i = 0; i < 3; i++) {
+      hinge.axis[i] = axis[i] * (k == 0 ? 1.0 : 0.3);
+      hinge.point[i] = 0.3 * k * axis[i];
+    }
+    check(baum_mechanism_add_spatial_revolute(m, &hinge, &joints[k]));
+  }
+  if (coupled) {
+    baum_coupling_def coupling = baum_coupling_def_default();
+    coupling.joint_a = joints[0];
+    coupling.joint_b = joints[1];
+    check(baum_mechanism_add_coupling(m, &coupling, NULL));
+  }
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+static void a_coupling_of_both_hinges_of_a_door_is_redundant(void **state)
+{
+  (void)state;
+  double q[2][7];
+  for (int k = 0; k < 2; k++) {
+    baum_mobility mobility;
+    baum_simulation *run = NULL;
+    baum_simulation_options o = baum_simulation_options_default();
+    baum_mechanism *m = make_door(k == 1);
+    check(baum_mechanism_mobility(m, &mobility, sizeof mobility));
+    assert_int_equal(mobility.degrees_of_freedom, 1);
+    assert_int_equal(mobility.redundant_rows, 5 + k);
+    o.integrator = baum_rk8();
+    o.rtol = 1e-10;
+    check(baum_simulation_create(m, &o, &run));
+    check(baum_simulation_advance_to(run, 1.0));
+    memcpy(q[k], baum_simulation_q(run), sizeof q[k]);
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+  for (int i = 0; i < 7; i++) {
+    assert_true(fabs(q[0][i] - q[1][i]) <= LIMIT);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -312,6 +374,7 @@ int main(void)
     cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
     cmocka_unit_test(permanent_and_momentary_redundancy_are_distinguished_in_any_unit),
     cmocka_unit_test(a_run_may_start_next_to_a_singular_configuration),
+    cmocka_unit_test(a_coupling_of_both_hinges_of_a_door_is_redundant),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The axes of the stress grid. A cell of the grid is one run of one scene (cell.h). Most axes vary
  * one number of an ordinary cell by powers of ten. These axes are rows of the table DECADES. All
- * other axes are functions. If the name of an axis begins with "space", its cells are in space. */
+ * other axes are functions. If the name of an axis begins with "space", its cells are in space. If
+ * it begins with "elements", its scenes have elements that the other scenes do not have. */
 #include "axes.h"
 
 #include <math.h>
@@ -69,9 +70,14 @@ static void add(cell_list *list, cell c)
   list->cells[list->count++] = c;
 }
 
+static bool begins_with(const char *axis, const char *word)
+{
+  return strncmp(axis, word, strlen(word)) == 0;
+}
+
 static bool is_in_space(const char *axis)
 {
-  return strncmp(axis, "space", 5) == 0;
+  return begins_with(axis, "space");
 }
 
 /* Returns a cell with ordinary numbers. If the axis is in space, the scene of the cell is a planar
@@ -86,7 +92,7 @@ static cell ordinary(const char *axis, scene_kind kind)
             .rtol = 1e-7,
             .gain = (double)NAN,
             .begin = BAUM_START_ASSEMBLE,
-            .most = space ? 5000 : 20000};
+            .most = space || begins_with(axis, "elements") ? 5000 : 20000};
   c.scene.tilted = space && kind <= SCENE_CHAIN;
   return c;
 }
@@ -106,6 +112,8 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
 
 #define KIND(NAME)    (1U << SCENE_##NAME)
 #define NUMBER(FIELD) offsetof(cell, FIELD)
+#define ELEMENTS \
+  (KIND(SLEIGH) | KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS) | KIND(BUSHING))
 
 typedef struct decades {
   const char *name; /* name on the command line */
@@ -164,6 +172,26 @@ static const decades DECADES[] = {
   {"space_speed", "space: speed", NUMBER(scene.rate), KIND(RSSR), 0, 6, 1, DRIVEN_WAYS, false, 0},
   /* If the top were slower, it would not precess steadily. */
   {"space_speed", "space: speed", NUMBER(scene.rate), KIND(TOP), 2, 6, 1, WAYS, false, 0},
+  {"elements_step", "elements: step", NUMBER(step), ELEMENTS, -1, -7, -1, FIXED_WAYS, false, 1000},
+  {"elements_tolerance", "elements: tolerance", NUMBER(rtol), ELEMENTS, -2, -14, -2, VARIABLE_WAYS,
+   false, 0},
+  {"elements_gain", "elements: gain", NUMBER(gain), KIND(SLEIGH) | KIND(WHEEL) | KIND(DISC), -6, 12,
+   3, GAIN_WAYS, true, 0},
+  {"elements_mass_ratio", "elements: mass ratio", NUMBER(scene.ratio),
+   KIND(SLEIGH) | KIND(WHEEL) | KIND(SCREW) | KIND(SHAFTS) | KIND(BUSHING), -12, 12, 3, WAYS, false,
+   0},
+  {"elements_stiffness", "elements: stiffness", NUMBER(scene.stiffness), KIND(BUSHING), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"elements_stiffness", "elements: damping", NUMBER(scene.damping), KIND(BUSHING), 0, 12, 2,
+   STIFF_WAYS, false, 0},
+  {"elements_units", "elements: length", NUMBER(scene.units.length),
+   KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS), -6, 6, 3, WAYS, false, 0},
+  {"elements_units", "elements: time", NUMBER(scene.units.time),
+   KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS), -6, 6, 3, WAYS, false, 0},
+  {"elements_speed", "elements: speed", NUMBER(scene.rate),
+   KIND(WHEEL) | KIND(SCREW) | KIND(SHAFTS), 0, 6, 1, WAYS, false, 0},
+  /* A slower disc would not roll steadily. The circle of a faster one is larger than 1e7 m. */
+  {"elements_speed", "elements: speed", NUMBER(scene.rate), KIND(DISC), 1, 4, 1, WAYS, false, 0},
 };
 
 static void vary(cell_list *list, const decades *d, cell c, double value)
@@ -286,7 +314,7 @@ static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
 {
   static const int SPARES[] = {0, 1, 5, 20};
   static const double OFF[] = {0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6};
-  const bool space = is_in_space(axis);
+  const bool space = is_in_space(axis) || begins_with(axis, "elements");
   for (int n = 0; n < (space ? 3 : 4); n++) {
     for (int i = 0; i < (n == 0 ? 1 : 6); i += space && i > 0 ? 2 : 1) {
       cell c = ordinary(axis, kind);
@@ -312,14 +340,27 @@ static void sweep_space_redundancy(cell_list *list)
   sweep_redundancy(list, "space: redundancy", SCENE_CRANK);
 }
 
+static void sweep_elements_redundancy(cell_list *list)
+{
+  sweep_redundancy(list, "elements: redundancy", SCENE_SLEIGH);
+  sweep_redundancy(list, "elements: redundancy", SCENE_WHEEL);
+  sweep_redundancy(list, "elements: redundancy", SCENE_SCREW);
+  sweep_redundancy(list, "elements: redundancy", SCENE_SHAFTS);
+}
+
 static const struct {
   const char *name;
   void (*sweep)(cell_list *list);
 } OTHERS[] = {
-  {"start_time", sweep_start_time},         {"violation", sweep_planar_violation},
-  {"singular", sweep_planar_singular},      {"bodies", sweep_bodies},
-  {"redundancy", sweep_planar_redundancy},  {"space_violation", sweep_space_violation},
-  {"space_singular", sweep_space_singular}, {"space_redundancy", sweep_space_redundancy},
+  {"start_time", sweep_start_time},
+  {"violation", sweep_planar_violation},
+  {"singular", sweep_planar_singular},
+  {"bodies", sweep_bodies},
+  {"redundancy", sweep_planar_redundancy},
+  {"space_violation", sweep_space_violation},
+  {"space_singular", sweep_space_singular},
+  {"space_redundancy", sweep_space_redundancy},
+  {"elements_redundancy", sweep_elements_redundancy},
 };
 
 /* ---- all ---- */

@@ -29,11 +29,18 @@ static const scene START[SCENE_KINDS] = {
   [SCENE_FOUR_BAR] = {.count = 2, .angle = 1.0, .rate = 1.0, .gravity = 9.81},
   /* The windows start hanging. They do not reach flat configurations, which are singular. */
   [SCENE_WINDOWS] = {.count = 2, .angle = -1.0, .rate = 1.0, .gravity = 9.81},
+  [SCENE_SLEIGH] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 1.0},
   [SCENE_CHAIN] = {.count = 3, .angle = 0.3, .rate = 3.0, .gravity = 0.0},
   [SCENE_SPATIAL_CRANK] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_RSSR] = {.angle = 0.0, .rate = 1.0, .gravity = 9.81, .driven = true},
   [SCENE_BRICARD] = {.angle = 1.0, .rate = 1.0, .gravity = 9.81},
   [SCENE_TOP] = {.angle = 0.0, .rate = 100.0, .gravity = 9.81},
+  [SCENE_WHEEL] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_DISC] = {.angle = 0.3, .rate = 6.0, .gravity = 9.81},
+  [SCENE_SCREW] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  [SCENE_SHAFTS] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
+  /* The pendulum starts at rest, so its angle stays far below pi. */
+  [SCENE_BUSHING] = {.angle = 1.2, .rate = 0.0, .gravity = 9.81, .stiffness = 10.0},
 };
 
 scene scene_of(scene_kind kind)
@@ -49,12 +56,12 @@ scene scene_of(scene_kind kind)
 
 const char *scene_name(const scene *s)
 {
-  static const char *const NAMES[SCENE_KINDS] = {"bob",     "pendulum", "crank",         "four_bar",
-                                                 "windows", "chain",    "spatial crank", "rssr",
-                                                 "bricard", "top"};
-  static const char *const TILTED[SCENE_KINDS] = {"tilted bob",     "tilted pendulum",
-                                                  "tilted crank",   "tilted four_bar",
-                                                  "tilted windows", "tilted chain"};
+  static const char *const NAMES[SCENE_KINDS] = {
+    "bob",  "pendulum", "crank", "four_bar", "windows", "sleigh", "chain",  "spatial crank",
+    "rssr", "bricard",  "top",   "wheel",    "disc",    "screw",  "shafts", "bushing"};
+  static const char *const TILTED[SCENE_KINDS] = {
+    "tilted bob",     "tilted pendulum", "tilted crank", "tilted four_bar",
+    "tilted windows", "tilted sleigh",   "tilted chain"};
   return s->tilted ? TILTED[s->kind] : NAMES[s->kind];
 }
 
@@ -65,18 +72,15 @@ int scene_width(const scene *s)
 
 int scene_bodies(const scene *s)
 {
-  switch (s->kind) {
+  if (s->kind > SCENE_CHAIN) {
+    return space_bodies(s);
+  }
+  switch ((int)s->kind) {
   case SCENE_CRANK:
   case SCENE_FOUR_BAR: return 3;
   case SCENE_WINDOWS: return 2 * s->count + 1;
+  case SCENE_SLEIGH: return 2;
   case SCENE_CHAIN: return s->count;
-  case SCENE_SPATIAL_CRANK:
-  case SCENE_RSSR:
-  case SCENE_BRICARD:
-  case SCENE_TOP: return space_bodies(s);
-  case SCENE_BOB:
-  case SCENE_PENDULUM:
-  case SCENE_KINDS:
   default: return 1;
   }
 }
@@ -162,6 +166,21 @@ static curve pose_in_windows(int body, turn first)
   return body % 2 ? level(tip) : along(left, first, CRANK / 2);
 }
 
+/* Returns the pose of the sleigh, whose angular velocity W is constant. Its velocity along the
+ * blade is 0 at the start and has the derivative -g sin x. It is W (c + k cos x) with k = g / W^2,
+ * and its integral is the position. The body on the pin does not rotate. */
+static curve pose_of_sleigh(const scene *s, int body, long double x)
+{
+  long double k = s->gravity / ((long double)s->rate * s->rate);
+  long double c = -k * cosl(s->angle);
+  long double along_ = c + k * cosl(x);
+  curve p = {
+    {c * sinl(x) + k * (x / 2 + sinl(2 * x) / 4), -c * cosl(x) + k * sinl(x) * sinl(x) / 2, x},
+    {along_ * cosl(x), along_ * sinl(x), 1},
+    {-along_ * sinl(x) - k * sinl(x) * cosl(x), along_ * cosl(x) - k * sinl(x) * sinl(x), 0}};
+  return body == 0 ? p : level(p);
+}
+
 static curve pose_of(const scene *s, int body, long double x)
 {
   const curve origin = {0};
@@ -179,6 +198,7 @@ static curve pose_of(const scene *s, int body, long double x)
     }
     break;
   case SCENE_WINDOWS: return pose_in_windows(body, first);
+  case SCENE_SLEIGH: return pose_of_sleigh(s, body, x);
   case SCENE_CHAIN: return along(origin, first, (body + 0.5L) / s->count);
   default: break; /* a pendulum */
   }
@@ -281,7 +301,7 @@ static sums sum_bodies(const scene *s, long double x, long double v)
 long double scene_acceleration(const void *scene_, long double x, long double v)
 {
   const scene *s = scene_;
-  if (s->kind == SCENE_CHAIN || s->driven) {
+  if (s->kind == SCENE_CHAIN || s->kind == SCENE_SLEIGH || s->driven) {
     return 0;
   }
   if (s->kind > SCENE_CHAIN) {
@@ -346,6 +366,19 @@ static void pin_crank(baum_i_parts *parts, const scene *s, const baum_body_id *b
   }
 }
 
+/* Adds knife edges at the centre of the sleigh. Redundant edges are displaced along the blade. */
+static void pin_sleigh(baum_i_parts *parts, const scene *s, const baum_body_id *b)
+{
+  pin(parts, b[0], 0.0, b[1], 0.0);
+  for (int k = 0; k <= s->spare; k++) {
+    baum_planar_knife_edge_def def = baum_planar_knife_edge_def_default();
+    def.body_a = b[0];
+    def.point_a[0] = k * s->off;
+    def.point_a[1] = 0.0;
+    BAUM_I_UNLESS_FAILED(parts, baum_mechanism_add_planar_knife_edge(parts->mechanism, &def, NULL));
+  }
+}
+
 static void pin_four_bar(baum_i_parts *parts, const baum_body_id *b)
 {
   pin(parts, b[0], 0.5, b[1], -(double)COUPLER / 2);
@@ -370,7 +403,7 @@ static baum_joint_id hang(baum_i_parts *parts, const scene *s, baum_body_id befo
     pin(parts, before, 0.5, body, -0.5);
   } else if (s->kind == SCENE_BOB) {
     add_rod(parts, body, 1.0);
-  } else if (k == 0) {
+  } else if (k == 0 && s->kind != SCENE_SLEIGH) {
     joint = pin(parts, BAUM_GROUND, 0.0, body, -0.5);
   }
   return joint;
@@ -440,10 +473,12 @@ static baum_status build_planar(const scene *s, model *out)
   }
   if (s->kind == SCENE_CRANK) {
     pin_crank(&parts, s, first);
+  } else if (s->kind == SCENE_SLEIGH) {
+    pin_sleigh(&parts, s, first);
   } else if (s->kind == SCENE_FOUR_BAR) {
     pin_four_bar(&parts, first);
   }
-  if (s->kind != SCENE_CRANK) {
+  if (s->kind != SCENE_CRANK && s->kind != SCENE_SLEIGH) {
     add_spares(&parts, s, first[0]);
   }
   drive(&parts, s, root);

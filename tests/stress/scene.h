@@ -14,12 +14,19 @@ typedef enum scene_kind {
   SCENE_CRANK,    /* slider-crank */
   SCENE_FOUR_BAR, /* crank and rocker */
   SCENE_WINDOWS,  /* N-four-bar */
+  SCENE_SLEIGH,   /* knife edge under gravity, with a second body on a pin */
   SCENE_CHAIN,    /* straight chain that rotates without gravity; its total length is 1 m */
   /* These are spatial mechanisms of the catalogue: */
   SCENE_SPATIAL_CRANK, /* slider-crank; its spring acts on the slider */
   SCENE_RSSR,          /* four-bar with a driver */
   SCENE_BRICARD,       /* it has a redundant row, and `ratio` is a ratio of moments of inertia */
   SCENE_TOP,           /* heavy top with a horizontal axis, which precesses steadily */
+  /* These are described in elements.h: */
+  SCENE_WHEEL,
+  SCENE_DISC,
+  SCENE_SCREW,
+  SCENE_SHAFTS,
+  SCENE_BUSHING,
   SCENE_KINDS
 } scene_kind;
 

@@ -12,7 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "jets.h"
+#include "carried.h"
+#include "elements.h"
 #include "tilt.h"
 
 /* ---- data: the defaults of the catalogue ---- */
@@ -42,7 +43,10 @@ bool space_is(const scene *s)
 
 int space_bodies(const scene *s)
 {
-  return s->kind == SCENE_TOP ? 1 : s->kind == SCENE_BRICARD ? RODS : 3;
+  return s->kind > SCENE_TOP        ? elements_bodies(s)
+         : s->kind == SCENE_TOP     ? 1
+         : s->kind == SCENE_BRICARD ? RODS
+                                    : 3;
 }
 
 /* Returns the angular velocity of precession. A top with a horizontal axis precesses steadily at m
@@ -53,100 +57,53 @@ static double precession(const scene *s)
   return TOP_MASS * s->gravity / (axial * s->rate);
 }
 
-/* ---- axes that are carried from body to body ---- */
-
-typedef struct carried {
-  jets r[3];
-  jets p[4];
-} carried;
-
-static void multiply(const jets a[4], const jets b[4], jets out[4])
-{
-  out[0] = jets_times(a[0], b[0]);
-  for (int i = 1; i < 4; i++) {
-    int j = i % 3 + 1;
-    int k = j % 3 + 1;
-    out[0] = jets_less(out[0], jets_times(a[i], b[i]));
-    out[i] = jets_add(jets_add(jets_times(a[0], b[i]), jets_times(a[i], b[0])),
-                      jets_less(jets_times(a[j], b[k]), jets_times(a[k], b[j])));
-  }
-}
-
-static carried at_point(long double x, long double y, long double z)
-{
-  return (carried){{jets_constant(x), jets_constant(y), jets_constant(z)}, {jets_constant(1)}};
-}
-
-static void turn(carried *c, int axis, jets angle)
-{
-  jets before[4];
-  jets by[4] = {jets_cos(jets_scale(0.5L, angle))};
-  by[axis + 1] = jets_sin(jets_scale(0.5L, angle));
-  memcpy(before, c->p, sizeof before);
-  multiply(before, by, c->p);
-}
-
-static void go(carried *c, long double x, long double y, long double z)
-{
-  const jets s[4] = {jets_constant(0), jets_constant(x), jets_constant(y), jets_constant(z)};
-  const jets back[4] = {c->p[0], jets_scale(-1, c->p[1]), jets_scale(-1, c->p[2]),
-                        jets_scale(-1, c->p[3])};
-  jets half[4];
-  jets whole[4];
-  multiply(c->p, s, half);
-  multiply(half, back, whole);
-  for (int i = 0; i < 3; i++) {
-    c->r[i] = jets_add(c->r[i], whole[i + 1]);
-  }
-}
+/* ---- mechanisms ---- */
 
 /* Returns axes whose origin is `from`, whose x axis points to `to`, and whose z axis is
  * perpendicular to the x axis of the ground. */
 static carried between(const carried *from, const carried *to)
 {
   jets d[3];
-  carried out = at_point(0, 0, 0);
+  carried out = carried_at(0, 0, 0);
   memcpy(out.r, from->r, sizeof out.r);
   for (int i = 0; i < 3; i++) {
     d[i] = jets_less(to->r[i], from->r[i]);
   }
   jets aside = jets_root(jets_add(jets_times(d[1], d[1]), jets_times(d[2], d[2])));
-  turn(&out, 0, jets_angle(d[1], d[2]));
-  turn(&out, 2, jets_angle(d[0], aside));
+  carried_turn(&out, 0, jets_angle(d[1], d[2]));
+  carried_turn(&out, 2, jets_angle(d[0], aside));
   return out;
 }
 
-/* ---- mechanisms ---- */
-
 static carried crank_body(int body, jets x)
 {
-  carried tip = at_point(0, BESIDE, ABOVE);
-  turn(&tip, 0, x);
-  go(&tip, 0, 0, body == 0 ? CRANK / 2 : CRANK);
+  carried tip = carried_at(0, BESIDE, ABOVE);
+  carried_turn(&tip, 0, x);
+  carried_go(&tip, 0, 0, body == 0 ? CRANK / 2 : CRANK);
   if (body == 0) {
     return tip;
   }
-  carried slider = at_point(0, 0, 0);
+  carried slider = carried_at(0, 0, 0);
   jets square = jets_add(jets_times(tip.r[1], tip.r[1]), jets_times(tip.r[2], tip.r[2]));
   slider.r[0] = jets_root(jets_less(jets_constant(ROD * ROD), square));
   if (body == 2) {
     return slider;
   }
   carried rod = between(&tip, &slider);
-  go(&rod, ROD / 2, 0, 0);
+  carried_go(&rod, ROD / 2, 0, 0);
   return rod;
 }
 
 /* The angle b of the rocker is the solution of A cos b + B sin b = C. */
 static carried rssr_body(int body, jets x)
 {
-  carried tip = at_point(0, 0, 0);
-  turn(&tip, 2, x);
-  go(&tip, body == 0 ? SHORT_CRANK / 2 : SHORT_CRANK, 0, 0);
+  carried tip = carried_at(0, 0, 0);
+  carried_turn(&tip, 2, x);
+  carried_go(&tip, body == 0 ? SHORT_CRANK / 2 : SHORT_CRANK, 0, 0);
   if (body == 0) {
     return tip;
   }
-  carried end = at_point(PIVOT[0], PIVOT[1], PIVOT[2]);
+  carried end = carried_at(PIVOT[0], PIVOT[1], PIVOT[2]);
   jets c = jets_constant((COUPLER * COUPLER - ROCKER * ROCKER) / (2 * ROCKER));
   jets d[3];
   for (int i = 0; i < 3; i++) {
@@ -155,13 +112,13 @@ static carried rssr_body(int body, jets x)
   }
   jets square = jets_add(jets_times(d[1], d[1]), jets_times(d[2], d[2]));
   jets aside = jets_root(jets_less(square, jets_times(c, c)));
-  turn(&end, 0, jets_less(jets_angle(d[1], d[2]), jets_angle(c, aside)));
-  go(&end, 0, body == 2 ? ROCKER / 2 : ROCKER, 0);
+  carried_turn(&end, 0, jets_less(jets_angle(d[1], d[2]), jets_angle(c, aside)));
+  carried_go(&end, 0, body == 2 ? ROCKER / 2 : ROCKER, 0);
   if (body == 2) {
     return end;
   }
   carried coupler = between(&tip, &end);
-  go(&coupler, COUPLER / 2, 0, 0);
+  carried_go(&coupler, COUPLER / 2, 0, 0);
   return coupler;
 }
 
@@ -173,21 +130,21 @@ static carried bricard_body(int body, jets a)
   jets minus = jets_scale(-1, jets_times(sine, jets_inverse(jets_add(jets_constant(1), sine))));
   jets cosine = jets_root(jets_less(jets_constant(1), jets_times(minus, minus)));
   jets b = jets_angle(cosine, minus);
-  carried c = at_point(0, 0, 0);
+  carried c = carried_at(0, 0, 0);
   for (int k = 0; k <= body; k++) {
     long double part = k < body ? 1 : 0.5L;
-    turn(&c, AXIS[k], k % 2 ? b : a);
-    go(&c, part * EDGE[k][0], part * EDGE[k][1], part * EDGE[k][2]);
+    carried_turn(&c, AXIS[k], k % 2 ? b : a);
+    carried_go(&c, part * EDGE[k][0], part * EDGE[k][1], part * EDGE[k][2]);
   }
   return c;
 }
 
 static carried top_body(const scene *s, jets x)
 {
-  carried c = at_point(0, 0, 0);
-  turn(&c, 2, jets_scale((long double)precession(s) / s->rate, x));
-  turn(&c, 1, x);
-  go(&c, 0, 1, 0);
+  carried c = carried_at(0, 0, 0);
+  carried_turn(&c, 2, jets_scale((long double)precession(s) / s->rate, x));
+  carried_turn(&c, 1, x);
+  carried_go(&c, 0, 1, 0);
   return c;
 }
 
@@ -198,7 +155,8 @@ static carried body_of(const scene *s, int body, long double x)
   case SCENE_SPATIAL_CRANK: return crank_body(body, angle);
   case SCENE_RSSR: return rssr_body(body, angle);
   case SCENE_BRICARD: return bricard_body(body, angle);
-  default: return top_body(s, angle);
+  case SCENE_TOP: return top_body(s, angle);
+  default: return elements_body(s, body, angle);
   }
 }
 
@@ -220,19 +178,7 @@ void space_pose(const scene *s, int body, long double x, long double pose[SPACE_
 
 /* ---- the equation ---- */
 
-/* Computes w = 2 vec(p^-1 p^(n)), where p^(n) is the n-th derivative of p. */
-static void spin(const carried *c, int n, long double w[3])
-{
-  for (int i = 1; i < 4; i++) {
-    int j = i % 3 + 1;
-    int k = j % 3 + 1;
-    w[i - 1] = 2 * (c->p[0].d[0] * c->p[i].d[n] - c->p[i].d[0] * c->p[0].d[n] -
-                    c->p[j].d[0] * c->p[k].d[n] + c->p[k].d[0] * c->p[j].d[n]);
-  }
-}
-
-/* Returns the mass and the moments of inertia of a body of the slider-crank, or of Bricard's
- * rods. */
+/* Returns the mass and the moments of inertia of a body. */
 static void inertia_of(const scene *s, int body, long double out[4])
 {
   static const long double crank[3][4] = {
@@ -240,6 +186,10 @@ static void inertia_of(const scene *s, int body, long double out[4])
   if (s->kind == SCENE_SPATIAL_CRANK) {
     memcpy(out, crank[body], sizeof crank[body]);
     out[0] *= body == 2 ? s->ratio : 1;
+    return;
+  }
+  if (s->kind > SCENE_TOP) {
+    elements_inertia(s, body, out);
     return;
   }
   out[0] = 1;
@@ -260,7 +210,7 @@ long double space_acceleration(const scene *s, long double x, long double v)
 {
   long double mass = 0;
   long double force = 0;
-  if (s->kind == SCENE_TOP || s->kind == SCENE_RSSR) {
+  if (s->kind == SCENE_TOP || s->kind == SCENE_RSSR || s->kind == SCENE_DISC) {
     return 0;
   }
   for (int k = 0; k < space_bodies(s); k++) {
@@ -269,15 +219,17 @@ long double space_acceleration(const scene *s, long double x, long double v)
     long double w[3];
     long double dw[3];
     inertia_of(s, k, m);
-    spin(&c, 1, w);
-    spin(&c, 2, dw);
+    carried_spin(&c, 1, w);
+    carried_spin(&c, 2, dw);
     for (int i = 0; i < 3; i++) {
       mass += m[0] * c.r[i].d[1] * c.r[i].d[1] + m[i + 1] * w[i] * w[i];
       force -= (m[0] * c.r[i].d[1] * c.r[i].d[2] + m[i + 1] * w[i] * dw[i]) * v * v;
     }
     force -= m[0] * s->gravity * c.r[s->kind == SCENE_BRICARD ? 1 : 2].d[1];
   }
-  if (s->stiffness != 0.0 || s->damping != 0.0) {
+  if (s->kind == SCENE_BUSHING) {
+    force += elements_torque(s, x, v);
+  } else if (s->stiffness != 0.0 || s->damping != 0.0) {
     jets at = crank_body(2, (jets){{x, 1, 0}}).r[0];
     long double stretched = ANCHOR - at.d[0] - relaxed_length(s);
     force += (s->stiffness * stretched - s->damping * at.d[1] * v) * at.d[1];
@@ -342,6 +294,9 @@ baum_status space_build(const scene *s, baum_mechanism **out)
 {
   static const char *const ENTRIES[] = {"spatial_slider_crank", "rssr", "bricard", "heavy_top"};
   enum { MOST = 16 };
+  if (s->kind > SCENE_TOP) {
+    return elements_build(s, out);
+  }
   baum_catalog_setting settings[MOST];
   baum_catalog_parameter p[MOST];
   baum_catalog_choice choice = {ENTRIES[s->kind - SCENE_SPATIAL_CRANK], settings, 0};
@@ -364,12 +319,12 @@ void space_tilt(const long double flat[3], long double pose[SPACE_NUMBERS])
   const double plane[3] = {0.0, 0.0, 0.0};
   double at[SPACE_NUMBERS];
   model_tilt_body(plane, at); /* origin and orientation of the plane */
-  carried c = at_point(0, 0, 0);
+  carried c = carried_at(0, 0, 0);
   for (int i = 0; i < 4; i++) {
     c.p[i] = jets_constant(at[3 + i]);
   }
-  go(&c, flat[0], flat[1], 0);
-  turn(&c, 2, jets_constant(flat[2]));
+  carried_go(&c, flat[0], flat[1], 0);
+  carried_turn(&c, 2, jets_constant(flat[2]));
   give_pose(&c, pose);
 }
 

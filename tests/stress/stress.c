@@ -12,7 +12,7 @@
 
 #include "axes.h"
 
-enum { AXES_MOST = 32 };
+enum { AXES_MOST = 64 };
 
 typedef struct counts {
   int cells;

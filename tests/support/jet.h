@@ -40,6 +40,19 @@ static inline jet jet_root(jet a)
   return (jet){{root, rate, (a.d[2] / 2 - rate * rate) / root}};
 }
 
+static inline jet jet_quotient(jet a, jet b)
+{
+  wide value = a.d[0] / b.d[0];
+  wide rate = (a.d[1] - value * b.d[1]) / b.d[0];
+  return (jet){{value, rate, (a.d[2] - 2 * rate * b.d[1] - value * b.d[2]) / b.d[0]}};
+}
+
+/* Returns the derivative of a. The second derivative of the result is not known, and set to 0. */
+static inline jet jet_rate(jet a)
+{
+  return (jet){{a.d[1], a.d[2], 0}};
+}
+
 /* Returns the angle whose cosine and sine are proportional to c and s. The value of this jet has
  * only double precision. */
 static inline jet jet_angle(jet c, jet s)

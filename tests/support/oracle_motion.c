@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+static const wide REVOLUTION = 6.28318530717958647692528676655900577L;
+
 static void normalize3(wide x[3])
 {
   wide length = wide_root(dot3(x, x));
@@ -85,6 +87,7 @@ motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6
   motion m = {.r = {{{0}}}};
   wide a[9];
   wide r[3];
+  memcpy(m.six, six, sizeof m.six);
   matrix_of(body, q, a);
   place_of(body, q, r);
   for (int i = 0; i < 3; i++) {
@@ -102,6 +105,11 @@ motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6
     }
   }
   return m;
+}
+
+void oracle_angular_velocity(const motion *m, jet out[3])
+{
+  oracle_turned(m, m->six + 3, out);
 }
 
 void oracle_turned(const motion *m, const wide s[3], jet out[3])
@@ -163,6 +171,56 @@ void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3])
   }
 }
 
+/* ---- all bodies ---- */
+
+void oracle_spread(const spatial_oracle *o, const double *v, wide six[][6])
+{
+  memset(six, 0, ORACLE_BODIES * sizeof *six);
+  for (int k = 0; k < o->body_count; k++) {
+    const oracle_body *body = &o->bodies[k];
+    for (int i = 0; i < body->nv; i++) {
+      six[k][oracle_six_of(body, i)] = v[body->first_v + i];
+    }
+  }
+}
+
+void oracle_set_velocities(instant *now, int body, const wide six[6])
+{
+  const oracle_body *of = &now->o->bodies[body];
+  now->bodies[body] = oracle_motion_of(of, now->q + of->first_q, six);
+}
+
+instant oracle_instant_at(const spatial_oracle *o, double t, const wide *q, const double *v)
+{
+  instant now = {.o = o, .t = t, .q = q};
+  wide six[ORACLE_BODIES][6];
+  oracle_spread(o, v, six);
+  for (int k = 0; k < o->body_count; k++) {
+    oracle_set_velocities(&now, k, six[k]);
+  }
+  return now;
+}
+
+instant oracle_stop(const instant *now)
+{
+  static const wide none[6] = {0};
+  instant still = *now;
+  for (int k = 0; k < now->o->body_count; k++) {
+    oracle_set_velocities(&still, k, none);
+  }
+  return still;
+}
+
+void oracle_design_motions(const spatial_oracle *o, motion bodies[ORACLE_BODIES])
+{
+  static const wide none[6] = {0};
+  for (int k = 0; k < o->body_count; k++) {
+    wide q[7];
+    design_of(&o->bodies[k], q);
+    bodies[k] = oracle_motion_of(&o->bodies[k], q, none);
+  }
+}
+
 /* ---- joints ---- */
 
 void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
@@ -190,13 +248,32 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
   joint->length = wide_root(dot3(apart, apart));
 }
 
-/* The vectors of a joint during a motion. */
-typedef struct moving {
-  jet e[3]; /* the vector from body_a's point to body_b's point */
-  jet axes[2][3][3];
-} moving;
+/* With n = z_a x z and c = z_a . z, the smallest rotation that takes z_a to z takes x to x + n x x
+ * + n x (n x x) / (1 + c). */
+void oracle_incline(const spatial_oracle *o, oracle_joint *joint, const wide z[3])
+{
+  wide unit[3] = {z[0], z[1], z[2]};
+  wide axis[3];
+  wide n[3];
+  normalize3(unit);
+  oracle_axis_to_ground(&o->bodies[joint->a], joint->axes[0] + 6, axis);
+  cross3(axis, unit, n);
+  wide c = dot3(axis, unit);
+  for (int k = 0; k < 9; k += 3) {
+    wide x[3];
+    wide first[3];
+    wide second[3];
+    oracle_axis_to_ground(&o->bodies[joint->a], joint->axes[0] + k, x);
+    cross3(n, x, first);
+    cross3(n, first, second);
+    for (int i = 0; i < 3; i++) {
+      x[i] += first[i] + second[i] / (1 + c);
+    }
+    oracle_axis_to_body(&o->bodies[joint->b], x, joint->axes[1] + k);
+  }
+}
 
-static moving moving_of(const oracle_joint *joint, const motion *bodies)
+moving oracle_moving_of(const oracle_joint *joint, const motion *bodies)
 {
   moving m;
   const motion *side[2] = {&bodies[joint->a], &bodies[joint->b]};
@@ -239,7 +316,40 @@ static int add_product(const jet x[3], const jet y[3], jet *out)
   return 1;
 }
 
-static int rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_ROWS])
+/* Sets the row of the thread: the displacement minus the part of the pitch that belongs to the
+ * angle. */
+static int add_thread(const oracle_joint *joint, const motion *bodies, jet *out)
+{
+  const wide part = joint->pitch / REVOLUTION;
+  const jet angle = oracle_coordinate_of(joint, 1, bodies);
+  out[0] = jet_less(oracle_coordinate_of(joint, 0, bodies), jet_scale(part, angle));
+  out[0].d[0] = (wide)remainder((double)(out[0].d[0] - joint->offset), joint->pitch);
+  return 1;
+}
+
+/* Sets the row that keeps the twist of two shafts at 0. The relative angular velocity is normal to
+ * z_a + z_b (K. H. Hunt, 1973). */
+static int add_equal_speeds(const oracle_joint *joint, const moving *m, const motion *bodies,
+                            jet *out)
+{
+  jet w[2][3];
+  jet sum[3];
+  jet relative[3];
+  oracle_angular_velocity(&bodies[joint->a], w[0]);
+  oracle_angular_velocity(&bodies[joint->b], w[1]);
+  for (int i = 0; i < 3; i++) {
+    sum[i] = jet_add(m->axes[0][2][i], m->axes[1][2][i]);
+    relative[i] = jet_less(w[1][i], w[0][i]);
+  }
+  const jet slip = jet_dot(sum, relative);
+  const jet twist =
+    jet_less(jet_dot(m->axes[0][1], m->axes[1][0]), jet_dot(m->axes[0][0], m->axes[1][1]));
+  out[0] = (jet){{twist.d[0], slip.d[0], slip.d[1]}};
+  return 1;
+}
+
+/* Evaluates the rows of a joint whose rows are products of vectors, or the length of a vector. */
+static int basic_rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_ROWS])
 {
   int n = 0;
   switch ((int)joint->kind) {
@@ -266,11 +376,87 @@ static int rows_of(const oracle_joint *joint, const moving *m, jet out[ORACLE_RO
   }
 }
 
+static int rows_of(const oracle_joint *joint, const motion *bodies, jet out[ORACLE_ROWS])
+{
+  const moving m = oracle_moving_of(joint, bodies);
+  int n = 0;
+  switch ((int)joint->kind) {
+  case ORACLE_SCREW:
+    n = add_on_line(&m, out);
+    n += add_same(&m, 2, out + n);
+    return n + add_thread(joint, bodies, out + n);
+  case ORACLE_CONSTANT_VELOCITY:
+    n = add_coincident(&m, out);
+    return n + add_equal_speeds(joint, &m, bodies, out + n);
+  case ORACLE_ROLLING_DISC: return oracle_disc_rows(joint, bodies, out);
+  case ORACLE_KNIFE_EDGE: return oracle_edge_rows(joint, bodies, out);
+  default: return basic_rows_of(joint, &m, out);
+  }
+}
+
+bool oracle_is_velocity_row(const oracle_joint *joint, int row)
+{
+  return (joint->kind == ORACLE_ROLLING_DISC && row > 0) || joint->kind == ORACLE_KNIFE_EDGE ||
+         joint->kind == ORACLE_USER;
+}
+
+const oracle_joint *oracle_pair_of(const spatial_oracle *o, const oracle_joint *joint)
+{
+  return joint->kind == ORACLE_DRIVER ? &o->joints[joint->of] : joint;
+}
+
+static void add_member(int body, int members[ORACLE_MEMBERS], int *count)
+{
+  bool known = body == 0;
+  for (int k = 0; k < *count; k++) {
+    known = known || members[k] == body;
+  }
+  if (!known) {
+    members[(*count)++] = body;
+  }
+}
+
+int oracle_members_of(const spatial_oracle *o, const oracle_joint *joint,
+                      int members[ORACLE_MEMBERS])
+{
+  int count = 0;
+  if (joint->kind == ORACLE_COUPLING) {
+    add_member(o->joints[joint->of].a, members, &count);
+    add_member(o->joints[joint->of].b, members, &count);
+    add_member(o->joints[joint->to].a, members, &count);
+    add_member(o->joints[joint->to].b, members, &count);
+    return count;
+  }
+  if (joint->kind == ORACLE_USER) {
+    memcpy(members, joint->user.members, sizeof joint->user.members);
+    return joint->user.member_count;
+  }
+  members[0] = oracle_pair_of(o, joint)->a;
+  members[1] = oracle_pair_of(o, joint)->b;
+  return 2;
+}
+
+void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3])
+{
+  const motion *body = &bodies[joint->b];
+  bool touches = joint->kind == ORACLE_ROLLING_DISC || joint->kind == ORACLE_KNIFE_EDGE;
+  jet at[3];
+  if (touches) {
+    oracle_contact_point(joint, bodies, at);
+  } else {
+    oracle_turned(body, joint->s[1], at);
+  }
+  for (int i = 0; i < 3; i++) {
+    arm[i] = at[i].d[0] - (touches ? body->r[i].d[0] : 0);
+  }
+}
+
 int oracle_coordinate_count(oracle_kind kind)
 {
   switch ((int)kind) {
   case ORACLE_PLANAR: return 3;
   case ORACLE_UNIVERSAL:
+  case ORACLE_SCREW:
   case ORACLE_CYLINDRICAL: return 2;
   case ORACLE_REVOLUTE:
   case ORACLE_PRISMATIC:
@@ -283,7 +469,7 @@ int oracle_coordinate_count(oracle_kind kind)
  * second rotation of a universal joint is about the x axis of body_b. */
 jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bodies)
 {
-  const moving m = moving_of(joint, bodies);
+  const moving m = oracle_moving_of(joint, bodies);
   if (joint->kind == ORACLE_PLANAR && number < 2) {
     return jet_dot(m.axes[0][number], m.e);
   }
@@ -291,7 +477,7 @@ jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bo
     return jet_angle(jet_dot(m.axes[0][2], m.axes[1][2]), jet_dot(m.axes[0][2], m.axes[1][1]));
   }
   bool along = joint->kind == ORACLE_PRISMATIC || joint->kind == ORACLE_ON_LINE ||
-               (joint->kind == ORACLE_CYLINDRICAL && number == 0);
+               ((joint->kind == ORACLE_CYLINDRICAL || joint->kind == ORACLE_SCREW) && number == 0);
   return along
            ? jet_dot(m.axes[0][2], m.e)
            : jet_angle(jet_dot(m.axes[0][0], m.axes[1][0]), jet_dot(m.axes[0][1], m.axes[1][0]));
@@ -306,12 +492,30 @@ int oracle_law(double t, double s[3], void *user)
   return 0;
 }
 
+static int coupling_row(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
+                        jet *out)
+{
+  const jet of = oracle_coordinate_of(&o->joints[joint->of], joint->coordinate, bodies);
+  const jet to = oracle_coordinate_of(&o->joints[joint->to], joint->to_coordinate, bodies);
+  out[0] = jet_less(to, jet_scale(joint->ratio, of));
+  out[0].d[0] -= joint->offset;
+  if (joint->period > 0.0) {
+    out[0].d[0] = (wide)remainder((double)out[0].d[0], joint->period);
+  }
+  return 1;
+}
+
 int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
                    double t, int flow, jet out[ORACLE_ROWS])
 {
-  if (joint->kind < ORACLE_JOINT_KINDS) {
-    const moving m = moving_of(joint, bodies);
-    return rows_of(joint, &m, out);
+  if (joint->kind < ORACLE_PAIR_KINDS) {
+    return rows_of(joint, bodies, out);
+  }
+  if (joint->kind == ORACLE_COUPLING) {
+    return coupling_row(o, joint, bodies, out);
+  }
+  if (joint->kind == ORACLE_USER) {
+    return oracle_user_rows(o, joint, bodies, t, flow, out);
   }
   double s[3];
   double start[2] = {joint->start[0], joint->start[1]};
@@ -323,12 +527,7 @@ int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const mot
 
 wide oracle_design_coordinate(const spatial_oracle *o, const oracle_joint *joint, int number)
 {
-  static const wide still[6] = {0};
   motion bodies[ORACLE_BODIES];
-  for (int k = 0; k < o->body_count; k++) {
-    wide q[7];
-    design_of(&o->bodies[k], q);
-    bodies[k] = oracle_motion_of(&o->bodies[k], q, still);
-  }
+  oracle_design_motions(o, bodies);
   return oracle_coordinate_of(joint, number, bodies).d[0];
 }

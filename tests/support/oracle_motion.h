@@ -7,12 +7,21 @@
 #include "jet.h"
 #include "spatial_oracle.h"
 
-/* The position of a body and the columns of its rotation matrix A, each with its time
- * derivatives. */
+/* The position of a body and the columns of its rotation matrix A, each with its time derivatives,
+ * and the six velocities of the body. */
 typedef struct motion {
   jet r[3];
   jet axes[3][3];
+  wide six[6];
 } motion;
+
+/* The motions of all bodies at constant velocities. */
+typedef struct instant {
+  const spatial_oracle *o;
+  double t;
+  const wide *q;
+  motion bodies[ORACLE_BODIES];
+} instant;
 
 static inline wide dot3(const wide a[3], const wide b[3])
 {
@@ -37,12 +46,69 @@ motion oracle_motion_of(const oracle_body *body, const wide *q, const wide six[6
 /* Computes the vector A s. */
 void oracle_turned(const motion *m, const wide s[3], jet out[3]);
 
+/* Writes the velocities or accelerations v of all bodies as six numbers for each body. */
+void oracle_spread(const spatial_oracle *o, const double *v, wide six[][6]);
+instant oracle_instant_at(const spatial_oracle *o, double t, const wide *q, const double *v);
+/* Computes the motions of all bodies at rest in the design configuration. */
+void oracle_design_motions(const spatial_oracle *o, motion bodies[ORACLE_BODIES]);
+/* Returns the same configuration without velocities. */
+instant oracle_stop(const instant *now);
+/* Gives one body other velocities. */
+void oracle_set_velocities(instant *now, int body, const wide six[6]);
+
+/* The vectors of a joint during a motion. */
+typedef struct moving {
+  jet e[3]; /* the vector from body_a's point to body_b's point */
+  jet axes[2][3][3];
+} moving;
+
+moving oracle_moving_of(const oracle_joint *joint, const motion *bodies);
+
+/* Computes the angular velocity of a body in ground axes. Only its value and its first derivative
+ * are known. */
+void oracle_angular_velocity(const motion *m, jet out[3]);
+
 /* Evaluates a coordinate of a joint. */
 jet oracle_coordinate_of(const oracle_joint *joint, int number, const motion *bodies);
 
 /* Evaluates all rows of a joint, and returns how many there are. If flow = 0, the prescribed values
- * of drivers are treated as constant in time. */
+ * of drivers are treated as constant in time, and the prescribed velocities of user constraints as
+ * zero. The value of a row of velocity level is 0. Its first two derivatives are J v - nu and the
+ * derivative of J v - nu. */
 int oracle_rows_of(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
                    double t, int flow, jet out[ORACLE_ROWS]);
+
+/* Returns whether a row of a joint is of velocity level. */
+bool oracle_is_velocity_row(const oracle_joint *joint, int row);
+
+/* Lists the bodies of a joint in the order of the library, and returns how many there are. Ground
+ * is listed only for joints between two bodies. */
+int oracle_members_of(const spatial_oracle *o, const oracle_joint *joint,
+                      int members[ORACLE_MEMBERS]);
+
+/* Returns the joint itself. For a driver, returns the driven joint. */
+const oracle_joint *oracle_pair_of(const spatial_oracle *o, const oracle_joint *joint);
+
+/* Computes the vector from the origin of body_b to the point of its reaction. */
+void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3]);
+
+/* These functions are in oracle_contact.c. The first three evaluate the rows of a rolling disc, of
+ * a knife edge and of a user constraint. The last one computes the point of contact in ground axes,
+ * or the point of the blade. */
+int oracle_disc_rows(const oracle_joint *joint, const motion *bodies, jet *out);
+int oracle_edge_rows(const oracle_joint *joint, const motion *bodies, jet *out);
+int oracle_user_rows(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
+                     double t, int flow, jet *out);
+void oracle_contact_point(const oracle_joint *joint, const motion *bodies, jet out[3]);
+
+/* Computes the six generalized forces on every body: gravity, gyroscopic moments and the forces of
+ * all elements. */
+void oracle_forces_at(const instant *now, wide six[][6]);
+/* Adds a force at a point, and a moment, to the six generalized forces of a body. All arguments are
+ * in ground axes. */
+void oracle_add_wrench(const motion *body, const wide point[3], const wide force[3],
+                       const wide moment[3], wide six[6]);
+/* Multiplies a vector by the inertia tensor of a body. */
+void oracle_inertia_times(const oracle_body *body, const wide x[3], wide out[3]);
 
 #endif

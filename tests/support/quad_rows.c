@@ -396,6 +396,25 @@ bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, c
   return done;
 }
 
+/* A row of zeros is dependent, so it does not count. */
+bool quad_rows_rank(baum_workspace *workspace, int nv, int nc, double t, const double *q,
+                    const bool *skipped, quad_rows *out)
+{
+  quad_equations s;
+  read_equations read;
+  double *unused = calloc((size_t)nv + 1, sizeof *unused);
+  bool done = begin(&s, &read, nv, nc) && unused &&
+              baum_workspace_mass(workspace, t, q, read.mass) == BAUM_OK &&
+              baum_workspace_jacobian(workspace, t, q, read.jacobian) == BAUM_OK;
+  for (int i = 0; i < nc * nv && done; i++) {
+    read.jacobian[i] = skipped[i / nv] ? 0.0 : read.jacobian[i];
+  }
+  done = done && solve(&s, &read, unused, out);
+  finish(&s, &read);
+  free(unused);
+  return done;
+}
+
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out)
 {

@@ -67,6 +67,11 @@ void quad_equations_null(const quad_equations *s, int k, wide *lambda);
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out);
 
+/* Computes only the rank and the distances in *out for the rows whose entries in `skipped` (nc) are
+ * false. */
+bool quad_rows_rank(baum_workspace *workspace, int nv, int nc, double t, const double *q,
+                    const bool *skipped, quad_rows *out);
+
 /* Computes the velocities nearest to v, in the metric of M, that satisfy constraints which do not
  * depend on time. They solve the same equations with gamma = 0 and the force M v. */
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,

@@ -10,13 +10,20 @@
 
 #include <cmocka.h>
 
+#include "check.h"
 #include "quad_rows.h"
+#include "random_velocity_rows.h"
 
 /* If dependent rows contradict each other by more than this, the library must refuse. */
 static const double CONTRADICTION = 1e-9;
 
+/* Degrees of freedom are compared only if the rank is clear: independent rows are at least this far
+ * from the span of the others. */
+static const double CLEAR = 1e-6;
+
 /* A configuration in which a mechanism is tested. */
 typedef struct scene {
+  const random_mechanism *random;
   random_tally *tally;
   uint64_t seed;
   baum_workspace *w;
@@ -115,11 +122,44 @@ static void move_a_bit(scene *s, chance *c, double away)
   }
 }
 
-/* Projects the state onto the constraints. If this succeeds, tests the projected state. */
-static void look_on_constraints(scene *s, const char *what)
+/* Projects the state onto the constraints. If this succeeds, tests the projected state and returns
+ * true. */
+static bool look_on_constraints(scene *s, const char *what)
 {
-  if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
+  bool projected = baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK;
+  if (projected) {
     look(s, what);
+  }
+  return projected;
+}
+
+/* Compares degrees of freedom with the rank of J at the present configuration, with and without the
+ * rows of velocity level. */
+static void compare_mobility(scene *s, const baum_mobility *mobility)
+{
+  quad_rows rows[2];
+  bool *skipped = calloc((size_t)s->nc + 1, sizeof *skipped);
+  assert_non_null(skipped);
+  for (int k = 0; k < 2; k++) {
+    assert_true(quad_rows_rank(s->w, s->nv, s->nc, s->t, s->q, skipped, &rows[k]));
+    for (int i = 0; i < s->nc; i++) {
+      skipped[i] = random_mechanism_is_velocity_row(s->random, i);
+      s->tally->velocity_rows += k == 0 && skipped[i] ? 1 : 0;
+    }
+  }
+  free(skipped);
+  bool clear = fmin(rows[0].kept, rows[1].kept) >= CLEAR && !mobility->near_singular;
+  if (!clear || mobility->conflicting_rows > 0) { /* drivers may be out of reach at t = 0 */
+    return;
+  }
+  int want[2] = {s->nv - rows[0].rank, s->nv - rows[1].rank};
+  int got[2] = {mobility->degrees_of_freedom, mobility->position_degrees_of_freedom};
+  s->tally->mobilities++;
+  if (got[0] != want[0] || got[1] != want[1]) {
+    s->tally->counts[RANDOM_MOBILITY]++;
+    (void)printf(
+      "seed %llu: %d degrees of freedom of velocity, %d of position, must be %d, %d: %s\n",
+      (unsigned long long)s->seed, got[0], got[1], want[0], want[1], mobility->text);
   }
 }
 
@@ -130,20 +170,24 @@ static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
   move_a_bit(s, c, 0.0);
   look_on_constraints(s, "design");
   move_a_bit(s, c, 0.2);
-  look_on_constraints(s, "moved");
+  bool moved = look_on_constraints(s, "moved");
   /* Rows that are redundant on the constraints may be independent off them. */
-  (void)baum_mechanism_mobility(m, &mobility, sizeof mobility);
+  check(baum_mechanism_mobility(m, &mobility, sizeof mobility));
+  if (moved && s->nc > 0) {
+    compare_mobility(s, &mobility);
+  }
   if (mobility.redundant_rows == 0) {
     move_a_bit(s, c, 1.0);
     look(s, "free");
   }
 }
 
-void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally)
+void random_judge(random_mechanism *room, uint64_t seed, bool velocity_rows, random_tally *tally)
 {
   chance c = chance_of(seed);
   random_kind kind = draw_kind(&c);
-  scene s = {.tally = tally, .seed = seed, .t = chance_number(&c, 0.0, 1.0)};
+  kind.velocity_rows = velocity_rows ? 1 + (int)(seed % 3) : 0;
+  scene s = {.random = room, .tally = tally, .seed = seed, .t = chance_number(&c, 0.0, 1.0)};
   random_mechanism_make(room, seed, &kind);
   assert_int_equal(baum_mechanism_sizes(room->mechanism, NULL, &s.nv, &s.nc), BAUM_OK);
   assert_int_equal(baum_workspace_create(room->mechanism, &s.w), BAUM_OK);
@@ -157,4 +201,13 @@ void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally)
   free(s.q);
   baum_workspace_destroy(s.w);
   random_mechanism_destroy(room);
+}
+
+long random_bad(const random_tally *tally)
+{
+  long bad = 0;
+  for (int k = RANDOM_WRONG; k < RANDOM_VERDICTS; k++) {
+    bad += tally->counts[k];
+  }
+  return bad;
 }

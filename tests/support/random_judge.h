@@ -12,6 +12,7 @@ typedef enum random_verdict {
   RANDOM_WRONG,       /* the error is larger */
   RANDOM_CONFLICT,    /* accepted, although omitted rows contradict the others */
   RANDOM_FALSE_ALARM, /* refused, although the rows are independent */
+  RANDOM_MOBILITY,    /* other degrees of freedom than the ranks of J give */
   RANDOM_VERDICTS
 } random_verdict;
 
@@ -24,14 +25,21 @@ typedef struct random_tally {
   long mechanisms;
   long poses;
   long counts[RANDOM_VERDICTS];
-  long dependent; /* configurations with dependent rows and correct accelerations */
-  double worst;   /* largest error of all RANDOM_MET configurations */
+  long dependent;     /* configurations with dependent rows and correct accelerations */
+  long velocity_rows; /* rows of velocity level in all mechanisms */
+  long mobilities;    /* mechanisms whose degrees of freedom were compared with ranks of J */
+  double worst;       /* largest error of all RANDOM_MET configurations */
   uint64_t worst_seed;
 } random_tally;
 
-/* Makes the mechanism of a seed in `room`, and tests it with velocities. It is tested in its design
- * configuration, and in another configuration on the constraints. If no rows are redundant, it is
- * also tested in a configuration off the constraints. Prints wrong results and false alarms. */
-void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
+/* Makes the mechanism of a seed in `room`, and tests it with velocities. If `velocity_rows` is
+ * true, rows of velocity level are added to the mechanism. It is tested in its design
+ * configuration, and in another configuration on the constraints. In the latter, the ranks of J
+ * must give the degrees of freedom that the library reports. If no rows are redundant, it is also
+ * tested in a configuration off the constraints. Prints wrong results and false alarms. */
+void random_judge(random_mechanism *room, uint64_t seed, bool velocity_rows, random_tally *tally);
+
+/* Returns how many results were wrong or false alarms. */
+long random_bad(const random_tally *tally);
 
 #endif

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "random_velocity_rows.h"
+
 /* ---- chance ---- */
 
 chance chance_of(uint64_t seed)
@@ -559,6 +561,9 @@ void random_mechanism_make(random_mechanism *out, uint64_t seed, const random_ki
   }
   for (int i = 0; i < kind->springs; i++) {
     add_spring(out);
+  }
+  for (int i = 0; i < kind->velocity_rows; i++) {
+    random_mechanism_add_velocity_rows(out);
   }
   assert_int_equal(baum_mechanism_freeze(out->mechanism), BAUM_OK);
 }

@@ -33,6 +33,7 @@ typedef struct random_kind {
   double span;     /* masses are from 1/span to span */
   int loads;
   int springs;        /* number of attempts to add a spring; springs have dampers */
+  int velocity_rows;  /* number of attempts to add rows of velocity level, at most RANDOM_ROWS */
   bool drivers_begin; /* whether drivers prescribe the design configuration at time `start` */
   double start;       /* [s] */
 } random_kind;
@@ -50,7 +51,8 @@ typedef struct random_body {
 } random_body;
 
 /* Random constraints. Row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. d^2
- * contains the squares of the elements of d. */
+ * contains the squares of the elements of d. random_velocity_rows.c uses the numbers in another
+ * way. */
 typedef struct random_rows {
   int rows;
   int columns;
@@ -70,7 +72,7 @@ typedef struct random_mechanism {
   baum_joint_id joints[2 * RANDOM_JOINTS];
   char joint_kind[2 * RANDOM_JOINTS];
   int rows_count;
-  random_rows rows[RANDOM_JOINTS];
+  random_rows rows[RANDOM_JOINTS + RANDOM_ROWS];
 } random_mechanism;
 
 /* Makes a frozen mechanism. Its functions keep pointers into *out, so *out must not be moved. */

@@ -9,37 +9,11 @@
 
 #include <cmocka.h>
 
+#include "check.h"
 #include "random_coordinates.h"
+#include "random_definitions.h"
+#include "random_further.h"
 #include "rotation.h"
-
-static void choose_vector(chance *c, double size, double out[3])
-{
-  for (int i = 0; i < 3; i++) {
-    out[i] = chance_number(c, -size, size);
-  }
-}
-
-static void narrow(const wide x[3], double out[3])
-{
-  for (int i = 0; i < 3; i++) {
-    out[i] = (double)x[i];
-  }
-}
-
-static void widen(const double x[3], wide out[3])
-{
-  for (int i = 0; i < 3; i++) {
-    out[i] = x[i];
-  }
-}
-
-static void check(baum_status status)
-{
-  if (status != BAUM_OK) {
-    print_message("%s\n", baum_message());
-  }
-  assert_int_equal(status, BAUM_OK);
-}
 
 /* ---- bodies ---- */
 
@@ -112,17 +86,15 @@ static void add_planar_particle(random_spatial *r, oracle_body *b)
   check(baum_mechanism_add_planar_particle(r->mechanism, &def, &b->id));
 }
 
-static void add_body(random_spatial *r)
+void random_spatial_add_body(random_spatial *r, bool particle, bool planar)
 {
   chance *c = &r->chance;
   spatial_oracle *o = &r->oracle;
   oracle_body *b = &o->bodies[o->body_count++];
-  bool particle = chance_below(c, 100) < r->particles;
-  bool planar = chance_below(c, 100) < r->planar;
   b->first_q = o->nq;
   b->first_v = o->nv;
   b->mass = chance_decade(c, 1.0 / r->span, r->span);
-  choose_vector(c, 2.0, b->q);
+  random_vector(c, 2.0, b->q);
   if (particle) {
     b->kind = planar ? 'o' : 'p';
     b->nv = b->nq = planar ? 2 : 3;
@@ -137,16 +109,6 @@ static void add_body(random_spatial *r)
   o->nv += b->nv;
 }
 
-static bool turns(const oracle_body *b)
-{
-  return b->kind != 'p' && b->kind != 'o';
-}
-
-static bool is_planar(const oracle_body *b)
-{
-  return b->kind == 'b' || b->kind == 'o';
-}
-
 /* ---- definitions of joints ---- */
 
 /* Adds a joint of the kind NAME. The first SIZE bytes of its definition are the same as in the
@@ -158,6 +120,19 @@ static bool is_planar(const oracle_body *b)
     memcpy((char *)&def + head, (const char *)given + head, (SIZE)-head);     \
     check(baum_mechanism_add_spatial_##NAME(r->mechanism, &def, &joint->id)); \
   }
+
+static void add_screw(random_spatial *r, const baum_spatial_revolute_def *given,
+                      oracle_joint *joint)
+{
+  baum_spatial_screw_def def = baum_spatial_screw_def_default();
+  size_t head = offsetof(baum_spatial_screw_def, body_a);
+  memcpy((char *)&def + head, (const char *)given + head,
+         offsetof(baum_spatial_screw_def, pitch) - head);
+  def.pitch = chance_number(&r->chance, 0.2, 2.0) * (chance_below(&r->chance, 2) == 0 ? 1.0 : -1.0);
+  joint->pitch = def.pitch;
+  joint->offset = oracle_design_coordinate(&r->oracle, joint, 0);
+  check(baum_mechanism_add_spatial_screw(r->mechanism, &def, &joint->id));
+}
 
 /* Adds a planar joint. Its x axis is the x axis of the oracle's joint. */
 static void add_planar(random_spatial *r, const baum_spatial_revolute_def *given,
@@ -172,7 +147,7 @@ static void add_planar(random_spatial *r, const baum_spatial_revolute_def *given
   if (!isnan(given->point[0])) {
     oracle_axis_to_ground(&r->oracle.bodies[joint->a], joint->axes[0], x);
   }
-  narrow(x, def.x_axis);
+  wide_to_double(x, def.x_axis);
   check(baum_mechanism_add_spatial_planar(r->mechanism, &def, &joint->id));
 }
 
@@ -189,82 +164,9 @@ static void add_defined(random_spatial *r, const baum_spatial_revolute_def *give
   case ORACLE_FIXED: ADD(fixed, sizeof def) break;
   case ORACLE_DISTANCE: ADD(distance, offsetof(baum_spatial_distance_def, length)) break;
   case ORACLE_ON_LINE: ADD(point_on_line, sizeof def) break;
+  case ORACLE_SCREW: add_screw(r, given, joint); break;
+  case ORACLE_CONSTANT_VELOCITY: ADD(constant_velocity, sizeof def) break;
   default: ADD(point_on_plane, sizeof def) break;
-  }
-}
-
-static void scaled(chance *c, const wide x[3], double out[3])
-{
-  double size = chance_below(c, 2) == 0 ? 1.0 : chance_decade(c, 0.1, 10.0);
-  for (int i = 0; i < 3; i++) {
-    out[i] = size * (double)x[i];
-  }
-}
-
-/* Defines a joint by `point` and axes, all in ground axes. */
-static void define_at_point(random_spatial *r, const double point[3], const double axis[3],
-                            oracle_joint *joint, baum_spatial_revolute_def *def)
-{
-  chance *c = &r->chance;
-  const oracle_body *b = &r->oracle.bodies[joint->b];
-  wide p[3];
-  wide z[3];
-  widen(point, p);
-  widen(axis, z);
-  oracle_place(&r->oracle, joint, p, p, z);
-  memcpy(def->point, point, sizeof def->point);
-  scaled(c, z, def->axis);
-  if (joint->kind == ORACLE_UNIVERSAL) {
-    wide x[3];
-    oracle_axis_to_ground(b, joint->axes[1], x);
-    scaled(c, x, def->axis_b);
-  } else if (chance_below(c, 2) == 0) {
-    scaled(c, z, def->axis_b);
-  }
-}
-
-/* Moves a point, which is given in ground axes, so that its coordinates in body axes can be
- * represented exactly in double precision. Library and oracle then use the same point. For a
- * particle, the point becomes the position of the particle. */
-static void round_on_body(const oracle_body *body, wide point[3], double out[3])
-{
-  wide s[3];
-  oracle_to_body(body, point, s);
-  for (int k = 0; k < 3; k++) {
-    out[k] = turns(body) ? (double)s[k] : 0.0;
-  }
-  widen(out, s);
-  oracle_to_ground(body, s, point);
-}
-
-/* Defines a joint by points and axes on both bodies. `apart` is the vector from body_a's point to
- * body_b's point. */
-static void define_on_bodies(random_spatial *r, const double point[3], const double axis[3],
-                             const double apart[3], oracle_joint *joint,
-                             baum_spatial_revolute_def *def)
-{
-  chance *c = &r->chance;
-  const oracle_body *a = &r->oracle.bodies[joint->a];
-  const oracle_body *b = &r->oracle.bodies[joint->b];
-  wide p[2][3];
-  wide z[3];
-  wide s[3];
-  widen(point, p[1]);
-  round_on_body(b, p[1], def->point_b);
-  for (int i = 0; i < 3; i++) {
-    p[0][i] = p[1][i] - apart[i];
-  }
-  round_on_body(a, p[0], def->point_a);
-  widen(axis, z);
-  oracle_axis_to_body(a, z, s);
-  scaled(c, s, def->axis);
-  widen(def->axis, s);
-  oracle_axis_to_ground(a, s, z);
-  oracle_place(&r->oracle, joint, p[0], p[1], z);
-  if (joint->kind == ORACLE_UNIVERSAL) {
-    scaled(c, joint->axes[1], def->axis_b);
-  } else if (chance_below(c, 2) == 0) {
-    scaled(c, joint->axes[1] + 6, def->axis_b);
   }
 }
 
@@ -273,7 +175,7 @@ static void define_on_bodies(random_spatial *r, const double point[3], const dou
 static void choose_axis(random_spatial *r, const double point[3], bool in_plane, double axis[3])
 {
   chance *c = &r->chance;
-  choose_vector(c, 1.0, axis);
+  random_vector(c, 1.0, axis);
   if (r->axes == RANDOM_PARALLEL) {
     memcpy(axis, r->direction, sizeof r->direction);
   } else if (r->axes == RANDOM_CONCURRENT) {
@@ -292,10 +194,11 @@ static void choose_apart(chance *c, oracle_kind kind, const double axis[3], doub
   double beside[3];
   double away[3];
   double slide = chance_number(c, -1.0, 1.0);
-  choose_vector(c, 1.0, beside);
+  random_vector(c, 1.0, beside);
   cross(axis, beside, away);
   for (int i = 0; i < 3; i++) {
-    bool along = kind == ORACLE_CYLINDRICAL || kind == ORACLE_PRISMATIC || kind == ORACLE_ON_LINE;
+    bool along = kind == ORACLE_CYLINDRICAL || kind == ORACLE_PRISMATIC || kind == ORACLE_ON_LINE ||
+                 kind == ORACLE_SCREW;
     bool across = kind == ORACLE_PLANAR || kind == ORACLE_ON_PLANE;
     apart[i] = along ? slide * axis[i] : across ? slide * away[i] : 0.0;
   }
@@ -306,7 +209,7 @@ static void position_of(const oracle_body *body, double out[3])
   static const wide centre[3] = {0};
   wide p[3];
   oracle_to_ground(body, centre, p);
-  narrow(p, out);
+  wide_to_double(p, out);
 }
 
 static void choose_point(random_spatial *r, oracle_kind kind, int a, int b, double point[3])
@@ -314,10 +217,10 @@ static void choose_point(random_spatial *r, oracle_kind kind, int a, int b, doub
   const oracle_body *bodies = r->oracle.bodies;
   double away[3];
   int near = chance_below(&r->chance, 2) == 0 ? a : b;
-  near = turns(&bodies[b]) ? near : b;
-  near = kind == ORACLE_SPHERICAL && !turns(&bodies[a]) ? a : near;
+  near = random_turns(&bodies[b]) ? near : b;
+  near = kind == ORACLE_SPHERICAL && !random_turns(&bodies[a]) ? a : near;
   position_of(&bodies[near], point);
-  choose_vector(&r->chance, turns(&bodies[near]) ? 1.0 : 0.0, away);
+  random_vector(&r->chance, random_turns(&bodies[near]) ? 1.0 : 0.0, away);
   for (int i = 0; i < 3; i++) {
     point[i] += away[i];
   }
@@ -333,14 +236,14 @@ static void define_rod(random_spatial *r, oracle_joint *joint, baum_spatial_revo
   for (int k = 0; k < 2; k++) {
     const oracle_body *body = &r->oracle.bodies[bodies[k]];
     wide s[3];
-    choose_vector(&r->chance, turns(body) ? 1.0 : 0.0, ends[k]);
-    widen(ends[k], s);
+    random_vector(&r->chance, random_turns(body) ? 1.0 : 0.0, ends[k]);
+    wide_from_double(ends[k], s);
     oracle_to_ground(body, s, p[k]);
   }
   oracle_place(&r->oracle, joint, p[0], p[1], z);
 }
 
-static oracle_joint *next_joint(random_spatial *r, oracle_kind kind, int a, int b)
+oracle_joint *random_spatial_next_joint(random_spatial *r, oracle_kind kind, int a, int b)
 {
   oracle_joint *joint = &r->oracle.joints[r->oracle.joint_count++];
   *joint = (oracle_joint){.kind = kind, .a = a, .b = b};
@@ -351,18 +254,18 @@ static void add_joint_at(random_spatial *r, oracle_kind kind, const int bodies[2
                          const double point[3], const double axis[3])
 {
   chance *c = &r->chance;
-  oracle_joint *joint = next_joint(r, kind, bodies[0], bodies[1]);
+  oracle_joint *joint = random_spatial_next_joint(r, kind, bodies[0], bodies[1]);
   baum_spatial_revolute_def def = baum_spatial_revolute_def_default();
   def.body_a = r->oracle.bodies[bodies[0]].id;
   def.body_b = r->oracle.bodies[bodies[1]].id;
   if (kind == ORACLE_DISTANCE) {
     define_rod(r, joint, &def);
   } else if (chance_below(c, 2) == 0) {
-    define_at_point(r, point, axis, joint, &def);
+    random_define_at_point(r, point, axis, joint, &def);
   } else {
     double apart[3];
     choose_apart(c, kind, axis, apart);
-    define_on_bodies(r, point, axis, apart, joint, &def);
+    random_define_on_bodies(r, point, axis, apart, joint, &def);
   }
   add_defined(r, &def, joint);
 }
@@ -376,18 +279,28 @@ static oracle_kind choose_kind(random_spatial *r, int a, int b, bool loop)
   static const oracle_kind point[] = {ORACLE_DISTANCE, ORACLE_SPHERICAL, ORACLE_ON_LINE,
                                       ORACLE_ON_PLANE};
   chance *c = &r->chance;
-  if (!turns(&r->oracle.bodies[b])) {
-    return turns(&r->oracle.bodies[a]) ? point[chance_below(c, 4)] : ORACLE_DISTANCE;
+  if (!random_turns(&r->oracle.bodies[b])) {
+    return random_turns(&r->oracle.bodies[a]) ? point[chance_below(c, 4)] : ORACLE_DISTANCE;
   }
-  if (!turns(&r->oracle.bodies[a])) {
+  if (!random_turns(&r->oracle.bodies[a])) {
     return point[chance_below(c, 2)];
   }
   if (r->axes != RANDOM_ANY) {
-    return chance_below(c, 5) == 0 ? (oracle_kind)chance_below(c, ORACLE_JOINT_KINDS)
+    return chance_below(c, 5) == 0 ? (oracle_kind)chance_below(c, ORACLE_BASIC_KINDS)
                                    : ORACLE_REVOLUTE;
   }
   return loop && chance_below(c, 3) > 0 ? few[chance_below(c, 6)]
-                                        : (oracle_kind)chance_below(c, ORACLE_JOINT_KINDS);
+                                        : (oracle_kind)chance_below(c, ORACLE_BASIC_KINDS);
+}
+
+void random_spatial_add_joint(random_spatial *r, oracle_kind kind, int a, int b)
+{
+  const int bodies[2] = {a, b};
+  double point[3];
+  double axis[3];
+  choose_point(r, kind, a, b, point);
+  choose_axis(r, point, false, axis);
+  add_joint_at(r, kind, bodies, point, axis);
 }
 
 /* Adds a joint. One joint in twelve is added a second time, with exchanged bodies or at another
@@ -400,11 +313,12 @@ static void add_joint(random_spatial *r, int one, int other, bool loop)
   oracle_kind kind = choose_kind(r, bodies[0], bodies[1], loop);
   double point[3];
   double axis[3];
-  bool planar = is_planar(&r->oracle.bodies[one]) || is_planar(&r->oracle.bodies[other]);
+  bool planar =
+    random_is_planar(&r->oracle.bodies[one]) || random_is_planar(&r->oracle.bodies[other]);
   choose_point(r, kind, bodies[0], bodies[1], point);
   choose_axis(r, point, planar, axis);
   add_joint_at(r, kind, bodies, point, axis);
-  bool both_turn = turns(&r->oracle.bodies[one]) && turns(&r->oracle.bodies[other]);
+  bool both_turn = random_turns(&r->oracle.bodies[one]) && random_turns(&r->oracle.bodies[other]);
   if (both_turn && chance_below(c, 12) == 0) {
     double slide = chance_below(c, 2) == 0 ? 0.0 : 0.5;
     for (int i = 0; i < 3; i++) {
@@ -428,8 +342,8 @@ static void add_spring(random_spatial *r)
   }
   oracle_force *f = &o->forces[o->force_count++];
   *f = (oracle_force){.kind = ORACLE_SPRING, .a = a, .b = b};
-  choose_vector(c, turns(&o->bodies[a]) ? 1.0 : 0.0, f->s[0]);
-  choose_vector(c, turns(&o->bodies[b]) ? 1.0 : 0.0, f->s[1]);
+  random_vector(c, random_turns(&o->bodies[a]) ? 1.0 : 0.0, f->s[0]);
+  random_vector(c, random_turns(&o->bodies[b]) ? 1.0 : 0.0, f->s[1]);
   f->stiffness = chance_decade(c, 1.0, 100.0);
   f->damping = chance_below(c, 2) == 0 ? 0.0 : chance_decade(c, 0.01, 10.0);
   double free_length = chance_number(c, 0.0, 2.0);
@@ -452,10 +366,10 @@ static void add_load(random_spatial *r)
   int b = 1 + chance_below(c, o->body_count - 1);
   oracle_force *f = &o->forces[o->force_count++];
   *f = (oracle_force){.b = b};
-  bool body = turns(&o->bodies[b]);
-  choose_vector(c, body ? 1.0 : 0.0, f->s[1]);
-  choose_vector(c, 5.0, f->force);
-  choose_vector(c, body ? 2.0 : 0.0, f->moment);
+  bool body = random_turns(&o->bodies[b]);
+  random_vector(c, body ? 1.0 : 0.0, f->s[1]);
+  random_vector(c, 5.0, f->force);
+  random_vector(c, body ? 2.0 : 0.0, f->moment);
   f->follows_body = body && chance_below(c, 2) == 0;
   baum_spatial_load_def def = baum_spatial_load_def_default();
   def.body = o->bodies[b].id;
@@ -477,9 +391,9 @@ static void choose_all(random_spatial *r)
   r->planar = chance_below(c, 3) == 0 ? chance_below(c, 60) : 0;
   int special = chance_below(c, 12);
   r->axes = special == 0 ? RANDOM_PARALLEL : special == 1 ? RANDOM_CONCURRENT : RANDOM_ANY;
-  choose_vector(c, 1.0, r->direction);
+  random_vector(c, 1.0, r->direction);
   r->start = chance_number(c, 0.0, 1.0);
-  choose_vector(c, 10.0, r->oracle.gravity);
+  random_vector(c, 10.0, r->oracle.gravity);
 }
 
 static void add_joints(random_spatial *r)
@@ -504,8 +418,9 @@ static void add_joints(random_spatial *r)
   }
 }
 
-void random_spatial_make(random_spatial *out, uint64_t seed)
+void random_spatial_make(random_spatial *out, uint64_t seed, bool further)
 {
+  enum { MOST_BODIES = 8, MOST_FORCES = 4 };
   memset(out, 0, sizeof *out);
   chance *c = &out->chance;
   *c = chance_of(seed);
@@ -515,19 +430,24 @@ void random_spatial_make(random_spatial *out, uint64_t seed)
   check(baum_mechanism_set_gravity(out->mechanism, g[0], g[1], g[2]));
   out->oracle.body_count = 1;
   out->oracle.bodies[0] = (oracle_body){.id = BAUM_GROUND, .kind = 'g'};
-  int bodies = 1 + chance_below(c, ORACLE_BODIES - 1);
+  int bodies = 1 + chance_below(c, MOST_BODIES);
   for (int k = 0; k < bodies; k++) {
-    add_body(out);
+    bool particle = chance_below(c, 100) < out->particles;
+    bool planar = chance_below(c, 100) < out->planar;
+    random_spatial_add_body(out, particle, planar);
   }
   add_joints(out);
-  for (int k = chance_below(c, ORACLE_FORCES / 2); k > 0; k--) {
+  for (int k = chance_below(c, MOST_FORCES); k > 0; k--) {
     add_load(out);
   }
-  for (int k = chance_below(c, ORACLE_FORCES / 2); k > 0; k--) {
+  for (int k = chance_below(c, MOST_FORCES); k > 0; k--) {
     add_spring(out);
   }
   for (int k = chance_below(c, 3); k > 0; k--) {
     random_spatial_add_joint_spring(out);
+  }
+  if (further) {
+    random_spatial_add_further(out);
   }
   check(baum_mechanism_freeze(out->mechanism));
 }

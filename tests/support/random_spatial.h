@@ -20,8 +20,16 @@ typedef struct random_spatial {
   double direction[3]; /* direction of parallel axes, or the point where concurrent axes meet */
 } random_spatial;
 
-/* Makes a frozen mechanism. Its driver laws keep pointers into *out, so *out must not be moved. */
-void random_spatial_make(random_spatial *out, uint64_t seed);
+/* Makes a frozen mechanism. If `further` is true, it has the elements of random_further.h, too. Its
+ * functions keep pointers into *out, so *out must not be moved. */
+void random_spatial_make(random_spatial *out, uint64_t seed, bool further);
 void random_spatial_destroy(random_spatial *out);
+
+/* These functions are called before the mechanism is frozen. The first one adds a body or a
+ * particle. The second one appends an empty joint to the oracle. The third one adds a joint with a
+ * random point and axis. */
+void random_spatial_add_body(random_spatial *r, bool particle, bool planar);
+oracle_joint *random_spatial_next_joint(random_spatial *r, oracle_kind kind, int a, int b);
+void random_spatial_add_joint(random_spatial *r, oracle_kind kind, int a, int b);
 
 #endif

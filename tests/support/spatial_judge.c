@@ -14,6 +14,10 @@
  * m/s. */
 static const double ON_CONSTRAINTS = 1e-9;
 
+/* Degrees of freedom are compared only if the rank is clear: independent rows are at least this far
+ * from the span of the others. */
+static const double CLEAR = 1e-6;
+
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
 
 /* A configuration in which a mechanism is tested. */
@@ -28,7 +32,7 @@ typedef struct scene {
   double q[SIZE];
   double v[SIZE];
   double a[SIZE];
-  double reactions[ORACLE_JOINTS][6];
+  double reactions[ORACLE_JOINTS][ORACLE_REACTION];
   oracle_answer want;
 } scene;
 
@@ -56,7 +60,7 @@ static double largest_reaction(const scene *s)
 {
   double most = 0.0;
   for (int n = 0; n < s->random->oracle.joint_count; n++) {
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < ORACLE_REACTION; i++) {
       most = fmax(most, s->want.unique[n] ? fabs((double)s->want.reaction[n][i]) : 0.0);
       most = fmax(most, fabs(s->reactions[n][i]));
     }
@@ -80,7 +84,7 @@ static errors errors_of(const scene *s, const oracle_answer *from)
     e.acceleration = more(e.acceleration, fabs((double)(a - s->want.a[i])));
   }
   for (int n = 0; n < o->joint_count; n++) {
-    for (int i = 0; i < 6 && s->want.unique[n]; i++) {
+    for (int i = 0; i < ORACLE_REACTION && s->want.unique[n]; i++) {
       double f = from == &s->want ? s->reactions[n][i] : (double)from->reaction[n][i];
       e.reaction = more(e.reaction, fabs((double)(f - s->want.reaction[n][i])));
     }
@@ -148,12 +152,26 @@ static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const 
 static void count(scene *s, spatial_verdict verdict, const errors *e, const errors *own)
 {
   static const char *const names[SPATIAL_VERDICTS] = {
-    "met",           "refused",   "conflict", "off the constraints",
-    "accelerations", "reactions", "balance",  "false alarm"};
+    "met",       "refused", "conflict",    "off the constraints", "accelerations",
+    "reactions", "balance", "false alarm", "degrees of freedom"};
   s->tally->counts[verdict]++;
   if (verdict > SPATIAL_REFUSED) {
     print(s, names[verdict], e, own);
   }
+}
+
+/* The reaction of a planar joint consists of two forces and a moment about z. */
+static void read_reaction(scene *s, int n, const double *lambda)
+{
+  const oracle_joint *joint = &s->random->oracle.joints[n];
+  double *out = s->reactions[n];
+  memset(out, 0, ORACLE_REACTION * sizeof *out);
+  assert_int_equal(baum_workspace_reaction(s->w, s->t, s->q, lambda, joint->id, out), BAUM_OK);
+  if (joint->kind == ORACLE_KNIFE_EDGE) {
+    out[5] = out[2];
+    out[2] = 0.0;
+  }
+  s->tally->reactions += s->want.unique[n] ? 1 : 0;
 }
 
 static spatial_verdict read_library(scene *s, errors *e)
@@ -167,9 +185,7 @@ static spatial_verdict read_library(scene *s, errors *e)
     return dependent ? SPATIAL_REFUSED : SPATIAL_FALSE_ALARM;
   }
   for (int n = 0; n < o->joint_count; n++) {
-    assert_int_equal(
-      baum_workspace_reaction(s->w, s->t, s->q, lambda, o->joints[n].id, s->reactions[n]), BAUM_OK);
-    s->tally->reactions += s->want.unique[n] ? 1 : 0;
+    read_reaction(s, n, lambda);
   }
   *e = errors_of(s, &s->want);
   e->imbalance = oracle_imbalance(o, q, s->v, s->a, s->reactions);
@@ -206,9 +222,32 @@ static void look(scene *s)
   }
 }
 
+/* ---- degrees of freedom ---- */
+
+static void compare_mobility(scene *s)
+{
+  baum_mobility mobility;
+  const errors none = {.reaction = 0.0};
+  const int nv = s->random->oracle.nv;
+  const oracle_answer *want = &s->want;
+  assert_int_equal(baum_mechanism_mobility(s->random->mechanism, &mobility, sizeof mobility),
+                   BAUM_OK);
+  bool clear = fmin(want->rows.kept, want->position_rows.kept) >= CLEAR && !mobility.near_singular;
+  if (!clear || mobility.conflicting_rows > 0) { /* drivers may be out of reach at t = 0 */
+    return;
+  }
+  s->tally->mobilities++;
+  if (mobility.degrees_of_freedom != nv - want->rows.rank ||
+      mobility.position_degrees_of_freedom != nv - want->position_rows.rank) {
+    count(s, SPATIAL_MOBILITY, &none, &none);
+    (void)printf("  %s; must be %d of velocity, %d of position\n", mobility.text,
+                 nv - want->rows.rank, nv - want->position_rows.rank);
+  }
+}
+
 /* ---- configurations ---- */
 
-static void look_beside(scene *s, const char *what, double away, chance *c)
+static bool look_beside(scene *s, const char *what, double away, chance *c)
 {
   double dx[SIZE];
   for (int i = 0; i < s->random->oracle.nv; i++) {
@@ -217,16 +256,30 @@ static void look_beside(scene *s, const char *what, double away, chance *c)
   }
   s->what = what;
   assert_int_equal(baum_workspace_move(s->w, dx, s->q), BAUM_OK);
-  if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
+  bool projected = baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK;
+  if (projected) {
     look(s);
+    s->tally->velocity_rows += s->want.velocity_rows;
   } else {
     s->tally->not_projected++;
   }
+  return projected;
 }
 
-void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally)
+static void count_elements(const spatial_oracle *o, spatial_tally *tally)
 {
-  random_spatial_make(room, seed);
+  for (int n = 0; n < o->joint_count; n++) {
+    tally->joints[o->joints[n].kind]++;
+  }
+  for (int n = 0; n < o->force_count; n++) {
+    tally->forces[o->forces[n].kind]++;
+  }
+}
+
+void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_tally *tally)
+{
+  random_spatial_make(room, seed, further);
+  count_elements(&room->oracle, tally);
   scene s = {.random = room, .tally = tally, .seed = seed, .t = room->start};
   chance c = chance_of(seed + 1);
   int nq;
@@ -236,8 +289,10 @@ void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally)
   assert_int_equal(nv, room->oracle.nv);
   assert_int_equal(baum_workspace_create(room->mechanism, &s.w), BAUM_OK);
   assert_int_equal(baum_workspace_design(s.w, s.q, NULL), BAUM_OK);
-  look_beside(&s, "design", 0.0, &c);
-  look_beside(&s, "moved", 0.2, &c);
+  (void)look_beside(&s, "design", 0.0, &c);
+  if (look_beside(&s, "moved", 0.2, &c) && s.nc > 0) {
+    compare_mobility(&s);
+  }
   tally->mechanisms++;
   baum_workspace_destroy(s.w);
   random_spatial_destroy(room);

@@ -17,6 +17,7 @@ typedef enum spatial_verdict {
   SPATIAL_REACTION,    /* the error of unique reactions is above the limit */
   SPATIAL_BALANCE,     /* reactions do not balance the forces */
   SPATIAL_FALSE_ALARM, /* refused, although the rows are independent */
+  SPATIAL_MOBILITY,    /* other degrees of freedom than the ranks of J give */
   SPATIAL_VERDICTS
 } spatial_verdict;
 
@@ -32,7 +33,11 @@ typedef struct spatial_tally {
   long configurations;
   long not_projected; /* configurations whose projection failed */
   long counts[SPATIAL_VERDICTS];
-  long dependent;       /* SPATIAL_MET configurations with dependent rows */
+  long dependent;     /* SPATIAL_MET configurations with dependent rows */
+  long mobilities;    /* mechanisms whose degrees of freedom were compared with ranks of J */
+  long velocity_rows; /* rows of velocity level in all configurations */
+  long joints[ORACLE_KINDS];
+  long forces[ORACLE_FORCE_KINDS];
   long reactions;       /* number of compared reactions */
   long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
   double worst;         /* largest error of the other SPATIAL_MET configurations */
@@ -41,9 +46,9 @@ typedef struct spatial_tally {
 } spatial_tally;
 
 /* Makes the mechanism of a seed in `room`. The mechanism is tested with velocities, in its design
- * configuration and in another configuration on the constraints. Prints wrong results and false
- * alarms. */
-void spatial_judge(random_spatial *room, uint64_t seed, spatial_tally *tally);
+ * configuration and in another configuration on the constraints. In the latter, the ranks of J must
+ * give the degrees of freedom that the library reports. Prints wrong results and false alarms. */
+void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_tally *tally);
 
 /* Returns how many results were wrong or false alarms. */
 long spatial_bad(const spatial_tally *tally);

@@ -27,181 +27,6 @@ static wide largest(const wide *x, int count)
   return most;
 }
 
-/* ---- one instant ---- */
-
-typedef struct instant {
-  const spatial_oracle *o;
-  double t;
-  const wide *q;
-  wide six[ORACLE_BODIES][6]; /* velocities */
-  motion bodies[ORACLE_BODIES];
-} instant;
-
-static void spread(const spatial_oracle *o, const double *v, wide six[][6])
-{
-  memset(six, 0, ORACLE_BODIES * sizeof *six);
-  for (int k = 0; k < o->body_count; k++) {
-    const oracle_body *body = &o->bodies[k];
-    for (int i = 0; i < body->nv; i++) {
-      six[k][oracle_six_of(body, i)] = v[body->first_v + i];
-    }
-  }
-}
-
-static motion motion_at(const instant *now, int k, const wide six[6])
-{
-  const oracle_body *body = &now->o->bodies[k];
-  return oracle_motion_of(body, now->q + body->first_q, six);
-}
-
-static instant instant_at(const spatial_oracle *o, double t, const wide *q, const double *v)
-{
-  instant now = {.o = o, .t = t, .q = q};
-  spread(o, v, now.six);
-  for (int k = 0; k < o->body_count; k++) {
-    now.bodies[k] = motion_at(&now, k, now.six[k]);
-  }
-  return now;
-}
-
-/* ---- forces ---- */
-
-static void inertia_times(const oracle_body *body, const wide x[3], wide out[3])
-{
-  const double *i = body->inertia;
-  out[0] = i[0] * x[0] + i[3] * x[1] + i[4] * x[2];
-  out[1] = i[3] * x[0] + i[1] * x[1] + i[5] * x[2];
-  out[2] = i[4] * x[0] + i[5] * x[1] + i[2] * x[2];
-}
-
-/* Adds a force at a point, and a moment, to the six generalized forces of a body. All arguments are
- * in ground axes. */
-static void add_wrench(const motion *body, const wide point[3], const wide force[3],
-                       const wide moment[3], wide six[6])
-{
-  wide arm[3];
-  wide about[3];
-  for (int i = 0; i < 3; i++) {
-    arm[i] = point[i] - body->r[i].d[0];
-  }
-  cross3(arm, force, about);
-  for (int i = 0; i < 3; i++) {
-    six[i] += force[i];
-    for (int j = 0; j < 3; j++) {
-      six[3 + i] += body->axes[i][j].d[0] * (about[j] + moment[j]);
-    }
-  }
-}
-
-static void place_at(const motion *body, const double s[3], jet out[3])
-{
-  const wide point[3] = {s[0], s[1], s[2]};
-  oracle_turned(body, point, out);
-  for (int i = 0; i < 3; i++) {
-    out[i] = jet_add(out[i], body->r[i]);
-  }
-}
-
-static void add_spring(const oracle_force *f, const motion *bodies, wide six[][6])
-{
-  static const wide none[3] = {0};
-  jet ends[2][3];
-  jet apart[3];
-  place_at(&bodies[f->a], f->s[0], ends[0]);
-  place_at(&bodies[f->b], f->s[1], ends[1]);
-  for (int i = 0; i < 3; i++) {
-    apart[i] = jet_less(ends[1][i], ends[0][i]);
-  }
-  const jet length = jet_root(jet_dot(apart, apart));
-  wide tension = f->stiffness * (length.d[0] - f->free_length) + f->damping * length.d[1];
-  for (int side = 0; side < 2; side++) {
-    wide force[3];
-    wide point[3];
-    for (int i = 0; i < 3; i++) {
-      force[i] = (side == 0 ? tension : -tension) * apart[i].d[0] / length.d[0];
-      point[i] = ends[side][i].d[0];
-    }
-    int body = side == 0 ? f->a : f->b;
-    add_wrench(&bodies[body], point, force, none, six[body]);
-  }
-}
-
-static void add_load(const oracle_force *f, const motion *bodies, wide six[][6])
-{
-  const motion *body = &bodies[f->b];
-  jet at[3];
-  wide given[2][3];
-  wide point[3];
-  place_at(body, f->s[1], at);
-  for (int i = 0; i < 3; i++) {
-    point[i] = at[i].d[0];
-    given[0][i] = f->force[i];
-    given[1][i] = f->moment[i];
-  }
-  for (int k = 0; k < 2 && f->follows_body; k++) {
-    jet out[3];
-    oracle_turned(body, given[k], out);
-    for (int i = 0; i < 3; i++) {
-      given[k][i] = out[i].d[0];
-    }
-  }
-  add_wrench(body, point, given[0], given[1], six[f->b]);
-}
-
-static instant stop(const instant *now)
-{
-  instant still = *now;
-  memset(still.six, 0, sizeof still.six);
-  for (int k = 0; k < now->o->body_count; k++) {
-    still.bodies[k] = motion_at(&still, k, still.six[k]);
-  }
-  return still;
-}
-
-static void add_joint_spring(const oracle_force *f, const instant *now, wide six[][6])
-{
-  const oracle_joint *joint = &now->o->joints[f->of];
-  const jet c = oracle_coordinate_of(joint, f->coordinate, now->bodies);
-  wide force = f->stiffness * (c.d[0] - f->free_length) + f->damping * c.d[1];
-  instant still = stop(now);
-  for (int side = 0; side < 2; side++) {
-    int body = side == 0 ? joint->a : joint->b;
-    const motion kept = still.bodies[body];
-    for (int k = 0; k < 6; k++) {
-      wide unit[6] = {0};
-      unit[k] = 1;
-      still.bodies[body] = motion_at(&still, body, unit);
-      six[body][k] -= force * oracle_coordinate_of(joint, f->coordinate, still.bodies).d[1];
-    }
-    still.bodies[body] = kept;
-  }
-}
-
-static void forces_at(const instant *now, wide six[][6])
-{
-  const spatial_oracle *o = now->o;
-  memset(six, 0, ORACLE_BODIES * sizeof *six);
-  for (int k = 1; k < o->body_count; k++) {
-    const oracle_body *body = &o->bodies[k];
-    wide momentum[3];
-    wide moment[3];
-    inertia_times(body, now->six[k] + 3, momentum);
-    cross3(momentum, now->six[k] + 3, moment);
-    for (int i = 0; i < 3; i++) {
-      six[k][i] = (wide)body->mass * o->gravity[i];
-      six[k][3 + i] = moment[i];
-    }
-  }
-  for (int n = 0; n < o->force_count; n++) {
-    const oracle_force *f = &o->forces[n];
-    if (f->kind == ORACLE_JOINT_SPRING) {
-      add_joint_spring(f, now, six);
-    } else {
-      (f->kind == ORACLE_SPRING ? add_spring : add_load)(f, now->bodies, six);
-    }
-  }
-}
-
 /* ---- equations ---- */
 
 /* The rows of all joints, with six columns for each body. */
@@ -210,23 +35,18 @@ typedef struct row_list {
   wide (*j)[ORACLE_COLUMNS];
 } row_list;
 
-/* Returns the joint itself. For a driver, returns the driven joint. */
-static const oracle_joint *pair_of(const spatial_oracle *o, const oracle_joint *joint)
-{
-  return joint->kind == ORACLE_DRIVER ? &o->joints[joint->of] : joint;
-}
-
 static void find_columns(instant *still, const oracle_joint *joint, wide (*j)[ORACLE_COLUMNS])
 {
-  const oracle_joint *pair = pair_of(still->o, joint);
-  for (int side = 0; side < 2; side++) {
-    int body = side == 0 ? pair->a : pair->b;
+  int members[ORACLE_MEMBERS];
+  int member_count = oracle_members_of(still->o, joint, members);
+  for (int n = 0; n < member_count; n++) {
+    int body = members[n];
     const motion kept = still->bodies[body];
     for (int k = 0; k < 6; k++) {
       wide six[6] = {0};
       jet rows[ORACLE_ROWS];
       six[k] = 1;
-      still->bodies[body] = motion_at(still, body, six);
+      oracle_set_velocities(still, body, six);
       int row_count = oracle_rows_of(still->o, joint, still->bodies, still->t, 0, rows);
       for (int i = 0; i < row_count; i++) {
         j[i][6 * body + k] = rows[i].d[1];
@@ -238,7 +58,7 @@ static void find_columns(instant *still, const oracle_joint *joint, wide (*j)[OR
 
 static void find_rows(const instant *now, row_list *list, wide *gamma, oracle_answer *out)
 {
-  instant still = stop(now);
+  instant still = oracle_stop(now);
   int row = 0;
   out->phi = 0.0;
   out->rate = 0.0;
@@ -262,7 +82,7 @@ static void fill_bodies(const instant *now, quad_equations *s)
 {
   const spatial_oracle *o = now->o;
   wide six[ORACLE_BODIES][6];
-  forces_at(now, six);
+  oracle_forces_at(now, six);
   for (int k = 1; k < o->body_count; k++) {
     const oracle_body *body = &o->bodies[k];
     for (int i = 0; i < body->nv; i++) {
@@ -272,7 +92,7 @@ static void fill_bodies(const instant *now, quad_equations *s)
         const wide e[3] = {oracle_six_of(body, j) == 3, oracle_six_of(body, j) == 4,
                            oracle_six_of(body, j) == 5};
         wide turned_by[3];
-        inertia_times(body, e, turned_by);
+        oracle_inertia_times(body, e, turned_by);
         int at = oracle_six_of(body, i);
         row[j] = at < 3 ? (i == j ? body->mass : 0) : turned_by[at - 3];
       }
@@ -303,30 +123,61 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
+/* Returns the element of -J^T lambda of a joint at a velocity of a body. */
+static wide column_force(const row_list *list, int joint, const wide *lambda, int column)
+{
+  wide sum = 0;
+  for (int r = list->first[joint]; r < list->first[joint + 1]; r++) {
+    sum -= list->j[r][column] * lambda[r];
+  }
+  return sum;
+}
+
 /* Computes the reaction -J^T lambda of a joint on body_b, as a force and a moment at the point of
  * body_b. */
-static void reaction_of(const instant *now, const row_list *list, int n, const wide *lambda,
-                        wide out[6])
+static void wrench_of(const instant *now, const row_list *list, int n, const wide *lambda,
+                      wide out[6])
 {
-  const oracle_joint *joint = &now->o->joints[n];
-  const oracle_joint *of = pair_of(now->o, joint);
+  const oracle_joint *of = oracle_pair_of(now->o, &now->o->joints[n]);
   const motion *body = &now->bodies[of->b];
-  wide six[6] = {0};
-  jet arm[3];
+  wide six[6];
+  wide arm[3];
   wide shift[3];
-  for (int r = list->first[n]; r < list->first[n + 1]; r++) {
-    for (int k = 0; k < 6; k++) {
-      six[k] -= list->j[r][6 * of->b + k] * lambda[r];
-    }
+  for (int k = 0; k < 6; k++) {
+    six[k] = column_force(list, n, lambda, 6 * of->b + k);
   }
-  oracle_turned(body, of->s[1], arm);
-  const wide to_point[3] = {arm[0].d[0], arm[1].d[0], arm[2].d[0]};
-  cross3(to_point, six, shift);
+  oracle_reaction_arm(of, now->bodies, arm);
+  cross3(arm, six, shift);
   for (int i = 0; i < 3; i++) {
     out[i] = six[i];
     out[3 + i] = -shift[i];
     for (int j = 0; j < 3; j++) {
       out[3 + i] += body->axes[j][i].d[0] * six[3 + j];
+    }
+  }
+}
+
+/* Returns whether the reaction of a joint is a generalized force on all its bodies. */
+static bool is_generalized(const oracle_joint *joint)
+{
+  return joint->kind == ORACLE_COUPLING || joint->kind == ORACLE_USER;
+}
+
+static void reaction_of(const instant *now, const row_list *list, int n, const wide *lambda,
+                        wide out[ORACLE_REACTION])
+{
+  const oracle_joint *joint = &now->o->joints[n];
+  int members[ORACLE_MEMBERS];
+  memset(out, 0, ORACLE_REACTION * sizeof *out);
+  if (!is_generalized(joint)) {
+    wrench_of(now, list, n, lambda, out);
+    return;
+  }
+  int member_count = oracle_members_of(now->o, joint, members);
+  for (int k = 0; k < member_count; k++) {
+    const oracle_body *body = &now->o->bodies[members[k]];
+    for (int i = 0; i < body->nv; i++) {
+      *out++ = column_force(list, n, lambda, 6 * members[k] + oracle_six_of(body, i));
     }
   }
 }
@@ -345,9 +196,9 @@ static void find_reactions(const instant *now, const row_list *list, const quad_
     quad_equations_null(s, k, lambda);
     wide size = largest(lambda, s->nc);
     for (int n = 0; n < joints; n++) {
-      wide part[6];
+      wide part[ORACLE_REACTION];
       reaction_of(now, list, n, lambda, part);
-      out->unique[n] = out->unique[n] && largest(part, 6) <= NO_PART * size;
+      out->unique[n] = out->unique[n] && largest(part, ORACLE_REACTION) <= NO_PART * size;
     }
   }
   free(lambda);
@@ -355,13 +206,40 @@ static void find_reactions(const instant *now, const row_list *list, const quad_
 
 /* ---- the whole evaluation ---- */
 
+/* Computes the rank of the rows that are not of velocity level. */
+static bool find_position_rank(const instant *now, const row_list *list, oracle_answer *out)
+{
+  const spatial_oracle *o = now->o;
+  const int nc = list->first[o->joint_count];
+  quad_equations s;
+  wide a[ORACLE_COLUMNS];
+  bool done = quad_equations_create(&s, o->nv, nc);
+  out->velocity_rows = 0;
+  if (done) {
+    fill_bodies(now, &s);
+    fill_rows(o, list, s.gamma, &s);
+  }
+  for (int n = 0; n < o->joint_count && done; n++) {
+    for (int r = list->first[n]; r < list->first[n + 1]; r++) {
+      if (oracle_is_velocity_row(&o->joints[n], r - list->first[n])) {
+        memset(s.jacobian + (ptrdiff_t)r * s.nv, 0, (size_t)s.nv * sizeof *s.jacobian);
+        out->velocity_rows++;
+      }
+    }
+  }
+  out->position_rows = out->rows;
+  done = done && (out->velocity_rows == 0 || quad_equations_solve(&s, a, &out->position_rows));
+  quad_equations_destroy(&s);
+  return done;
+}
+
 bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const double *v,
                       oracle_answer *out)
 {
   quad_equations s;
   row_list list = {.j = calloc(ORACLE_JOINTS * ORACLE_ROWS, sizeof *list.j)};
   wide *gamma = calloc(ORACLE_JOINTS * ORACLE_ROWS, sizeof *gamma);
-  const instant now = instant_at(o, t, q, v);
+  const instant now = oracle_instant_at(o, t, q, v);
   if (list.j && gamma) {
     find_rows(&now, &list, gamma, out);
   }
@@ -373,6 +251,7 @@ bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const do
   }
   if (done) {
     find_reactions(&now, &list, &s, out);
+    done = find_position_rank(&now, &list, out);
   }
   quad_equations_destroy(&s);
   free(list.j);
@@ -383,16 +262,25 @@ bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const do
 /* ---- balance ---- */
 
 /* Adds the reaction of a joint to the forces on body_b, and its opposite, at the same point, to
- * those on body_a. */
+ * those on body_a. A generalized force is added to the forces on all its bodies. */
 static void add_reaction(const instant *now, const oracle_joint *joint, const double *reaction,
                          wide six[][6])
 {
-  const oracle_joint *of = pair_of(now->o, joint);
-  jet arm[3];
-  oracle_turned(&now->bodies[of->b], of->s[1], arm);
+  const oracle_joint *of = oracle_pair_of(now->o, joint);
+  int members[ORACLE_MEMBERS];
   wide point[3];
+  for (int k = 0; is_generalized(joint) && k < oracle_members_of(now->o, joint, members); k++) {
+    const oracle_body *body = &now->o->bodies[members[k]];
+    for (int i = 0; i < body->nv; i++) {
+      six[members[k]][oracle_six_of(body, i)] += *reaction++;
+    }
+  }
+  if (is_generalized(joint)) {
+    return;
+  }
+  oracle_reaction_arm(of, now->bodies, point);
   for (int i = 0; i < 3; i++) {
-    point[i] = arm[i].d[0] + now->bodies[of->b].r[i].d[0];
+    point[i] += now->bodies[of->b].r[i].d[0];
   }
   for (int side = 0; side < 2; side++) {
     int body = side == 0 ? of->a : of->b;
@@ -400,21 +288,21 @@ static void add_reaction(const instant *now, const oracle_joint *joint, const do
     for (int i = 0; i < 6; i++) {
       wrench[i] = side == 0 ? -reaction[i] : reaction[i];
     }
-    add_wrench(&now->bodies[body], point, wrench, wrench + 3, six[body]);
+    oracle_add_wrench(&now->bodies[body], point, wrench, wrench + 3, six[body]);
   }
 }
 
 double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v, const double *a,
-                        double (*reactions)[6])
+                        double (*reactions)[ORACLE_REACTION])
 {
-  const instant now = instant_at(o, 0.0, q, v);
+  const instant now = oracle_instant_at(o, 0.0, q, v);
   wide accelerations[ORACLE_BODIES][6];
   wide total[ORACLE_BODIES][6];
-  forces_at(&now, total);
-  spread(o, a, accelerations);
+  oracle_forces_at(&now, total);
+  oracle_spread(o, a, accelerations);
   double size = (double)largest(total[0], ORACLE_COLUMNS);
   for (int n = 0; n < o->joint_count; n++) {
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < ORACLE_REACTION; i++) {
       size = fmax(size, fabs(reactions[n][i]));
     }
     add_reaction(&now, &o->joints[n], reactions[n], total);
@@ -423,7 +311,7 @@ double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v,
   for (int k = 1; k < o->body_count; k++) {
     const oracle_body *body = &o->bodies[k];
     wide momentum[3];
-    inertia_times(body, accelerations[k] + 3, momentum);
+    oracle_inertia_times(body, accelerations[k] + 3, momentum);
     for (int i = 0; i < body->nv; i++) {
       int at = oracle_six_of(body, i);
       wide want = at < 3 ? body->mass * accelerations[k][at] : momentum[at - 3];

@@ -3,9 +3,10 @@
  * library. A joint is defined only by Phi, which is a function of the positions and axes of its
  * bodies. J v and gamma follow from the first and second time derivatives of Phi along motions.
  * These derivatives are computed with truncated Taylor series. Coordinates of joints are computed
- * in the same way. Rows may be dependent. For example, z_a - z_b = 0 for parallel axes has three
- * rows, but their rank is 2. Every body has six velocities, which are r' in ground axes and the
- * angular velocity in body axes. Planar bodies and particles use only some of them. */
+ * in the same way. Rows of velocity level are defined by the velocities of points along the motion.
+ * Rows may be dependent. For example, z_a - z_b = 0 for parallel axes has three rows, but their
+ * rank is 2. Every body has six velocities, which are r' in ground axes and the angular velocity in
+ * body axes. Planar bodies and particles use only some of them. */
 #ifndef BAUM_TEST_SPATIAL_ORACLE_H
 #define BAUM_TEST_SPATIAL_ORACLE_H
 
@@ -17,10 +18,14 @@
 #include "quad_rows.h"
 
 enum {
-  ORACLE_BODIES = 9, /* includes ground, which is body 0 */
-  ORACLE_JOINTS = 32,
-  ORACLE_FORCES = 8,
-  ORACLE_ROWS = 12, /* of one joint */
+  ORACLE_BODIES = 12, /* includes ground, which is body 0 */
+  ORACLE_JOINTS = 44,
+  ORACLE_FORCES = 14,
+  ORACLE_ROWS = 12,     /* of one joint */
+  ORACLE_MEMBERS = 4,   /* bodies of one joint */
+  ORACLE_REACTION = 24, /* numbers of the reaction of one joint */
+  ORACLE_USER_ROWS = 2, /* of one user constraint */
+  ORACLE_USER_COLUMNS = 12,
   ORACLE_COLUMNS = 6 * ORACLE_BODIES
 };
 
@@ -35,8 +40,16 @@ typedef enum oracle_kind {
   ORACLE_DISTANCE,
   ORACLE_ON_LINE,
   ORACLE_ON_PLANE,
-  ORACLE_JOINT_KINDS,
-  ORACLE_DRIVER
+  ORACLE_BASIC_KINDS,
+  ORACLE_SCREW = ORACLE_BASIC_KINDS,
+  ORACLE_CONSTANT_VELOCITY,
+  ORACLE_ROLLING_DISC,
+  ORACLE_KNIFE_EDGE, /* its bodies are planar or ground */
+  ORACLE_PAIR_KINDS, /* the joints above have two bodies */
+  ORACLE_DRIVER = ORACLE_PAIR_KINDS,
+  ORACLE_COUPLING,
+  ORACLE_USER, /* a user constraint of velocity level */
+  ORACLE_KINDS
 } oracle_kind;
 
 typedef struct oracle_body {
@@ -51,6 +64,21 @@ typedef struct oracle_body {
   int first_v;
 } oracle_body;
 
+/* A user constraint of velocity level: sum_j (linear_ij + slope_ij x) v_j = nu_i cos t. Here v are
+ * the velocities of all members, and x is the first coordinate of the first member. */
+typedef struct oracle_user {
+  int members[2];
+  int member_count;
+  int rows;
+  int columns;
+  double linear[ORACLE_USER_ROWS][ORACLE_USER_COLUMNS];
+  double slope[ORACLE_USER_ROWS][ORACLE_USER_COLUMNS];
+  double nu[ORACLE_USER_ROWS];
+} oracle_user;
+
+/* In a rolling disc, s contains a point of the plane and the centre. The z axes are the normal of
+ * the plane and the axis of the disc. In a knife edge, s[0] is the point of the blade, and the x
+ * axis on body_a is along the blade. */
 typedef struct oracle_joint {
   baum_joint_id id;
   oracle_kind kind;
@@ -58,15 +86,26 @@ typedef struct oracle_joint {
   wide s[2][3];    /* points in body axes */
   wide axes[2][9]; /* x, y and z axis of the joint, in body axes */
   wide length;
-  int of;          /* the joint that a driver moves */
-  int coordinate;  /* number of the coordinate that it moves, in the order of the library */
-  double start[2]; /* of a driver: a time [s], and the value that it prescribes at this time */
+  double pitch;       /* of a screw */
+  double radius, rim; /* of a rolling disc */
+  int of;             /* the joint that a driver moves, or the first joint of a coupling */
+  int coordinate;     /* number of the coordinate of this joint, in the order of the library */
+  int to;             /* the second joint of a coupling */
+  int to_coordinate;  /* number of its coordinate */
+  double ratio;       /* of a coupling: c_to = ratio c_of + offset */
+  wide offset;        /* of a coupling or a screw */
+  double period;      /* [rad or m] whole revolutions change Phi by multiples of it; 0 if none */
+  double start[2];    /* of a driver: a time [s], and the value that it prescribes at this time */
+  oracle_user user;
 } oracle_joint;
 
 typedef enum oracle_force_kind {
   ORACLE_LOAD,
   ORACLE_SPRING,
-  ORACLE_JOINT_SPRING
+  ORACLE_JOINT_SPRING,
+  ORACLE_TORSION_SPRING,
+  ORACLE_BUSHING,
+  ORACLE_FORCE_KINDS
 } oracle_force_kind;
 
 typedef struct oracle_force {
@@ -76,10 +115,13 @@ typedef struct oracle_force {
   double s[2][3];
   double stiffness;
   double damping;
-  wide free_length; /* free length, or free value of a joint's coordinate */
+  wide free_length; /* free length, free angle, or free value of a joint's coordinate */
   double force[3];
   double moment[3];
   bool follows_body;
+  oracle_joint frame;        /* bodies, points and axes of a torsion spring or a bushing */
+  double stiffness_of_6[36]; /* of a bushing */
+  double damping_of_6[36];
 } oracle_force;
 
 typedef struct spatial_oracle {
@@ -100,15 +142,23 @@ typedef struct oracle_answer {
   double phi;  /* largest |Phi| of all rows */
   double rate; /* largest |Phi'| of all rows, relative to the largest velocity */
   wide a[ORACLE_COLUMNS];
-  wide reaction[ORACLE_JOINTS][6]; /* force and moment on body_b at its point, in ground axes */
+  /* Force and moment on body_b at its point, in ground axes. For couplings and user constraints,
+   * the generalized force on all bodies. */
+  wide reaction[ORACLE_JOINTS][ORACLE_REACTION];
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
+  int velocity_rows;       /* number of rows of velocity level */
+  quad_rows position_rows; /* without these rows; only rank and distances */
 } oracle_answer;
 
 /* Computes the points and axes of a joint in body axes. A point on each body and an axis are given
  * in ground axes, in the design configuration. */
 void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point_a[3],
                   const wide point_b[3], const wide z[3]);
+
+/* Inclines the axes on body_b, so that their z axis becomes parallel to z, which is given in ground
+ * axes. They are rotated by the smallest possible angle. */
+void oracle_incline(const spatial_oracle *o, oracle_joint *joint, const wide z[3]);
 
 /* The first two functions convert a point of the design configuration to body axes, s = A^T
  * (point - r), and back. The third function converts an axis to body axes. */
@@ -134,6 +184,6 @@ bool oracle_answer_at(const spatial_oracle *o, double t, const wide *q, const do
 /* Returns the largest element of M a - g - reactions, for the given accelerations and reactions. It
  * is relative to the largest term. */
 double oracle_imbalance(const spatial_oracle *o, const wide *q, const double *v, const double *a,
-                        double (*reactions)[6]);
+                        double (*reactions)[ORACLE_REACTION]);
 
 #endif

@@ -270,7 +270,8 @@ static void bodies_and_joints_of_all_kinds_under_loads(void **state)
                             .particles = 20,
                             .coordinates = 20,
                             .span = 3.0,
-                            .loads = 4};
+                            .loads = 4,
+                            .velocity_rows = 2};
   int checked = 0;
   for (uint64_t seed = 1; seed <= MECHANISMS; seed++) {
     static random_mechanism random;

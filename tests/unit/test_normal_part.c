@@ -144,7 +144,8 @@ static const random_kind KIND = {.bodies = 8,
                                  .pins = 50,
                                  .constant = false,
                                  .span = 10.0,
-                                 .loads = 3};
+                                 .loads = 3,
+                                 .velocity_rows = 2};
 
 static void the_block_solver_gives_the_normal_part(void **state)
 {

@@ -111,6 +111,32 @@ static void the_design_is_the_start(void **state)
   test_point_close(&p);
 }
 
+/* Both points of a pin at the centre of mass are equal only up to rounding. Their distance is no
+ * size of the mechanism. */
+static void rounding_is_no_characteristic_length(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism;
+  double length = 0.0;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_body_def def = good();
+  baum_body_id body;
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &def, &body), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = body;
+  for (int i = 0; i < 2; i++) {
+    pin.point_a[i] = def.position[i];
+    pin.point_b[i] = i == 0 ? 0.1 + 0.2 - 0.3 : 0.0;
+  }
+  assert_true(pin.point_b[0] > 0.0);
+  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_get_characteristic_length(mechanism, &length), BAUM_OK);
+  ASSERT_NEAR(length, hypot(3.0, 1.0), 1e-15, 0.0);
+  baum_mechanism_destroy(mechanism);
+}
+
 static void wrong_numbers_are_refused(void **state)
 {
   (void)state;
@@ -166,6 +192,7 @@ int main(void)
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_rigid_body),
     cmocka_unit_test(a_second_body_has_its_own_numbers),
     cmocka_unit_test(the_design_is_the_start),
+    cmocka_unit_test(rounding_is_no_characteristic_length),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

@@ -14,6 +14,10 @@
  * revolutions were made. There are two exceptions: a coupling with a law, and a ratio of two
  * spatial angles that is not rational.
  *
+ * If a coupling only repeats what other joints already enforce, as between the angles of two hinges
+ * of one door, the gradients of c_a and c_b cancel up to rounding. The row is then set to zero.
+ * Otherwise it would look like an independent row.
+ *
  * The row acts on the bodies of joint_a and joint_b. If the joints have a common body, it is listed
  * once, and its columns for both joints are added.
  */
@@ -50,6 +54,9 @@ static const baum_i_def_field fields[] = {
  * 1000. No gear has as many teeth. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
+/* Gradients that cancel up to this part of their size are equal up to rounding. The part is that
+ * below which rows are dependent (redundancy.c). */
+static const double CANCELLED = 1e-10;
 
 /* ---- definition ---- */
 
@@ -200,6 +207,28 @@ static void set_places(const baum_i_joint *joint, const baum_i_point *point, sta
   s->values[2] = baum_i_is_angle(&s->of[0]) ? 1.0 : point->mechanism->length;
 }
 
+/* Return the largest element of a gradient. Entries of displacements are multiplied by `length`. */
+static double largest(const double *gradient, int width, double length)
+{
+  const int turns = width == BAUM_I_SPACE ? 3 : 2; /* number of the first angle of a body */
+  double most = 0.0;
+  for (int i = 0; i < BAUM_I_COMPOSED_COLUMNS; i++) {
+    most = fmax(most, fabs(gradient[i]) * (i % width < turns ? length : 1.0));
+  }
+  return most;
+}
+
+/* Tell whether the gradients of both coordinates cancel. */
+static bool is_cancelled(const state *s, double length)
+{
+  double all[BAUM_I_COMPOSED_COLUMNS] = {0.0};
+  double one[BAUM_I_COMPOSED_COLUMNS] = {0.0};
+  const baum_i_outer only_b = {.first = {0.0, s->g.first[1]}};
+  baum_i_composed_add_gradient(s->x, &s->g, all);
+  baum_i_composed_add_gradient(s->x, &only_b, one);
+  return largest(all, s->width, length) <= CANCELLED * largest(one, s->width, length);
+}
+
 static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
 {
   set_places(joint, point, s);
@@ -211,6 +240,9 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   s->g = (baum_i_outer){.value = period > 0.0 ? remainder(value, period) : value,
                         .first = {-f[SLOPE], 1.0},
                         .second = {-f[CURVATURE]}};
+  if (is_cancelled(s, point->mechanism->length)) {
+    s->g.first[0] = s->g.first[1] = 0.0;
+  }
   return BAUM_OK;
 }
 
