@@ -49,7 +49,8 @@ BAUM_I_INLINE baum_status evaluate_joints(baum_workspace *w, const baum_i_block_
   return BAUM_OK;
 }
 
-static baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path, bool wanted)
+BAUM_I_INLINE baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path,
+                                          bool wanted)
 {
   baum_i_block_use_force(path->block, wanted);
   if (path->force_is_constant || !wanted) {
@@ -133,8 +134,8 @@ static baum_i_block_rows rows_of(const baum_workspace *w, const double *v,
                              .phi_rate = w->phi_rate};
 }
 
-static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
-                      const baum_i_right_side *right)
+BAUM_I_INLINE void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
+                             const baum_i_right_side *right)
 {
   const baum_i_pins pins = {.points = path->points,
                             .frames = w->point.frames,
@@ -211,9 +212,15 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* If `last` is true, no later solution corrects this one, so the residual must be checked. `beside`
- * is passed to check(). */
-static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, double beside)
+/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
+static double size_of_state(const baum_workspace *w, const double *q, const double *v)
+{
+  return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
+}
+
+/* If `last` is true, no later solution corrects this one, so the residual must be checked. */
+BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last,
+                                const double *q, const double *v, bool force)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
@@ -227,7 +234,7 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, 
   if (!check) {
     return BAUM_OK;
   }
-  baum_status status = refine(w, path, pivots, beside);
+  baum_status status = refine(w, path, pivots, force ? 0.0 : size_of_state(w, q, v));
   kernel->read_lambda(block, w->lambda);
   return status;
 }
@@ -427,20 +434,9 @@ baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path,
                                      const double *q)
 {
   const baum_i_right_side nothing = {0};
-  if (path->space) {
-    BAUM_I_TRY(set_space(w, path, t, q, NULL, &nothing));
-    (void)factor_space(w, path);
-    return BAUM_OK;
-  }
-  BAUM_I_TRY(set_state(w, path, t, q, NULL, &nothing));
-  (void)factor(w, path);
+  BAUM_I_TRY(baum_i_block_path_evaluate(w, path, t, q, NULL, &nothing));
+  (void)(path->space ? factor_space(w, path) : factor(w, path));
   return BAUM_OK;
-}
-
-/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
-static double size_of_state(const baum_workspace *w, const double *q, const double *v)
-{
-  return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
 }
 
 baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, double t,
@@ -458,7 +454,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
     finite = path->space_kernel->read_motion(path->space, w->a);
   } else {
     BAUM_I_TRY(set_state(w, path, t, q, v, right));
-    BAUM_I_TRY(solve(w, path, last, right->force ? 0.0 : size_of_state(w, q, v)));
+    BAUM_I_TRY(solve(w, path, last, q, v, right->force));
     finite = path->kernel->read_motion(path->block, w->a);
   }
   for (int i = 0; i < path->omitted_count; i++) {

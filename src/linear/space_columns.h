@@ -9,25 +9,6 @@
 #include "base/four.h"
 #include "linear/space_block.h"
 
-BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
-{
-#ifdef BAUM_I_WIDE
-  return _mm256_loadu_pd(from);
-#else
-  return baum_i_four_gathered(from, from + 2);
-#endif
-}
-
-BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
-{
-#ifdef BAUM_I_WIDE
-  _mm256_storeu_pd(to, x);
-#else
-  baum_i_store(to, x.low);
-  baum_i_store(to + 2, x.high);
-#endif
-}
-
 /* (x_0, x_1, 0, 0) */
 BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 {
@@ -38,12 +19,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 #endif
 }
 
-/* sum + x s */
-BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
-{
-  return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));
-}
-
+/* sum - x s */
 BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, double s)
 {
   return baum_i_four_minus(sum, baum_i_four_times(x, baum_i_four_all(s)));
