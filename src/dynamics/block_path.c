@@ -18,6 +18,9 @@ static const double SETTLING = 1e-9;
  * digits, so a change this small needs no other refinement. If a refinement gains fewer digits, the
  * change of the next one is large. */
 static const double SETTLED_IN_SPACE = 1e-9;
+/* A refinement with a residual in working precision leaves an error of up to the size of its
+ * change. */
+static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
 /* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest
@@ -366,14 +369,16 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   const baum_i_space_kernel *kernel = path->space_kernel;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
+    bool simply = simple && k == 0;
     path->refinements++;
-    if (simple && k == 0) {
+    if (simply) {
       kernel->find_rest(path->space);
     } else {
       path->residual_kernel->find(path->space);
     }
     change = kernel->correct(path->space);
-    done = change <= settled || (!path->uneven && kernel->check(path->space));
+    done = change <= (simply ? SETTLED_SIMPLY : settled) ||
+           (!path->uneven && kernel->check(path->space));
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }

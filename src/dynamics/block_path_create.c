@@ -380,6 +380,7 @@ static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   if (path->space) {
+    path->space->length = w->mechanism->length;
     path->has_planar = has_planar_bodies(w->mechanism);
     path->only_weights = !path->has_planar && w->mechanism->force_count == 0;
     BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));

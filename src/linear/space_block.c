@@ -68,6 +68,7 @@ baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, bau
   }
   double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
   b->weak_pivot = fmax(weak_pivot * few * sqrt(few), least_weak_pivot);
+  b->length = 1.0;
   baum_i_space_use_force(b, true);
   *out = b;
   return BAUM_OK;

@@ -121,7 +121,9 @@ typedef struct baum_i_space {
   int coupling_count;
   int zero_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
-  int hub; /* mass block with too many sides; -1: none */
+  int hub;       /* mass block with too many sides; -1: none */
+  double length; /* [m] characteristic length, to compare accelerations of origins with angular
+                  * ones; 1 unless the caller sets it */
   /* pivots are weak if a determinant of a node is below this fraction of the product of the
    * diagonal entries of S */
   double weak_pivot;

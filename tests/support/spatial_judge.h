@@ -34,6 +34,7 @@ typedef struct spatial_tally {
   long counts[SPATIAL_VERDICTS];
   long dependent;       /* SPATIAL_MET configurations with dependent rows */
   long reactions;       /* number of compared reactions */
+  long unjudged;        /* errors are large, but so is the effect of rounding errors */
   long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
   double worst;         /* largest error of the other SPATIAL_MET configurations */
   double worst_reaction;
