@@ -2,6 +2,8 @@
 /* Linear combinations of rates. A loop computes BAUM_I_RK_LANES coordinates at a time, so that
  * their sums stay in registers. It skips weights that are zero, which are frequent in tables of
  * high order. */
+#include <stddef.h>
+
 #include "base/four.h"
 #include "integrate/rk_kernel.h"
 
@@ -48,6 +50,27 @@ static void combine(int n, int count, const double *weights, double h, const dou
   }
 }
 
+/* (sum + x) s. The product is not fused with the next sum, so that both versions of this file give
+ * the same result. */
+BAUM_I_INLINE baum_i_four nest(baum_i_four sum, const double *x, double s)
+{
+  sum = baum_i_four_plus(sum, baum_i_four_load(x));
+  return baum_i_four_rounded(baum_i_four_times(sum, baum_i_four_all(s)));
+}
+
+static void interpolate(int n, int count, double x, const double *terms, const double *base,
+                        double *out)
+{
+  const double factors[2] = {x, 1.0 - x};
+  for (int i = 0; i < n; i += LANES / 2) {
+    baum_i_four sum = baum_i_four_all(0.0);
+    for (int k = count - 1; k >= 0; k--) {
+      sum = nest(sum, terms + (ptrdiff_t)k * n + i, factors[k % 2]);
+    }
+    baum_i_four_store(out + i, baum_i_four_plus(baum_i_four_load(base + i), sum));
+  }
+}
+
 /* sum + (part scale)^2 */
 BAUM_I_INLINE baum_i_four add_square(baum_i_four sum, baum_i_four part, const double *scale)
 {
@@ -73,4 +96,5 @@ static double square(int n, int count, const double *weights, const double *rate
   return sum;
 }
 
-const baum_i_rk_kernel BAUM_I_HOT(baum_i_rk_kernel) = {.combine = combine, .square = square};
+const baum_i_rk_kernel BAUM_I_HOT(baum_i_rk_kernel) = {
+  .combine = combine, .interpolate = interpolate, .square = square};
