@@ -363,10 +363,12 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
-/* If `simple` is true, the first refinement needs only r - J a in working precision. */
+/* If `simple` is true, the first refinement needs no residual in twice the working precision. Slender
+ * bodies need two refinements, because the second tells whether they converge. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
+  double settled_simply = baum_i_space_must_refine(path->space) ? 0.0 : SETTLED_SIMPLY;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     bool simply = simple && k == 0;
@@ -377,7 +379,7 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
       path->residual_kernel->find(path->space);
     }
     change = kernel->correct(path->space);
-    done = change <= (simply ? SETTLED_SIMPLY : settled) ||
+    done = change <= (simply ? settled_simply : settled) ||
            (!path->uneven && kernel->check(path->space));
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
@@ -407,9 +409,10 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   }
   kernel->substitute(space, w->lambda);
   last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
-  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
-  bool simple = false;
-  if (!good && !last) {
+  bool raised = baum_i_space_must_refine(space);
+  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven && !raised;
+  bool simple = raised;
+  if (!good && !last && !raised) {
     /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
      * accelerate light bodies. The residual r - J a does not show this error if the constraints
      * permit the direction of the acceleration. */

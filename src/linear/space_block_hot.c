@@ -267,6 +267,12 @@ static bool check(const baum_i_space *b)
 static void find_rest(baum_i_space *b)
 {
   memset(b->pull, 0, (size_t)(MOTION * b->body_count) * sizeof *b->pull);
+  for (int t = 1; baum_i_space_must_refine(b) && t < b->body_count; t++) {
+    ptrdiff_t at = (ptrdiff_t)MOTION * t + 4;
+    four u = baum_i_four_load(b->lack + (ptrdiff_t)4 * t);
+    baum_i_four_store(b->pull + at,
+                      baum_i_four_times(u, baum_i_four_all(baum_i_space_twist(b, t, b->motion))));
+  }
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     if (node->rows > 4) {
@@ -427,6 +433,22 @@ static double change_of_motion(const baum_i_space *b, const double *before)
   return size > 0.0 ? size_of(b, changes) / size : 0.0;
 }
 
+/* If joints do not hold a slender body about its axis, its raised moment of inertia makes all changes
+ * about the axis much too small, and they do not decrease. */
+static const double SLOWEST = 0.01;
+
+/* Returns 0 if the changes of all slender bodies about their axes decrease quickly, otherwise 1. */
+static double compare_twists(const baum_i_space *b, const double *before)
+{
+  bool fine = true;
+  for (int t = 1; baum_i_space_must_refine(b) && t < b->body_count; t++) {
+    double twist = fabs(baum_i_space_twist(b, t, b->motion) - baum_i_space_twist(b, t, before));
+    fine = fine && twist <= SLOWEST * b->twists[t];
+    b->twists[t] = twist;
+  }
+  return fine ? 0.0 : 1.0;
+}
+
 static double correct(baum_i_space *b)
 {
   double *before = b->pull_low;
@@ -440,6 +462,8 @@ static double correct(baum_i_space *b)
   backward(b);
   double change = add_changes(b);
   double moved = change_of_motion(b, before);
+  double slow = compare_twists(b, before);
+  moved = slow > moved ? slow : moved;
   return change > moved ? change : moved;
 }
 
