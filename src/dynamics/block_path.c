@@ -363,8 +363,8 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
-/* If `simple` is true, the first refinement needs no residual in twice the working precision. Slender
- * bodies need two refinements, because the second tells whether they converge. */
+/* If `simple` is true, the first refinement needs no residual in twice the working precision.
+ * Slender bodies need two refinements, because the second tells whether they converge. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
@@ -396,6 +396,30 @@ static bool is_small_change(const baum_workspace *w, const baum_i_block_path *pa
          baum_i_scaled_size(w->mechanism, w->a) <= size;
 }
 
+/* How far a solution in space can be trusted. */
+typedef struct trust {
+  bool good;   /* it needs no refinement, unless the residual is large */
+  bool simple; /* the first refinement needs no residual in twice the working precision */
+} trust;
+
+static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool last)
+{
+  const baum_i_space *space = path->space;
+  if (baum_i_space_must_refine(space)) {
+    return (trust){.good = false, .simple = true};
+  }
+  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
+  if (good || last) {
+    return (trust){.good = good, .simple = false};
+  }
+  /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
+   * accelerate light bodies. The residual r - J a does not show this error if the constraints
+   * permit the direction of the acceleration. */
+  double amplified = path->space_kernel->amplification(space);
+  return (trust){.good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest,
+                 .simple = amplified <= CANCELLED};
+}
+
 /* `last` has the same meaning as in solve(). If it is true, the solution is a correction of the
  * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
@@ -409,22 +433,12 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   }
   kernel->substitute(space, w->lambda);
   last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
-  bool raised = baum_i_space_must_refine(space);
-  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven && !raised;
-  bool simple = raised;
-  if (!good && !last && !raised) {
-    /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
-     * accelerate light bodies. The residual r - J a does not show this error if the constraints
-     * permit the direction of the acceleration. */
-    double amplified = kernel->amplification(space);
-    good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest;
-    simple = amplified <= CANCELLED;
-  }
-  if (good && !last) {
+  const trust of = judge(path, pivots, last);
+  if (of.good && !last) {
     return BAUM_OK;
   }
-  baum_status status =
-    refine_space(path, good && kernel->check(space), simple, last ? SETTLED : SETTLED_IN_SPACE);
+  baum_status status = refine_space(path, of.good && kernel->check(space), of.simple,
+                                    last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;
 }

@@ -395,10 +395,10 @@ static double take_change(const baum_i_space *space, bool refined)
   return most;
 }
 
-/* Tell whether refinement converges. It does not if slender bodies can turn about their axes without
- * moving other inertia. The error of a solution becomes P W K times itself in each refinement, where
- * K is the change of M and P the projection on the null space of J. Therefore apply this product to
- * a vector with different rotations of all slender bodies. */
+/* Tell whether refinement converges. It does not if slender bodies can turn about their axes
+ * without moving other inertia. The error of a solution becomes P W K times itself in each
+ * refinement, where K is the change of M and P the projection on the null space of J. Therefore
+ * apply this product to a vector with different rotations of all slender bodies. */
 static bool converges(const baum_i_block_path *path)
 {
   const baum_i_space *space = path->space;

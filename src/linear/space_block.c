@@ -16,9 +16,9 @@ static const double weak_pivot = 1e-3;
 static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
-/* A body is slender if its smallest moment of inertia is below this fraction of the trace of I, and if
- * a joint compares its directions with those of another body. The pivots of such joints may be as
- * small as this fraction. A moment that is raised by `raised` times the trace avoids this. Each
+/* A body is slender if its smallest moment of inertia is below this fraction of the trace of I, and
+ * if a joint compares its directions with those of another body. The pivots of such joints may be
+ * as small as this fraction. A moment that is raised by `raised` times the trace avoids this. Each
  * refinement then gains about four digits. */
 static const double slender = 1e-8;
 static const double raised = 1e-4;
@@ -224,8 +224,8 @@ bool baum_i_space_has_slender(baum_i_space *space)
   return found;
 }
 
-/* Replaces I by I + w e e^T, with the axis e, and sets u = w^(1/2) L^-1 e, where L is the factor of the
- * new tensor. Columns of I^-1 are nearly parallel to e. */
+/* Replaces I by I + w e e^T, with the axis e, and sets u = w^(1/2) L^-1 e, where L is the factor of
+ * the new tensor. Columns of I^-1 are nearly parallel to e. */
 static void raise_moment(baum_i_space_body *body, double u[4])
 {
   const double *white = body->whiten;

@@ -149,8 +149,8 @@ typedef struct baum_i_space {
   double *nothing; /* zeros */
   double *pull;    /* W (f - M a - J^T lambda) */
   double *pull_low;
-  /* (body_count x 4) u of slender bodies, otherwise 0. The solver uses the inertia I + L u u^T L^T in
-   * place of I, with its factor L. Refinement removes the effect of this change. */
+  /* (body_count x 4) u of slender bodies, otherwise 0. The solver uses the inertia I + L u u^T L^T
+   * in place of I, with its factor L. Refinement removes the effect of this change. */
   double *lack;
   double *twists; /* (body_count) |u . change of y| by the last refinement */
   bool is_raised; /* the inertia of a body is replaced */
@@ -177,8 +177,8 @@ static inline int baum_i_space_pivot(int rows)
   return 2 * baum_i_space_vector(rows);
 }
 
-/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections, whose
- * right-hand side is (0, r), do not: the metric of the raised inertia suits them as well. */
+/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections,
+ * whose right-hand side is (0, r), do not: the metric of the raised inertia suits them as well. */
 static inline bool baum_i_space_must_refine(const baum_i_space *space)
 {
   return space->is_raised && space->load == space->force;
@@ -194,9 +194,9 @@ baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_
 /* Sets W. Returns -1, or the first mass block that is not positive definite. */
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
-/* The first function tells whether there are bodies so slender that their pivots may be too small. The
- * second, which needs a call of the first, raises the moments of inertia of these bodies about their
- * axes. */
+/* The first function tells whether there are bodies so slender that their pivots may be too small.
+ * The second, which needs a call of the first, raises the moments of inertia of these bodies about
+ * their axes. */
 bool baum_i_space_has_slender(baum_i_space *space);
 void baum_i_space_raise_slender(baum_i_space *space);
 

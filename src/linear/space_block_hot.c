@@ -433,8 +433,8 @@ static double change_of_motion(const baum_i_space *b, const double *before)
   return size > 0.0 ? size_of(b, changes) / size : 0.0;
 }
 
-/* If joints do not hold a slender body about its axis, its raised moment of inertia makes all changes
- * about the axis much too small, and they do not decrease. */
+/* If joints do not hold a slender body about its axis, its raised moment of inertia makes all
+ * changes about the axis much too small, and they do not decrease. */
 static const double SLOWEST = 0.01;
 
 /* Returns 0 if the changes of all slender bodies about their axes decrease quickly, otherwise 1. */

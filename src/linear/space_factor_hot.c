@@ -331,8 +331,8 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   return target;
 }
 
-/* Returns the smallest ratio of a determinant to the product of the diagonal entries of S, or NaN if
- * a ratio is NaN. */
+/* Returns the smallest ratio of a determinant to the product of the diagonal entries of S, or NaN
+ * if a ratio is NaN. */
 static double weakest(const baum_i_space *b)
 {
   double least = 1.0;

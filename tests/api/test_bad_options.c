@@ -324,9 +324,8 @@ static void read_nearest(double good[2])
   good[1] = strtod(end + strlen(", "), NULL);
 }
 
-/* With the nearest good pair, the violation stays below `most`. */
 static void check_unstable(const baum_mechanism *mechanism, const baum_integrator *integrator,
-                           double alpha_h, double beta2_h2, double most)
+                           double alpha_h, double beta2_h2, double most_phi)
 {
   baum_simulation_options o = good_options();
   char message[160];
@@ -344,7 +343,7 @@ static void check_unstable(const baum_mechanism *mechanism, const baum_integrato
   assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
   assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  assert_true(counters.max_phi < most);
+  assert_true(counters.max_phi < most_phi);
   baum_simulation_destroy(run);
 }
 
@@ -352,7 +351,6 @@ static void unstable_gains_are_refused_and_the_nearest_good_pair_runs(void **sta
 {
   (void)state;
   every_element parts = every_element_make(NULL);
-  /* The limits are about twice the violations of each method. */
   check_unstable(parts.mechanism, baum_euler(), 0.5, 2.0, 1e-4);
   check_unstable(parts.mechanism, baum_euler(), 3.0, 0.5, 2.5e-4);
   check_unstable(parts.mechanism, baum_semi_implicit_euler(), 1.0, 1.0, 1.5e-4);

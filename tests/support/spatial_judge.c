@@ -14,8 +14,8 @@
  * m/s. */
 static const double ON_CONSTRAINTS = 1e-9;
 
-/* The largest effect of rounding that excuses an error. A larger one would excuse errors above 1e-6,
- * and could hide faults of the solver. Such configurations cannot be judged. */
+/* The largest effect of rounding that excuses an error. A larger one would excuse errors above
+ * 1e-6, and could hide faults of the solver. Such configurations cannot be judged. */
 static const double MOST_ROUNDING = 1e-8;
 
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
