@@ -116,28 +116,6 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* If the least moment of inertia of a body in space is negligible, raise all its moments by a small
- * fraction of their sum. Otherwise S would be so large for rows that rotate the body about its axis
- * that each step reduces the violation only a little. */
-static void raise_moments(baum_workspace *w)
-{
-  static const double NEGLIGIBLE = 1e-9; /* determinant, relative to the cube of the trace */
-  static const double RAISED = 1e-4;
-  for (int k = 0; k < w->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
-    if (block->size == 6 && baum_i_is_spatial(w->mechanism->bodies[k + 1]->type->frame)) {
-      double *i = w->mass + block->value + 21; /* the tensor, in rows of six */
-      double trace = i[0] + i[7] + i[14];
-      double det = i[0] * (i[7] * i[14] - i[8] * i[8]) - i[1] * (i[1] * i[14] - i[8] * i[2]) +
-                   i[2] * (i[1] * i[8] - i[7] * i[2]);
-      bool slender = det < NEGLIGIBLE * trace * trace * trace;
-      for (int c = 0; c < 3 && slender; c++) {
-        i[7 * c] += RAISED * trace;
-      }
-    }
-  }
-}
-
 /* Compute S from the present J and M. */
 static void find_shift(baum_workspace *w)
 {
@@ -165,7 +143,6 @@ static baum_status factor(const assembly *s)
   const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
   w->mass_ready = false; /* held coordinates may have changed M */
   decouple_held_masses(w, s->held);
-  raise_moments(w);
   find_shift(w);
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }

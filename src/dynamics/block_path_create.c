@@ -380,7 +380,8 @@ static const double USELESS = 1e-6;
 static const double FAST = 1e-2;
 enum { TRIALS = 3 };
 
-/* Return the largest |u . y|, and replace the motion by its change in the last refinement, if any. */
+/* Return the largest |u . y|. Before, replace the motion by its change in the last refinement, if
+ * any. */
 static double take_change(const baum_i_space *space, bool refined)
 {
   double most = 0.0;
@@ -429,7 +430,8 @@ static baum_status set_numbers_again(baum_workspace *w, baum_i_block_path *path)
   return BAUM_OK;
 }
 
-/* Raise the moments of slender bodies in the solver if this is necessary and refinement converges. */
+/* Raise the moments of slender bodies in the solver if this is necessary and refinement
+ * converges. */
 static baum_status raise_slender(baum_workspace *w, baum_i_block_path *path)
 {
   baum_i_space *space = path->space;

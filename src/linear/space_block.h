@@ -251,7 +251,7 @@ typedef struct baum_i_space_kernel {
    * motion, only the part of slender bodies is computed. */
   void (*find_rest)(baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest relative change of the multipliers or of the
-   * accelerations, but at least 1 if the refinement does not converge quickly for a slender body. */
+   * accelerations, but at least 1 if refinement does not converge quickly for a slender body. */
   double (*correct)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);

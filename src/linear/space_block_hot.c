@@ -434,16 +434,26 @@ static double change_of_motion(const baum_i_space *b, const double *before)
 }
 
 /* If joints do not hold a slender body about its axis, its raised moment of inertia makes all
- * changes about the axis much too small, and they do not decrease. */
+ * changes about the axis much too small, and they do not decrease. Changes below NOISE times the
+ * largest y may be rounding errors. */
 static const double SLOWEST = 0.01;
+static const double NOISE = 1e-13;
 
 /* Returns 0 if the changes of all slender bodies about their axes decrease quickly, otherwise 1. */
 static double compare_twists(const baum_i_space *b, const double *before)
 {
+  if (!baum_i_space_must_refine(b)) {
+    return 0.0;
+  }
+  four sizes = baum_i_four_zero();
+  for (int t = 1; t < b->body_count; t++) {
+    sizes = larger(baum_i_four_load(b->motion + (ptrdiff_t)MOTION * t + 4), sizes);
+  }
+  double noise = NOISE * largest(sizes);
   bool fine = true;
-  for (int t = 1; baum_i_space_must_refine(b) && t < b->body_count; t++) {
+  for (int t = 1; t < b->body_count; t++) {
     double twist = fabs(baum_i_space_twist(b, t, b->motion) - baum_i_space_twist(b, t, before));
-    fine = fine && twist <= SLOWEST * b->twists[t];
+    fine = fine && (twist <= SLOWEST * b->twists[t] || twist <= noise);
     b->twists[t] = twist;
   }
   return fine ? 0.0 : 1.0;
