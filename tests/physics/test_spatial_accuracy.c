@@ -28,9 +28,9 @@ static const double UNEVEN = 1e-11;
  * therefore subtracts from the errors ROUNDED times the change that rounded positions cause. */
 static const double ROUNDED = 4.0;
 /* A scene is useless for this test if rounded positions change its accelerations by more than this,
- * because the subtraction would then hide errors of the solver. The largest such change is 2.3e-8.
- * It occurs in the spherical chain whose links are lighter and thinner. */
-static const double MOST_ROUNDED = 1e-7;
+ * because the subtraction would then hide errors of the solver. In the scenes below, the largest
+ * such change is 1e-8. */
+static const double MOST_ROUNDED = 3e-8;
 enum { ROUNDINGS = 10 };
 
 enum { POSES = 5, LINKS = 10 };
