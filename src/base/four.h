@@ -186,4 +186,30 @@ BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
 
 #endif
 
+/* Load four numbers. */
+BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_loadu_pd(from);
+#else
+  return baum_i_four_gathered(from, from + 2);
+#endif
+}
+
+BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  _mm256_storeu_pd(to, x);
+#else
+  baum_i_store(to, x.low);
+  baum_i_store(to + 2, x.high);
+#endif
+}
+
+/* sum + x s */
+BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
+{
+  return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));
+}
+
 #endif

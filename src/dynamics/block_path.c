@@ -19,6 +19,9 @@ static const double SETTLING = 1e-9;
  * digits, so a change this small needs no other refinement. If a refinement gains fewer digits, the
  * change of the next one is large. */
 static const double SETTLED_IN_SPACE = 1e-9;
+/* A refinement with a residual in working precision leaves an error of up to the size of its
+ * change. */
+static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
 /* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest
@@ -50,7 +53,8 @@ BAUM_I_INLINE baum_status evaluate_joints(baum_workspace *w, const baum_i_block_
   return BAUM_OK;
 }
 
-static baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path, bool wanted)
+BAUM_I_INLINE baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path,
+                                          bool wanted)
 {
   baum_i_block_use_force(path->block, wanted);
   if (path->force_is_constant || !wanted) {
@@ -134,8 +138,8 @@ static baum_i_block_rows rows_of(const baum_workspace *w, const double *v,
                              .phi_rate = w->phi_rate};
 }
 
-static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
-                      const baum_i_right_side *right)
+BAUM_I_INLINE void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
+                             const baum_i_right_side *right)
 {
   const baum_i_pins pins = {.points = path->points,
                             .frames = w->point.frames,
@@ -212,9 +216,15 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* If `last` is true, no later solution corrects this one, so the residual must be checked. `beside`
- * is passed to check(). */
-static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, double beside)
+/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
+static double size_of_state(const baum_workspace *w, const double *q, const double *v)
+{
+  return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
+}
+
+/* If `last` is true, no later solution corrects this one, so the residual must be checked. */
+BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last,
+                                const double *q, const double *v, bool force)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
@@ -228,7 +238,7 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last, 
   if (!check) {
     return BAUM_OK;
   }
-  baum_status status = refine(w, path, pivots, beside);
+  baum_status status = refine(w, path, pivots, force ? 0.0 : size_of_state(w, q, v));
   kernel->read_lambda(block, w->lambda);
   return status;
 }
@@ -354,20 +364,24 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
-/* If `simple` is true, the first refinement needs only r - J a in working precision. */
+/* If `simple` is true, the first refinement needs no residual in twice the working precision.
+ * Slender bodies need two refinements, because the second tells whether they converge. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
+  double settled_simply = baum_i_space_must_refine(path->space) ? 0.0 : SETTLED_SIMPLY;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
+    bool simply = simple && k == 0;
     path->refinements++;
-    if (simple && k == 0) {
+    if (simply) {
       kernel->find_rest(path->space);
     } else {
       path->residual_kernel->find(path->space);
     }
     change = kernel->correct(path->space);
-    done = change <= settled || (!path->uneven && kernel->check(path->space));
+    done = change <= (simply ? settled_simply : settled) ||
+           (!path->uneven && kernel->check(path->space));
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
@@ -383,6 +397,30 @@ static bool is_small_change(const baum_workspace *w, const baum_i_block_path *pa
          baum_i_scaled_size(w->mechanism, w->a) <= size;
 }
 
+/* How far a solution in space can be trusted. */
+typedef struct trust {
+  bool good;   /* it needs no refinement, unless the residual is large */
+  bool simple; /* the first refinement needs no residual in twice the working precision */
+} trust;
+
+static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool last)
+{
+  const baum_i_space *space = path->space;
+  if (baum_i_space_must_refine(space)) {
+    return (trust){.good = false, .simple = true};
+  }
+  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
+  if (good || last) {
+    return (trust){.good = good, .simple = false};
+  }
+  /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
+   * accelerate light bodies. The residual r - J a does not show this error if the constraints
+   * permit the direction of the acceleration. */
+  double amplified = path->space_kernel->amplification(space);
+  return (trust){.good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest,
+                 .simple = amplified <= CANCELLED};
+}
+
 /* `last` has the same meaning as in solve(). If it is true, the solution is a correction of the
  * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
@@ -396,21 +434,12 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   }
   kernel->substitute(space, w->lambda);
   last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
-  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
-  bool simple = false;
-  if (!good && !last) {
-    /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
-     * accelerate light bodies. The residual r - J a does not show this error if the constraints
-     * permit the direction of the acceleration. */
-    double amplified = kernel->amplification(space);
-    good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest;
-    simple = amplified <= CANCELLED;
-  }
-  if (good && !last) {
+  const trust of = judge(path, pivots, last);
+  if (of.good && !last) {
     return BAUM_OK;
   }
-  baum_status status =
-    refine_space(path, good && kernel->check(space), simple, last ? SETTLED : SETTLED_IN_SPACE);
+  baum_status status = refine_space(path, of.good && kernel->check(space), of.simple,
+                                    last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;
 }
@@ -428,20 +457,9 @@ baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path,
                                      const double *q)
 {
   const baum_i_right_side nothing = {0};
-  if (path->space) {
-    BAUM_I_TRY(set_space(w, path, t, q, NULL, &nothing));
-    (void)factor_space(w, path);
-    return BAUM_OK;
-  }
-  BAUM_I_TRY(set_state(w, path, t, q, NULL, &nothing));
-  (void)factor(w, path);
+  BAUM_I_TRY(baum_i_block_path_evaluate(w, path, t, q, NULL, &nothing));
+  (void)(path->space ? factor_space(w, path) : factor(w, path));
   return BAUM_OK;
-}
-
-/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
-static double size_of_state(const baum_workspace *w, const double *q, const double *v)
-{
-  return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
 }
 
 baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, double t,
@@ -459,7 +477,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
     finite = path->space_kernel->read_motion(path->space, w->a);
   } else {
     BAUM_I_TRY(set_state(w, path, t, q, v, right));
-    BAUM_I_TRY(solve(w, path, last, right->force ? 0.0 : size_of_state(w, q, v)));
+    BAUM_I_TRY(solve(w, path, last, q, v, right->force));
     finite = path->kernel->read_motion(path->block, w->a);
   }
   for (int i = 0; i < path->omitted_count; i++) {

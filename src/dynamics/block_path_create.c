@@ -335,7 +335,7 @@ static bool is_uneven_in_space(const baum_i_space *b)
       include(&turns, b->bodies[i].whiten[c] * b->bodies[i].whiten[c]);
     }
   }
-  return moves.most > UNEVEN * moves.least || turns.most > UNEVEN * turns.least;
+  return b->is_raised || moves.most > UNEVEN * moves.least || turns.most > UNEVEN * turns.least;
 }
 
 /* Tell whether joints may connect a light body to a heavy one. The function compares the inverse
@@ -372,6 +372,88 @@ static bool has_planar_bodies(const baum_mechanism *m)
   return found;
 }
 
+/* If the weakest pivot of slender bodies is smaller than this in the design configuration, their
+ * moments of inertia are raised. */
+static const double USELESS = 1e-6;
+/* The refinements must reduce the errors about the axes of slender bodies to this fraction. */
+static const double FAST = 1e-2;
+enum { TRIALS = 3 };
+
+/* Return the largest |u . y|. Before, replace the motion by its change in the last refinement, if
+ * any. */
+static double take_change(const baum_i_space *space, bool refined)
+{
+  double most = 0.0;
+  for (int i = 0; refined && i < BAUM_I_SPACE_MOTION * space->body_count; i++) {
+    space->motion[i] -= space->pull_low[i];
+  }
+  for (int t = 1; t < space->body_count; t++) {
+    const double *u = space->lack + (ptrdiff_t)4 * t;
+    const double *y = space->motion + (ptrdiff_t)BAUM_I_SPACE_MOTION * t + 4;
+    most = fmax(most, fabs(u[0] * y[0] + u[1] * y[1] + u[2] * y[2]));
+  }
+  return most;
+}
+
+/* Tell whether refinement converges. It does not if slender bodies can turn about their axes
+ * without moving other inertia. The error of a solution becomes P W K times itself in each
+ * refinement, where K is the change of M and P the projection on the null space of J. Therefore
+ * apply this product to a vector with different rotations of all slender bodies. */
+static bool converges(const baum_i_block_path *path)
+{
+  const baum_i_space *space = path->space;
+  memset(space->motion, 0, BAUM_I_SPACE_MOTION * (size_t)space->body_count * sizeof(double));
+  for (int t = 1; t < space->body_count; t++) {
+    for (int c = 0; c < 3; c++) {
+      space->motion[BAUM_I_SPACE_MOTION * (ptrdiff_t)t + 4 + c] =
+        cos(t) * space->lack[4 * (ptrdiff_t)t + c];
+    }
+  }
+  double before = 0.0;
+  double size = take_change(space, false);
+  for (int k = 0; k < TRIALS; k++) {
+    before = size;
+    path->space_kernel->find_rest(path->space);
+    memset(space->rest, 0, (size_t)space->numbers_of_rows * sizeof *space->rest);
+    (void)path->space_kernel->correct(path->space);
+    size = take_change(space, true);
+  }
+  return size <= FAST * before;
+}
+
+static baum_status set_numbers_again(baum_workspace *w, baum_i_block_path *path)
+{
+  baum_i_free(path->space_joints.numbers);
+  BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
+  BAUM_I_TRY(baum_i_block_path_factor(w, path, 0.0, w->mechanism->design_q));
+  return BAUM_OK;
+}
+
+/* Raise the moments of slender bodies in the solver if this is necessary and refinement
+ * converges. */
+static baum_status raise_slender(baum_workspace *w, baum_i_block_path *path)
+{
+  baum_i_space *space = path->space;
+  if (!baum_i_space_has_slender(space)) {
+    return BAUM_OK;
+  }
+  BAUM_I_TRY(baum_i_block_path_factor(w, path, 0.0, w->mechanism->design_q));
+  if (!(space->weakest > USELESS)) {
+    baum_i_space_raise_slender(space);
+    BAUM_I_TRY(set_numbers_again(w, path));
+    baum_i_space_use_force(space, true);
+    if (!converges(path)) {
+      space->is_raised = false;
+      (void)baum_i_space_set_mass(space, w->mass);
+      BAUM_I_TRY(set_numbers_again(w, path));
+    }
+  }
+  w->eliminated_by = NULL;
+  w->jacobian_ready = false;
+  path->factorizations = 0;
+  return BAUM_OK;
+}
+
 static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
                         baum_i_block_path *path)
 {
@@ -379,9 +461,11 @@ static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   if (path->space) {
+    path->space->length = w->mechanism->length;
     path->has_planar = has_planar_bodies(w->mechanism);
     path->only_weights = !path->has_planar && w->mechanism->force_count == 0;
     BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
+    BAUM_I_TRY(raise_slender(w, path));
   }
   BAUM_I_TRY(prepare_forces(w, path));
   path->uneven = path->space ? is_uneven_in_space(path->space) : is_uneven(path);

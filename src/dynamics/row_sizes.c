@@ -34,12 +34,27 @@ void baum_i_row_displacements(const baum_workspace *workspace, double *size)
   }
 }
 
+/* A moment of inertia below NEGLIGIBLE times the trace of the tensor counts as RAISED times the
+ * trace. Otherwise rows that rotate a slender rod about its axis would be so large, compared with
+ * others, that assembly would need hundreds of steps, and rows would look dependent. */
+static double moment_of(const double *tensor, int i)
+{
+  static const double NEGLIGIBLE = 1e-8;
+  static const double RAISED = 1e-4;
+  double trace = tensor[0] + tensor[7] + tensor[14];
+  double moment = tensor[7 * i];
+  return moment < NEGLIGIBLE * trace ? RAISED * trace : moment;
+}
+
 void baum_i_inverse_masses(const baum_workspace *workspace, double *inverse)
 {
   for (int k = 0; k < workspace->structure.mass_block_count; k++) {
     const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
+    const double *m = workspace->mass + block->value;
+    bool rigid =
+      block->size == 6 && baum_i_is_spatial(workspace->mechanism->bodies[k + 1]->type->frame);
     for (int i = 0; i < block->size; i++) {
-      double mass = workspace->mass[block->value + i * block->size + i];
+      double mass = rigid && i > 2 ? moment_of(m + 21, i - 3) : m[i * block->size + i];
       inverse[block->first + i] = mass > 0.0 ? 1.0 / mass : 0.0;
     }
   }

@@ -391,17 +391,6 @@ static baum_status prepare_dense(baum_i_rk_adaptive *run, const baum_i_problem *
   return BAUM_OK;
 }
 
-/* Evaluate coordinate i of (q, v) by the interpolant's nested formula at the head of this file. */
-static double value_at(const baum_i_rk_adaptive *run, double x, int i)
-{
-  int n = run->rk.size;
-  double value = 0.0;
-  for (int k = 2 + run->pair->dense; k >= 0; k--) {
-    value = (value + run->dense[k * n + i]) * (k % 2 == 0 ? x : 1.0 - x);
-  }
-  return run->rk.start[i] + value;
-}
-
 baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *problem, double t,
                                            double *q, double *v)
 {
@@ -412,12 +401,10 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
   }
   BAUM_I_TRY(prepare_dense(run, problem));
   double x = (t - run->t) / run->h;
-  for (int i = 0; i < run->rk.nq; i++) {
-    q[i] = value_at(run, x, i);
-  }
-  for (int i = 0; i < run->rk.nv; i++) {
-    v[i] = value_at(run, x, run->rk.nq + i);
-  }
+  const baum_i_rk *rk = &run->rk;
+  rk->kernel->interpolate(rk->size, 3 + run->pair->dense, x, run->dense, rk->start, rk->point);
+  memcpy(q, rk->point, (size_t)rk->nq * sizeof *q);
+  memcpy(v, rk->point + rk->nq, (size_t)rk->nv * sizeof *v);
   baum_i_normalize(problem->workspace->mechanism, q);
   return BAUM_OK;
 }

@@ -11,6 +11,9 @@ typedef struct baum_i_rk_kernel {
   /* out = base + h sum_j weights_j K_j over the first `count` rates; out may be base. */
   void (*combine)(int n, int count, const double *weights, double h, const double *rates,
                   const double *base, double *out);
+  /* out = base + x (F_1 + (1 - x) (F_2 + x (F_3 + ...))) over `count` terms of n numbers each. */
+  void (*interpolate)(int n, int count, double x, const double *terms, const double *base,
+                      double *out);
   /* sum_i (scale_i sum_j weights_j K_ji)^2 */
   double (*square)(int n, int count, const double *weights, const double *rates,
                    const double *scale);

@@ -176,11 +176,3 @@ bool baum_i_block_factor_dense(baum_i_block *block, const double *mass)
   }
   return positive;
 }
-
-/* ---- forces ---- */
-
-void baum_i_block_use_force(baum_i_block *block, bool use)
-{
-  block->from = use ? block->free : block->nothing;
-  block->load = use ? block->force : block->nothing;
-}

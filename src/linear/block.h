@@ -200,7 +200,11 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
-void baum_i_block_use_force(baum_i_block *block, bool use);
+static inline void baum_i_block_use_force(baum_i_block *block, bool use)
+{
+  block->from = use ? block->free : block->nothing;
+  block->load = use ? block->force : block->nothing;
+}
 
 /* Computes pull[] and rest[] in twice the working precision. */
 void baum_i_block_find_residual(baum_i_block *block);

@@ -196,14 +196,14 @@ static inline void eliminate_many(const pivot_step *t, double *x, const int32_t 
   }
 }
 
-/* Returns the smallest ratio of det D to the product of the diagonal entries of S at the same
- * node. */
+/* Returns the smallest ratio of det D to the product of the diagonal entries of S at the same node,
+ * or NaN if a ratio is NaN. */
 static double weakest(const baum_i_block *b)
 {
   double least = (double)INFINITY;
   for (int k = 0; k < b->node_count; k++) {
     double ratio = 1.0 / (b->nodes[k].inverse * b->nodes[k].size);
-    least = ratio < least ? ratio : least;
+    least = ratio >= least || isnan(least) ? least : ratio;
   }
   return least;
 }

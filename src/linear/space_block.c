@@ -16,6 +16,13 @@ static const double weak_pivot = 1e-3;
 static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
+/* A body is slender if its smallest moment of inertia is below this fraction of the trace of I, and
+ * if a joint compares its directions with those of another body. The pivots of such joints may be
+ * as small as this fraction. A moment that is raised by `raised` times the trace avoids this. Each
+ * refinement then gains about four digits. */
+static const double slender = 1e-8;
+static const double raised = 1e-4;
+
 /* ---- memory ---- */
 
 static baum_status make_arrays(baum_i_space *b)
@@ -34,6 +41,8 @@ static baum_status make_arrays(baum_i_space *b)
     {&b->nothing, motion},
     {&b->pull, motion},
     {&b->pull_low, motion},
+    {&b->lack, 4 * (size_t)b->body_count},
+    {&b->twists, (size_t)b->body_count},
     {&b->rest, rows},
     {&b->rest_low, rows},
   };
@@ -68,6 +77,7 @@ baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, bau
   }
   double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
   b->weak_pivot = fmax(weak_pivot * few * sqrt(few), least_weak_pivot);
+  b->length = 1.0;
   baum_i_space_use_force(b, true);
   *out = b;
   return BAUM_OK;
@@ -114,11 +124,11 @@ static bool factor_tensor(const double tensor[12], double l[9])
   return true;
 }
 
-/* Sets L^T and L^-T of the tensor. */
-static bool whiten(baum_i_space_body *body)
+/* Sets L^T and L^-T of a tensor. */
+static bool whiten(const double tensor[12], baum_i_space_body *body)
 {
   double l[9] = {0.0};
-  if (!factor_tensor(body->inertia, l)) {
+  if (!factor_tensor(tensor, l)) {
     return false;
   }
   for (int c = 0; c < 3; c++) { /* L^T x = e_c */
@@ -145,7 +155,7 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
     body->weight[i] = planar && i == 2 ? 0.0 : 1.0 / m[0];
   }
   if (n == 6) {
-    positive = whiten(body) && positive;
+    positive = whiten(body->inertia, body) && positive;
   } else if (n == 3 && planar) {
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);
@@ -168,6 +178,89 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass)
     }
   }
   return -1;
+}
+
+/* ---- slender bodies ---- */
+
+/* Returns the largest diagonal entry of I^-1, and its number. */
+static double weakest_axis(const baum_i_space_body *body, int *axis)
+{
+  double most = 0.0;
+  for (int c = 0; c < 3; c++) {
+    const double *x = body->whiten + 4 * (ptrdiff_t)c;
+    double entry = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+    *axis = entry > most ? c : *axis;
+    most = entry > most ? entry : most;
+  }
+  return most;
+}
+
+static double trace_of(const baum_i_space_body *body)
+{
+  return body->inertia[0] + body->inertia[5] + body->inertia[10];
+}
+
+/* twists[] marks bodies whose directions a joint compares. */
+static bool is_slender(const baum_i_space *b, int body)
+{
+  const baum_i_space_body *own = &b->bodies[body];
+  int axis = 0;
+  return !own->fixed && own->size == 6 && b->twists[body] > 0.0 &&
+         slender * trace_of(own) * weakest_axis(own, &axis) > 1.0;
+}
+
+bool baum_i_space_has_slender(baum_i_space *space)
+{
+  bool found = false;
+  for (int k = 0; k < space->node_count; k++) {
+    const baum_i_space_node *node = &space->list[k];
+    bool only_points = node->rows == 1 || (node->lean && node->rows == 3);
+    for (int s = 0; s < node->side_count && !only_points; s++) {
+      space->twists[space->side_list[node->first_side + s].body] = 1.0;
+    }
+  }
+  for (int t = 1; t < space->body_count && !found; t++) {
+    found = is_slender(space, t);
+  }
+  return found;
+}
+
+/* Replaces I by I + w e e^T, with the axis e, and sets u = w^(1/2) L^-1 e, where L is the factor of
+ * the new tensor. Columns of I^-1 are nearly parallel to e. */
+static void raise_moment(baum_i_space_body *body, double u[4])
+{
+  const double *white = body->whiten;
+  int axis = 0;
+  double size = 0.0;
+  double e[3];
+  double tensor[12];
+  (void)weakest_axis(body, &axis);
+  for (int i = 0; i < 3; i++) {
+    const double *x = white + 4 * (ptrdiff_t)i;
+    const double *y = white + 4 * (ptrdiff_t)axis;
+    e[i] = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    size = hypot(size, e[i]);
+  }
+  for (int i = 0; i < 3; i++) {
+    e[i] *= sqrt(raised * trace_of(body)) / size;
+  }
+  for (int i = 0; i < 12; i++) {
+    tensor[i] = body->inertia[i] + (i % 4 < 3 ? e[i / 4] * e[i % 4] : 0.0);
+  }
+  (void)whiten(tensor, body); /* it has a factor, because I has one */
+  for (int k = 0; k < 3; k++) {
+    u[k] = white[k] * e[0] + white[4 + k] * e[1] + white[8 + k] * e[2];
+  }
+}
+
+void baum_i_space_raise_slender(baum_i_space *space)
+{
+  for (int t = 1; t < space->body_count; t++) {
+    if (is_slender(space, t)) {
+      raise_moment(&space->bodies[t], space->lack + 4 * (ptrdiff_t)t);
+      space->is_raised = true;
+    }
+  }
 }
 
 /* ---- other right-hand sides ---- */

@@ -122,7 +122,9 @@ typedef struct baum_i_space {
   int coupling_count;
   int zero_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
-  int hub; /* mass block with too many sides; -1: none */
+  int hub;       /* mass block with too many sides; -1: none */
+  double length; /* [m] characteristic length, to compare accelerations of origins with angular
+                  * ones; 1 unless the caller sets it */
   /* pivots are weak if a determinant of a node is below this fraction of the product of the
    * diagonal entries of S */
   double weak_pivot;
@@ -148,7 +150,12 @@ typedef struct baum_i_space {
   double *nothing; /* zeros */
   double *pull;    /* W (f - M a - J^T lambda) */
   double *pull_low;
-  double *rest; /* (numbers_of_rows) r - J a */
+  /* (body_count x 4) u of slender bodies, otherwise 0. The solver uses the inertia I + L u u^T L^T
+   * in place of I, with its factor L. Refinement removes the effect of this change. */
+  double *lack;
+  double *twists; /* (body_count) |u . change of y| by the last refinement */
+  bool is_raised; /* the inertia of a body is replaced */
+  double *rest;   /* (numbers_of_rows) r - J a */
   double *rest_low;
   const double *from; /* a0 of the present right-hand side: free or nothing */
   const double *load; /* f of the present right-hand side: force or nothing */
@@ -171,6 +178,13 @@ static inline int baum_i_space_pivot(int rows)
   return 2 * baum_i_space_vector(rows);
 }
 
+/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections,
+ * whose right-hand side is (0, r), do not: the metric of the raised inertia suits them as well. */
+static inline bool baum_i_space_must_refine(const baum_i_space *space)
+{
+  return space->is_raised && space->load == space->force;
+}
+
 /* Returns the same statuses as baum_i_block_create(). */
 baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, baum_i_space **out);
 void baum_i_space_destroy(baum_i_space *space); /* NULL is allowed */
@@ -180,6 +194,12 @@ baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_
 
 /* Sets W. Returns -1, or the first mass block that is not positive definite. */
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
+
+/* The first function tells whether there are bodies so slender that their pivots may be too small.
+ * The second, which needs a call of the first, raises the moments of inertia of these bodies about
+ * their axes. */
+bool baum_i_space_has_slender(baum_i_space *space);
+void baum_i_space_raise_slender(baum_i_space *space);
 
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
@@ -228,11 +248,11 @@ typedef struct baum_i_space_kernel {
    * the largest acceleration of all bodies. If this quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
-  /* Prepares correct(): computes r - J a in working precision, and sets the residual of the
-   * equations of motion to 0. */
+  /* Prepares correct(): computes r - J a in working precision. Of the residual of the equations of
+   * motion, only the part of slender bodies is computed. */
   void (*find_rest)(baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest relative change of the multipliers or of the
-   * accelerations. */
+   * accelerations, but at least 1 if refinement does not converge quickly for a slender body. */
   double (*correct)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);

@@ -267,6 +267,12 @@ static bool check(const baum_i_space *b)
 static void find_rest(baum_i_space *b)
 {
   memset(b->pull, 0, (size_t)(MOTION * b->body_count) * sizeof *b->pull);
+  for (int t = 1; baum_i_space_must_refine(b) && t < b->body_count; t++) {
+    ptrdiff_t at = (ptrdiff_t)MOTION * t + 4;
+    four u = baum_i_four_load(b->lack + (ptrdiff_t)4 * t);
+    baum_i_four_store(b->pull + at,
+                      baum_i_four_times(u, baum_i_four_all(baum_i_space_twist(b, t, b->motion))));
+  }
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     if (node->rows > 4) {
@@ -294,9 +300,31 @@ static double largest(four x)
   return two[0] > two[1] ? two[0] : two[1];
 }
 
-/* Returns the larger of `most` and the accelerations that the multipliers of one node cause. */
-BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
-                                  four most)
+/* The largest accelerations of origins and the largest angular accelerations. */
+typedef struct peaks {
+  four moves;
+  four turns;
+} peaks;
+
+static const peaks NO_PEAKS = {0};
+
+BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, peaks most)
+{
+  return (peaks){larger(move, most.moves), larger(unwhitened(body, turn), most.turns)};
+}
+
+/* Returns the largest acceleration in units of 1/s^2. Those of origins are divided by the
+ * characteristic length, so that the result does not depend on the unit of length. */
+static double size_of(const baum_i_space *b, peaks of)
+{
+  double move = largest(of.moves) / b->length;
+  double turn = largest(of.turns);
+  return move > turn ? move : turn;
+}
+
+/* Includes the accelerations that the multipliers of one node cause. */
+BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
+                                   peaks most)
 {
   column lambda = baum_i_column_load(b->nodes + node->at, 1, 0, tall);
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
@@ -307,8 +335,7 @@ BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node
     if (side->sign == 0) {
       push = transposed_times(b->sides + side->move, lambda, tall);
     }
-    most = larger(baum_i_four_times(push, baum_i_four_load(body->weight)), most);
-    most = larger(unwhitened(body, turn), most);
+    most = include(body, baum_i_four_times(push, baum_i_four_load(body->weight)), turn, most);
   }
   return most;
 }
@@ -316,24 +343,23 @@ BAUM_I_INLINE four include_pushes(const baum_i_space *b, const baum_i_space_node
 /* Returns the largest acceleration of a body. */
 static double largest_motion(const baum_i_space *b)
 {
-  four most = baum_i_four_zero();
+  peaks most = NO_PEAKS;
   for (int t = 1; t < b->body_count; t++) {
     const double *x = b->motion + (ptrdiff_t)MOTION * t;
-    most = larger(baum_i_four_load(x), most);
-    most = larger(unwhitened(&b->bodies[t], baum_i_four_load(x + 4)), most);
+    most = include(&b->bodies[t], baum_i_four_load(x), baum_i_four_load(x + 4), most);
   }
-  return largest(most);
+  return size_of(b, most);
 }
 
 static double amplification(const baum_i_space *b)
 {
-  four pushes = baum_i_four_zero();
+  peaks pushes = NO_PEAKS;
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     pushes = node->rows > 4 ? include_pushes(b, node, true, pushes)
                             : include_pushes(b, node, false, pushes);
   }
-  return largest(pushes) / largest_motion(b);
+  return size_of(b, pushes) / largest_motion(b);
 }
 
 /* Replaces lambda of one node by J pull - rest. */
@@ -395,16 +421,42 @@ static double add_changes(const baum_i_space *b)
 /* Returns the largest change of accelerations relative to the largest acceleration. */
 static double change_of_motion(const baum_i_space *b, const double *before)
 {
-  four changes = baum_i_four_zero();
+  peaks changes = NO_PEAKS;
   for (int t = 1; t < b->body_count; t++) {
     ptrdiff_t at = (ptrdiff_t)MOTION * t;
     four x = baum_i_four_minus(baum_i_four_load(b->motion + at), baum_i_four_load(before + at));
     four y =
       baum_i_four_minus(baum_i_four_load(b->motion + at + 4), baum_i_four_load(before + at + 4));
-    changes = larger(unwhitened(&b->bodies[t], y), larger(x, changes));
+    changes = include(&b->bodies[t], x, y, changes);
   }
   double size = largest_motion(b);
-  return size > 0.0 ? largest(changes) / size : 0.0;
+  return size > 0.0 ? size_of(b, changes) / size : 0.0;
+}
+
+/* If joints do not hold a slender body about its axis, its raised moment of inertia makes all
+ * changes about the axis much too small, and they do not decrease. Changes below NOISE times the
+ * largest y may be rounding errors. */
+static const double SLOWEST = 0.01;
+static const double NOISE = 1e-13;
+
+/* Returns 0 if the changes of all slender bodies about their axes decrease quickly, otherwise 1. */
+static double compare_twists(const baum_i_space *b, const double *before)
+{
+  if (!baum_i_space_must_refine(b)) {
+    return 0.0;
+  }
+  four sizes = baum_i_four_zero();
+  for (int t = 1; t < b->body_count; t++) {
+    sizes = larger(baum_i_four_load(b->motion + (ptrdiff_t)MOTION * t + 4), sizes);
+  }
+  double noise = NOISE * largest(sizes);
+  bool fine = true;
+  for (int t = 1; t < b->body_count; t++) {
+    double twist = fabs(baum_i_space_twist(b, t, b->motion) - baum_i_space_twist(b, t, before));
+    fine = fine && (twist <= SLOWEST * b->twists[t] || twist <= noise);
+    b->twists[t] = twist;
+  }
+  return fine ? 0.0 : 1.0;
 }
 
 static double correct(baum_i_space *b)
@@ -420,6 +472,8 @@ static double correct(baum_i_space *b)
   backward(b);
   double change = add_changes(b);
   double moved = change_of_motion(b, before);
+  double slow = compare_twists(b, before);
+  moved = slow > moved ? slow : moved;
   return change > moved ? change : moved;
 }
 

@@ -9,25 +9,6 @@
 #include "base/four.h"
 #include "linear/space_block.h"
 
-BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
-{
-#ifdef BAUM_I_WIDE
-  return _mm256_loadu_pd(from);
-#else
-  return baum_i_four_gathered(from, from + 2);
-#endif
-}
-
-BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
-{
-#ifdef BAUM_I_WIDE
-  _mm256_storeu_pd(to, x);
-#else
-  baum_i_store(to, x.low);
-  baum_i_store(to + 2, x.high);
-#endif
-}
-
 /* (x_0, x_1, 0, 0) */
 BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 {
@@ -38,12 +19,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 #endif
 }
 
-/* sum + x s */
-BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
-{
-  return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));
-}
-
+/* sum - x s */
 BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, double s)
 {
   return baum_i_four_minus(sum, baum_i_four_times(x, baum_i_four_all(s)));
@@ -208,6 +184,15 @@ BAUM_I_INLINE baum_i_space_column baum_i_column_times(baum_i_space_column x, dou
 BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
 {
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
+}
+
+/* u . y of a slender body, otherwise 0. The inertia that it lacks (space_block.h) contributes u (u
+ * . y) to the residual of the equations of motion. */
+BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const double *motion)
+{
+  const double *u = b->lack + (ptrdiff_t)4 * body;
+  const double *y = motion + (ptrdiff_t)BAUM_I_SPACE_MOTION * body + 4;
+  return u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
 }
 
 #endif

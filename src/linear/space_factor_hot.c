@@ -335,7 +335,8 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   return target;
 }
 
-/* Returns the smallest ratio of a determinant to the product of the diagonal entries of S. */
+/* Returns the smallest ratio of a determinant to the product of the diagonal entries of S, or NaN
+ * if a ratio is NaN. */
 static double weakest(const baum_i_space *b)
 {
   double least = 1.0;
@@ -343,7 +344,7 @@ static double weakest(const baum_i_space *b)
     const baum_i_space_measure *m = &b->measures[k];
     for (int i = 0; i < 2; i++) {
       double ratio = m->det[i] / m->size[i];
-      least = ratio >= least ? least : ratio; /* keeps NaN */
+      least = ratio >= least || isnan(least) ? least : ratio;
     }
   }
   return least;

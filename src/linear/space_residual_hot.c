@@ -62,12 +62,17 @@ BAUM_I_INLINE void transpose(const four x[3], four rows[4])
 
 static void begin(baum_i_space *b)
 {
+  bool raised = baum_i_space_must_refine(b);
   for (int t = 0; t < b->body_count; t++) {
     for (int half = 0; half < 2; half++) {
       ptrdiff_t at = (ptrdiff_t)MOTION * t + (ptrdiff_t)4 * half;
       sums pull = {baum_i_four_load(b->load + at), baum_i_four_zero()};
       four mass = baum_i_four_all(half == 1 ? 1.0 : b->bodies[t].mass);
       subtract(&pull, mass, baum_i_four_load(b->motion + at));
+      if (half == 1 && raised) {
+        four u = baum_i_four_load(b->lack + (ptrdiff_t)4 * t);
+        subtract(&pull, u, baum_i_four_all(-baum_i_space_twist(b, t, b->motion)));
+      }
       baum_i_four_store(b->pull + at, pull.high);
       baum_i_four_store(b->pull_low + at, pull.low);
     }

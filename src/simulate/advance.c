@@ -77,9 +77,23 @@ static baum_status kept_step(baum_simulation *run, double t_next)
   return BAUM_OK;
 }
 
-static baum_status whole_step(baum_simulation *run, int direction)
+/* The next step, which ends on the grid or at a break. */
+typedef struct fixed_step {
+  baum_i_break at; /* the next break */
+  double on_grid;  /* [s] next time on the grid */
+  bool breaks;     /* the step ends at the break */
+} fixed_step;
+
+static fixed_step find_next(const baum_simulation *run, int direction)
 {
-  double t_next = grid_time(run, run->grid.k + direction);
+  fixed_step next = {.at = baum_i_run_next_break(run),
+                     .on_grid = grid_time(run, run->grid.k + direction)};
+  next.breaks = direction * (next.on_grid - next.at.near) >= -SAME_TIME * run->options.step;
+  return next;
+}
+
+static baum_status grid_step(baum_simulation *run, int direction, double t_next)
+{
   if (t_next == run->state.t) {
     return baum_i_fail(BAUM_ERR_STEP,
                        "t = %.17g s: the step of %g s is smaller than the rounding error of the "
@@ -92,28 +106,16 @@ static baum_status whole_step(baum_simulation *run, int direction)
 }
 
 /* Step to a break and pass it. */
-static baum_status break_step(baum_simulation *run, baum_i_break next, double on_grid)
+static baum_status break_step(baum_simulation *run, const fixed_step *next)
 {
-  BAUM_I_TRY(baum_i_run_is_at(run, next) ? BAUM_OK : kept_step(run, next.near));
-  run->counters.short_steps += fabs(on_grid - next.near) > SAME_TIME * run->options.step;
-  return baum_i_run_pass(run, next);
+  BAUM_I_TRY(baum_i_run_is_at(run, next->at) ? BAUM_OK : kept_step(run, next->at.near));
+  run->counters.short_steps += fabs(next->on_grid - next->at.near) > SAME_TIME * run->options.step;
+  return baum_i_run_pass(run, next->at);
 }
 
-/* Take the next step on the grid or to a break. */
-static baum_status next_fixed(baum_simulation *run, int direction)
+static baum_status take_next(baum_simulation *run, int direction, const fixed_step *next)
 {
-  baum_i_break next = baum_i_run_next_break(run);
-  double t = grid_time(run, run->grid.k + direction);
-  bool breaks = direction * (t - next.near) >= -SAME_TIME * run->options.step;
-  return breaks ? break_step(run, next, t) : whole_step(run, direction);
-}
-
-/* Return the time at which the step of next_fixed() ends. */
-static double next_time(const baum_simulation *run, int direction)
-{
-  double t = grid_time(run, run->grid.k + direction);
-  double far = baum_i_run_next_break(run).far;
-  return direction * (t - far) >= -SAME_TIME * run->options.step ? far : t;
+  return next->breaks ? break_step(run, next) : grid_step(run, direction, next->on_grid);
 }
 
 /* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid, or
@@ -122,9 +124,11 @@ static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
   double same = SAME_TIME * run->options.step;
-  while (direction * (t - next_time(run, direction)) >= -same) {
+  fixed_step next = find_next(run, direction);
+  while (direction * (t - (next.breaks ? next.at.far : next.on_grid)) >= -same) {
     BAUM_I_TRY(baum_i_run_may_go_on(run, (*taken)++));
-    BAUM_I_TRY(next_fixed(run, direction));
+    BAUM_I_TRY(take_next(run, direction, &next));
+    next = find_next(run, direction);
   }
   return BAUM_OK;
 }
@@ -329,7 +333,8 @@ static baum_status own_step(baum_simulation *run)
 static baum_status one_step(baum_simulation *run)
 {
   if (baum_i_run_has_fixed_step(run)) {
-    return next_fixed(run, 1);
+    const fixed_step next = find_next(run, 1);
+    return take_next(run, 1, &next);
   }
   BAUM_I_TRY(watch_last(run, INFINITY));
   baum_status status = own_step(run);

@@ -83,13 +83,13 @@ void baum_i_crossings_forget(baum_i_crossings *p)
 
 /* ---- lists of knots ---- */
 
-static void set_knot(const baum_mechanism *m, double t, double pivot, const double *q,
-                     const double *v, baum_i_knot *to)
+/* `state` contains q (nq) and v (nv). */
+static void set_knot(const baum_mechanism *m, double t, double pivot, const double *state,
+                     baum_i_knot *to)
 {
   to->t = t;
   to->pivot = pivot;
-  memcpy(to->q, q, (size_t)m->nq * sizeof *q);
-  memcpy(to->v, v, (size_t)m->nv * sizeof *v);
+  memcpy(to->q, state, (size_t)(m->nq + m->nv) * sizeof *state);
 }
 
 /* Return a new last knot. If the list is full, remove the first knot. */
@@ -112,7 +112,7 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
   bool close = n >= 2 && fabs(p->clear[n - 1].t - p->clear[n - 2].t) * rate < SPACING;
   baum_i_knot *place =
     close ? &p->clear[n - 1] : make_last(p->clear, BAUM_I_HERMITE_MOST, &p->clear_count);
-  set_knot(run->workspace->mechanism, state->t, state->pivot, state->q, state->v, place);
+  set_knot(run->workspace->mechanism, state->t, state->pivot, state->q, place);
 }
 
 /* ---- states ---- */
@@ -129,7 +129,7 @@ static void note_state(baum_simulation *run, const baum_i_state *state, double p
   }
   p->usual = fmax(p->usual, pivot);
   baum_i_knot *last = make_last(p->recent, BAUM_I_RECENT, &p->recent_count);
-  set_knot(run->workspace->mechanism, state->t, pivot / p->usual, state->q, state->v, last);
+  set_knot(run->workspace->mechanism, state->t, pivot / p->usual, state->q, last);
   p->unseen = true;
   p->joint_noted = joint;
 }

@@ -107,7 +107,8 @@ static baum_status fail_creeping(baum_simulation *run)
 
 baum_status baum_i_run_is_wanted(baum_simulation *run)
 {
-  bool is_cancelled = atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run);
+  bool asked = atomic_load(&run->cancelled) != 0 && atomic_exchange(&run->cancelled, 0) != 0;
+  bool is_cancelled = asked || progress_cancels(run);
   return is_cancelled
            ? baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", baum_i_run_last_end(run))
            : BAUM_OK;

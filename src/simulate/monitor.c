@@ -21,10 +21,16 @@ static void observe_row(const baum_simulation *run, const double *rows, double *
                         baum_joint_id *joint)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  if (kernel_of(m)->largest(m->nc, rows) <= *largest) {
+  double size = kernel_of(m)->largest(m->nc, rows);
+  if (size <= *largest) {
     return;
   }
-  int row = baum_i_largest(rows, m->nc, largest);
+  int row = 0;
+  while (row < m->nc && !(fabs(rows[row]) >= size)) { /* none, if a number is not finite */
+    row++;
+  }
+  row = row < m->nc ? row : baum_i_largest(rows, m->nc, &size);
+  *largest = size;
   if (row >= 0) {
     *joint = baum_i_joint_id(m, baum_i_row_joint(m, row));
   }

@@ -23,13 +23,15 @@ static baum_status check_finite(const baum_simulation *run, const baum_i_state *
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_measure_kernel *kernel = BAUM_I_HOT_TABLE(m->wide, baum_i_measure_kernel);
-  bool is_finite = kernel->is_finite(m->nq, state->q) && kernel->is_finite(m->nv, state->v);
-  return is_finite ? BAUM_OK : fail_not_finite(run, state);
+  return kernel->is_finite(m->nq + m->nv, state->q) ? BAUM_OK : fail_not_finite(run, state);
 }
 
 /* Add the time to the message of a callback, which does not contain it. */
 static baum_status explain(baum_simulation *run, baum_status status)
 {
+  if (status == BAUM_OK) {
+    return BAUM_OK;
+  }
   if (status == BAUM_ERR_CALLBACK) {
     bool retry = run->workspace->point.retry;
     (void)baum_i_fail(status, "t = %.9g s: %.600s%s%s%s", run->state.t, baum_message(),

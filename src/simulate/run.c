@@ -16,8 +16,7 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
 {
   const baum_mechanism *m = run->workspace->mechanism;
   to->t = from->t;
-  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
-  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
+  memcpy(to->q, from->q, (size_t)(m->nq + m->nv) * sizeof *to->q);
 }
 
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state)

@@ -100,7 +100,8 @@ struct baum_simulation {
 
 /* ---- run.c ---- */
 
-/* Copy time, positions and velocities. */
+/* Copy time, positions and velocities. In all states and knots of a run, v follows q in one
+ * array. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
 /* Count the revolutions of joints in space: set the angles in the workspace to those of a state,

@@ -18,16 +18,17 @@ static void report(const spatial_tally *t)
   (void)printf(
     "%ld mechanisms, %ld configurations and %ld that could not be projected\n"
     "met %ld, %ld of them with dependent rows, %ld ill-conditioned, %ld reactions; rightly "
-    "refused %ld\n"
+    "refused %ld, too sensitive to rounding %ld\n"
     "%ld rows of velocity level; degrees of freedom of %ld mechanisms compared\n"
     "wrong: conflicts %ld, constraints %ld, accelerations %ld, reactions %ld, balance %ld, degrees "
     "of freedom %ld; false alarms %ld\n"
     "largest errors of those met: accelerations %.2g (seed %llu), reactions %.2g\n",
     t->mechanisms, t->configurations, t->not_projected, t->counts[SPATIAL_MET], t->dependent,
-    t->ill_conditioned, t->reactions, t->counts[SPATIAL_REFUSED], t->velocity_rows, t->mobilities,
-    t->counts[SPATIAL_CONFLICT], t->counts[SPATIAL_OFF], t->counts[SPATIAL_ACCELERATED],
-    t->counts[SPATIAL_REACTION], t->counts[SPATIAL_BALANCE], t->counts[SPATIAL_MOBILITY],
-    t->counts[SPATIAL_FALSE_ALARM], t->worst, (unsigned long long)t->worst_seed, t->worst_reaction);
+    t->ill_conditioned, t->reactions, t->counts[SPATIAL_REFUSED], t->unjudged, t->velocity_rows,
+    t->mobilities, t->counts[SPATIAL_CONFLICT], t->counts[SPATIAL_OFF],
+    t->counts[SPATIAL_ACCELERATED], t->counts[SPATIAL_REACTION], t->counts[SPATIAL_BALANCE],
+    t->counts[SPATIAL_MOBILITY], t->counts[SPATIAL_FALSE_ALARM], t->worst,
+    (unsigned long long)t->worst_seed, t->worst_reaction);
   (void)printf("%ld screws, %ld constant-velocity joints, %ld rolling discs, %ld knife edges, %ld "
                "couplings, %ld user constraints, %ld torsion springs, %ld bushings\n",
                t->joints[ORACLE_SCREW], t->joints[ORACLE_CONSTANT_VELOCITY],

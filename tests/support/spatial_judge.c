@@ -18,6 +18,10 @@ static const double ON_CONSTRAINTS = 1e-9;
  * from the span of the others. */
 static const double CLEAR = 1e-6;
 
+/* The largest effect of rounding that excuses an error. A larger one would excuse errors above
+ * 1e-6, and could hide faults of the solver. Such configurations cannot be judged. */
+static const double MOST_ROUNDING = 1e-8;
+
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
 
 /* A configuration in which a mechanism is tested. */
@@ -207,6 +211,11 @@ static void look(scene *s)
   spatial_verdict verdict = read_library(s, &e);
   if (verdict == SPATIAL_MET && verdict_of(&s->want.rows, &e, &own) != SPATIAL_MET) {
     own = sensitivity(s);
+    if (!(own.acceleration + own.reaction <= MOST_ROUNDING)) {
+      s->tally->unjudged++;
+      print(s, "too sensitive to rounding", &e, &own);
+      return;
+    }
   }
   verdict = verdict == SPATIAL_MET ? verdict_of(&s->want.rows, &e, &own) : verdict;
   count(s, verdict, &e, &own);
@@ -298,9 +307,10 @@ void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_ta
   random_spatial_destroy(room);
 }
 
+/* Configurations that cannot be judged are bad if they are more than one in a thousand. */
 long spatial_bad(const spatial_tally *tally)
 {
-  long bad = 0;
+  long bad = 1000 * tally->unjudged > tally->configurations ? tally->unjudged : 0;
   for (int k = SPATIAL_CONFLICT; k < SPATIAL_VERDICTS; k++) {
     bad += tally->counts[k];
   }

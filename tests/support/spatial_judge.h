@@ -39,6 +39,7 @@ typedef struct spatial_tally {
   long joints[ORACLE_KINDS];
   long forces[ORACLE_FORCE_KINDS];
   long reactions;       /* number of compared reactions */
+  long unjudged;        /* errors are large, but so is the effect of rounding errors */
   long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
   double worst;         /* largest error of the other SPATIAL_MET configurations */
   double worst_reaction;
