@@ -25,7 +25,7 @@ python=$PWD/$venv/bin/python
 source=$PWD/build/site-source
 
 # The pages are copied, because generated pages join them. Folders to which pages refer are links.
-rm -rf "$source" build/site
+rm -rf "$source" build/site build/site-doctrees build/site-extra
 mkdir -p "$source/bindings/python" build/site-doxygen
 cp -Rp docs "$source/docs"
 cp -p docs/site/index.md README.md "$source"
@@ -41,7 +41,6 @@ heading "C reference"
 } | doxygen -
 
 heading "pictures and pages of mechanisms"
-rm -rf build/site-extra
 "$python" docs/site/gallery.py "$source" build/site-extra
 "$python" docs/site/reference.py build/site-doxygen/xml "$source/reference"
 
