@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-need_packages doxygen python3 python3-venv
+need_packages doxygen gcc libc6-dev python3 python3-venv
 venv=build/site-venv
 venv_packages="numpy==2.4.6 scipy==1.17.1 matplotlib==3.11.2 Sphinx==9.0.4 myst-parser==5.2.0 furo==2025.12.19 breathe==5.1.0"
 need_venv
@@ -42,6 +42,7 @@ heading "C reference"
 
 heading "pictures and pages of mechanisms"
 "$python" docs/site/gallery.py "$source" build/site-extra
+"$python" docs/site/modelling.py "$source/modelling"
 "$python" docs/site/reference.py build/site-doxygen/xml "$source/reference"
 
 heading "site"

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: capture.py FOLDER NAME PROGRAM [ARGUMENT...]
+"""usage: capture.py FOLDER NAME TITLE PROGRAM [ARGUMENT...]
 
-Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html for the run
-with the most samples among the first runs of the program. If it has written no drawing, writes FOLDER/NAME.svg, which
+Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes FOLDER/NAME.svg, which
 shows the mechanism of this run, or the first frozen mechanism."""
 
 import runpy
@@ -28,7 +27,7 @@ def remember(cls, name, found, choose):
 
 
 def main():
-    folder, name, program, *arguments = sys.argv[1:]
+    folder, name, title, program, *arguments = sys.argv[1:]
     runs, mechanisms = [], []
     remember(baum.Mechanism, "simulate", runs, lambda m, run: run)
     remember(baum.Mechanism, "freeze", mechanisms, lambda m, same: m)
@@ -48,7 +47,7 @@ def main():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         if drawable and run is not None and len(run.t) > 20 and not list(folder.glob("*.html")):
-            run.page(folder / f"{name}.html", title=name.replace("_", " "))
+            run.page(folder / f"{name}.html", title=title)
         if drawable and not list(folder.glob("*.svg")):
             m.draw(*([] if run is None else [run.q[0]])).save(folder / f"{name}.svg")
     return 0

@@ -14,19 +14,17 @@ author = "the authors of baum"
 version = release = baum.library_version
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "docstrings"]
 exclude_patterns = ["examples", "include", "docs/site"]
-nitpicky = False
 highlight_language = "none"
-primary_domain = None
 
 myst_heading_anchors = 4
+myst_enable_extensions = ["html_image"]
 breathe_projects = {"baum": str(ROOT / "build" / "site-doxygen" / "xml")}
 breathe_default_project = "baum"
 breathe_domain_by_extension = {"h": "c"}
 breathe_show_include = False
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "signature"
-autodoc_typehints_format = "short"
+autodoc_typehints = "none"  # they are long; baum.typing explains them
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 

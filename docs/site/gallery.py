@@ -24,7 +24,21 @@ PROGRAM = re.compile(r"```python\n(.*?)```\n", flags=re.S)
 MOTION = "<!-- motion -->\n"
 # Variants of other mechanisms, and mechanisms of user coordinates, which have no drawing.
 OMITTED = {"pendulum_sundials", "pendulum_mebdf", "slider_crank_simeon", "slider_crank_sundials"}
-OMITTED |= {"andrews_angles", "andrews_a03", "car_axis", "chain", "flyball_stiff"}
+OMITTED |= {"andrews_angles", "andrews_a03", "car_axis", "flyball_stiff"}
+TITLES = {
+    "eight_gains": "Slider-crank with eight sets of gains",
+    "events": "Pendulum at a stop, and with a torque in intervals",
+    "gyroscope": "Heavy top with steady precession",
+    "jansen_leg": "Jansen's leg",
+    "kinematics": "Quick-return mechanism of a shaper",
+    "mistakes": "Three mistakes, drawn",
+    "pendulum": "Pendulum by a constraint function",
+    "rssr": "Spatial four-bar with a motor",
+    "slider_crank": "Slider-crank from lengths",
+    "suspension": "Double wishbone suspension",
+    "tradeoff": "Error against cost of a slider-crank",
+    "wire": "Bead on a wire, as a study of Python functions",
+}
 NOT_SHOWN = {"animation"}  # examples that only show mechanisms of the catalogue
 
 CATALOGUE_PROGRAM = """import baum
@@ -41,10 +55,10 @@ print(f"largest constraint violation: {{run.counters.max_phi:.0e}}")
 """
 
 
-def run(program, name, arguments=()):
+def run(program, name, title, arguments=()):
     """Run a program in a folder of its own. Return the folder, its text output and the time [s]."""
     folder = Path(tempfile.mkdtemp())
-    command = [sys.executable, SITE / "capture.py", folder, name, program, *arguments]
+    command = [sys.executable, SITE / "capture.py", folder, name, title, program, *arguments]
     begun = time.monotonic()
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
@@ -52,11 +66,11 @@ def run(program, name, arguments=()):
     return folder, done.stdout, time.monotonic() - begun
 
 
-def run_text(text, name):
+def run_text(text, name, title):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{name}.py"
         path.write_text(text, encoding="utf-8")
-        return run(path, name)
+        return run(path, name, title)
 
 
 def motion(page, up):
@@ -73,7 +87,7 @@ class Gallery:
         self.pages, self.motion = source / "gallery", extra / "motion"
         for folder in (self.pages, self.motion):
             folder.mkdir(parents=True, exist_ok=True)
-        self.source, self.cards = source, {"examples": [], "catalogue": []}
+        self.source, self.cards = source, {"examples": [], "catalogue": [], "cookbook": []}
         self.times = {}
 
     def take(self, folder, prefix):
@@ -95,10 +109,10 @@ class Gallery:
     def example(self, path):
         name, text = path.stem, path.read_text(encoding="utf-8")
         arguments = ["--folder", "."] if "options.folder" in text else []
-        folder, printed, seconds = run(path, name, arguments)
+        title = TITLES[name]
+        folder, printed, seconds = run(path, name, title, arguments)
         pages, drawings = self.take(folder, f"example_{name}_" if arguments else "example_")
         about = ast.get_docstring(ast.parse(text))
-        title = name.replace("_", " ").capitalize()
         body = f"{about}\n\n" + "".join(motion(page, "../") for page in pages if "study" not in page.name)
         body += "".join(f"![{title}]({drawing.name})\n\n" for drawing in drawings if not pages)
         body += f"## Results\n\n```text\n{printed}```\n\n## Program\n\n`examples/{path.name}`:\n\n```python\n{text}```\n"
@@ -113,9 +127,9 @@ class Gallery:
         joints = [element.name for element in m if type(element).__name__ == "Joint"]
         record = f", record={[f'{joint}.reaction' for joint in joints[:12]]!r}".replace("'", '"')
         text = CATALOGUE_PROGRAM.format(name=entry.name, samples=401, record=record)
-        folder, printed, seconds = run_text(text, entry.name)
+        title = re.split("[;,]", entry.title[0].upper() + entry.title[1:])[0]
+        folder, printed, seconds = run_text(text, entry.name, title)
         pages, drawings = self.take(folder, "")
-        title = entry.title[0].upper() + entry.title[1:]
         body = "".join(motion(page, "../") for page in pages)
         body += f"```python\n{text}```\n\n```text\n{printed}```\n\n"
         body += f"Source of the data: {entry.source}.\n\n"
@@ -127,21 +141,23 @@ class Gallery:
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
         body += f"\nBuild variants with `catalog.build(\"{entry.name}\", name=value)`. [The table of all mechanisms]"
         body += "(../docs/mechanisms.md) has the sources of the data.\n"
-        self.write("catalogue", f"known_{entry.name}", title.split(";")[0].split(",")[0], body, drawings)
+        self.write("catalogue", f"known_{entry.name}", title, body, drawings)
         return f"catalogue {entry.name}", seconds
 
     def cookbook(self, path):
         """Run the programs of a page of the cookbook that have a mark below them."""
         text, seconds, count = path.read_text(encoding="utf-8"), 0.0, 0
-        shown = ""
+        title, shown = text.split("\n")[0].lstrip("# "), ""
         while MOTION in text:
             above, text = text.split(MOTION, 1)
-            program = PROGRAM.findall(above)[-1]
             count += 1
-            folder, _, spent = run_text(program, f"{path.stem}_{count}")
+            heading = [title, *re.findall(r"^## (.*)", shown + above, flags=re.M)][-1]
+            folder, _, spent = run_text(PROGRAM.findall(above)[-1], f"{path.stem}_{count}", heading)
             seconds += spent
-            pages, _ = self.take(folder, "cookbook_")
+            pages, drawings = self.take(folder, "cookbook_")
             shown += above + "".join(motion(page, "../../") for page in pages[:1])
+            if drawings and count == 1:
+                self.cards["cookbook"].append((f"../docs/cookbook/{path.stem}", title, drawings[0].name))
         path.write_text(shown + text, encoding="utf-8")
         return f"cookbook {path.stem}", seconds
 
@@ -155,13 +171,15 @@ class Gallery:
         return text + "</div>\n```\n\n"
 
     def index(self):
-        names = [name for kind in self.cards.values() for name, _, _ in sorted(kind)]
+        names = [name for kind in ("examples", "catalogue") for name, _, _ in sorted(self.cards[kind])]
         text = "# Gallery\n\nEvery page shows a motion, the program that computed it, and its check against a known "
         text += "value. The programs run when this site is built; the build fails if a check fails.\n\n"
         text += "## Examples\n\nThese programs are in `examples/`. The tests of the project run them.\n\n"
         text += self.cards_of("examples")
         text += "## Mechanisms whose motion is known\n\nThe library `baum_catalog` builds these mechanisms "
         text += "([Catalogue of reference mechanisms](../docs/mechanisms.md)).\n\n" + self.cards_of("catalogue")
+        text += "## Cookbook\n\nPages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n"
+        text += self.cards_of("cookbook")
         text += "```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n"
         (self.pages / "index.md").write_text(text, encoding="utf-8")
 
@@ -169,7 +187,7 @@ class Gallery:
 def main():
     gallery = Gallery(Path(sys.argv[1]), Path(sys.argv[2]))
     examples = [path for path in sorted((ROOT / "examples").glob("*.py")) if path.stem not in NOT_SHOWN]
-    entries = [entry for entry in catalog.entries() if entry.name not in OMITTED]
+    entries = [entry for entry in catalog.entries() if entry.sample_count and entry.name not in OMITTED]
     recipes = sorted((gallery.source / "docs" / "cookbook").glob("*.md"))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         tasks = [pool.submit(gallery.example, path) for path in examples]
