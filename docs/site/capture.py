@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: capture.py FOLDER NAME TITLE PROGRAM [ARGUMENT...]
 
-Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes FOLDER/NAME.svg, which
-shows the mechanism of this run, or the first frozen mechanism."""
+Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this
+title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes
+FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism."""
 
 import runpy
 import sys

@@ -35,6 +35,7 @@ TITLES = {
     "pendulum": "Pendulum by a constraint function",
     "rssr": "Spatial four-bar with a motor",
     "slider_crank": "Slider-crank from lengths",
+    "stewart": "Stewart platform",
     "suspension": "Double wishbone suspension",
     "tradeoff": "Error against cost of a slider-crank",
     "wire": "Bead on a wire, as a study of Python functions",
@@ -109,11 +110,13 @@ class Gallery:
     def example(self, path):
         name, text = path.stem, path.read_text(encoding="utf-8")
         arguments = ["--folder", "."] if "options.folder" in text else []
-        title = TITLES[name]
+        title = TITLES.get(name, name.replace("_", " ").capitalize())
         folder, printed, seconds = run(path, name, title, arguments)
         pages, drawings = self.take(folder, f"example_{name}_" if arguments else "example_")
         about = ast.get_docstring(ast.parse(text))
-        body = f"{about}\n\n" + "".join(motion(page, "../") for page in pages if "study" not in page.name)
+        body = f"{about}\n\n" + "".join(
+            motion(page, "../") for page in pages if "study" not in page.name
+        )
         body += "".join(f"![{title}]({drawing.name})\n\n" for drawing in drawings if not pages)
         body += f"## Results\n\n```text\n{printed}```\n\n## Program\n\n`examples/{path.name}`:\n\n```python\n{text}```\n"
         twin = path.with_suffix(".c")
@@ -139,7 +142,7 @@ class Gallery:
             body += "| parameter | default | meaning |\n|---|---|---|\n"
             for p in entry.parameters.values():
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
-        body += f"\nBuild variants with `catalog.build(\"{entry.name}\", name=value)`. [The table of all mechanisms]"
+        body += f'\nBuild variants with `catalog.build("{entry.name}", name=value)`. [The table of all mechanisms]'
         body += "(../docs/mechanisms.md) has the sources of the data.\n"
         self.write("catalogue", f"known_{entry.name}", title, body, drawings)
         return f"catalogue {entry.name}", seconds
@@ -157,7 +160,9 @@ class Gallery:
             pages, drawings = self.take(folder, "cookbook_")
             shown += above + "".join(motion(page, "../../") for page in pages[:1])
             if drawings and count == 1:
-                self.cards["cookbook"].append((f"../docs/cookbook/{path.stem}", title, drawings[0].name))
+                self.cards["cookbook"].append(
+                    (f"../docs/cookbook/{path.stem}", title, drawings[0].name)
+                )
         path.write_text(shown + text, encoding="utf-8")
         return f"cookbook {path.stem}", seconds
 
@@ -171,14 +176,22 @@ class Gallery:
         return text + "</div>\n```\n\n"
 
     def index(self):
-        names = [name for kind in ("examples", "catalogue") for name, _, _ in sorted(self.cards[kind])]
+        names = [
+            name for kind in ("examples", "catalogue") for name, _, _ in sorted(self.cards[kind])
+        ]
         text = "# Gallery\n\nEvery page shows a motion, the program that computed it, and its check against a known "
-        text += "value. The programs run when this site is built; the build fails if a check fails.\n\n"
+        text += (
+            "value. The programs run when this site is built; the build fails if a check fails.\n\n"
+        )
         text += "## Examples\n\nThese programs are in `examples/`. The tests of the project run them.\n\n"
         text += self.cards_of("examples")
         text += "## Mechanisms whose motion is known\n\nThe library `baum_catalog` builds these mechanisms "
-        text += "([Catalogue of reference mechanisms](../docs/mechanisms.md)).\n\n" + self.cards_of("catalogue")
-        text += "## Cookbook\n\nPages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n"
+        text += "([Catalogue of reference mechanisms](../docs/mechanisms.md)).\n\n" + self.cards_of(
+            "catalogue"
+        )
+        text += (
+            "## Cookbook\n\nPages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n"
+        )
         text += self.cards_of("cookbook")
         text += "```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n"
         (self.pages / "index.md").write_text(text, encoding="utf-8")
@@ -186,8 +199,12 @@ class Gallery:
 
 def main():
     gallery = Gallery(Path(sys.argv[1]), Path(sys.argv[2]))
-    examples = [path for path in sorted((ROOT / "examples").glob("*.py")) if path.stem not in NOT_SHOWN]
-    entries = [entry for entry in catalog.entries() if entry.sample_count and entry.name not in OMITTED]
+    examples = [
+        path for path in sorted((ROOT / "examples").glob("*.py")) if path.stem not in NOT_SHOWN
+    ]
+    entries = [
+        entry for entry in catalog.entries() if entry.sample_count and entry.name not in OMITTED
+    ]
     recipes = sorted((gallery.source / "docs" / "cookbook").glob("*.md"))
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         tasks = [pool.submit(gallery.example, path) for path in examples]

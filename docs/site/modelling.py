@@ -24,10 +24,22 @@ sys.path.insert(0, str(ROOT / "tests" / "browser"))
 import scenes  # noqa: E402
 
 PAGES = {
-    "bodies": ("Bodies", [name for name, kind in KINDS.items() if kind.family == "body" and name != "coordinates"]),
-    "planar": ("Joints in the plane", [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("planar")]),
-    "spatial": ("Joints in space", [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("spatial")]),
-    "general": ("Couplings, drivers and constraints of your own", "coupling driver spline_driver user_constraint".split()),
+    "bodies": (
+        "Bodies",
+        [name for name, kind in KINDS.items() if kind.family == "body" and name != "coordinates"],
+    ),
+    "planar": (
+        "Joints in the plane",
+        [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("planar")],
+    ),
+    "spatial": (
+        "Joints in space",
+        [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("spatial")],
+    ),
+    "general": (
+        "Couplings, drivers and constraints of your own",
+        "coupling driver spline_driver user_constraint".split(),
+    ),
     "forces": ("Forces", [name for name, kind in KINDS.items() if kind.family == "force"]),
 }
 # The beginning of the row in docs/catalogue.md, for kinds whose name does not give it.
@@ -90,7 +102,9 @@ def methods():
     for module in (adding, adding_space):
         for node in ast.walk(ast.parse(inspect.getsource(module))):
             if isinstance(node, ast.FunctionDef):
-                for kind in re.findall(r'self\._add\w*\([^"]*"(\w+)"', ast.unparse(node).replace("'", '"')):
+                for kind in re.findall(
+                    r'self\._add\w*\([^"]*"(\w+)"', ast.unparse(node).replace("'", '"')
+                ):
                     if kind in KINDS:
                         found[kind] = node.name
     return found
@@ -99,7 +113,11 @@ def methods():
 def equations():
     """Return the cells of all tables of the catalogue, by their first cell."""
     text = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
-    rows = [[cell.strip() for cell in line.strip("|").split(" | ")] for line in text.splitlines() if line.startswith("|")]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split(" | ")]
+        for line in text.splitlines()
+        if line.startswith("|")
+    ]
     return {cells[0]: cells[1:] for cells in rows}
 
 
@@ -116,7 +134,11 @@ def python_code(scene, method):
     """Return the statements of a scene that add the element."""
     source = textwrap.dedent(inspect.getsource(scene))
     body = ast.parse(source).body[0].body
-    chosen = [ast.get_source_segment(source, node, padded=True) for node in body if f"m.{method}(" in ast.unparse(node)]
+    chosen = [
+        ast.get_source_segment(source, node, padded=True)
+        for node in body
+        if f"m.{method}(" in ast.unparse(node)
+    ]
     return "\n".join(textwrap.dedent(text) for text in chosen) + "\n"
 
 
@@ -134,7 +156,13 @@ def c_code(m, element):
     struct, plain = kind.struct(), kind.struct()
     kind.function("get")(m.handle, element.id, ctypes.byref(struct), ctypes.sizeof(struct))
     getattr(baum._lib.lib, f"baum_{kind.name}_def_init")(ctypes.byref(plain), ctypes.sizeof(plain))
-    lines, used = [f"baum_{kind.name}_def def = baum_{kind.name}_def_default();", f'def.name = "{element.name}";'], []
+    lines, used = (
+        [
+            f"baum_{kind.name}_def def = baum_{kind.name}_def_default();",
+            f'def.name = "{element.name}";',
+        ],
+        [],
+    )
     for field, type_, *_ in struct._fields_[2:]:
         value, default = getattr(struct, field), getattr(plain, field)
         family = type_.__name__.removeprefix("baum_").removesuffix("_id")
@@ -151,7 +179,10 @@ def c_code(m, element):
         elif isinstance(value, (bool, int)) and value != default and type_ is not ctypes.c_void_p:
             lines.append(f"def.{field} = {str(value).lower()};")
     receiver = {"body": "body", "joint": "joint", "force": "force"}[kind.family]
-    lines += [f"baum_{receiver}_id id;", f"status = baum_mechanism_add_{kind.name}(mechanism, &def, &id);"]
+    lines += [
+        f"baum_{receiver}_id id;",
+        f"status = baum_mechanism_add_{kind.name}(mechanism, &def, &id);",
+    ]
     return "\n".join(lines) + "\n", used
 
 
@@ -166,7 +197,17 @@ def compiles(blocks):
         ids = "".join(f", baum_{family}_id {name}" for family, name in dict.fromkeys(used))
         text += f"baum_status f{k}(baum_mechanism *mechanism{ids});\n"
         text += f"baum_status f{k}(baum_mechanism *mechanism{ids})\n{{\nbaum_status status;\n{block}return status;\n}}\n"
-    command = ["cc", "-std=c11", "-Wall", "-Werror", "-fsyntax-only", f"-I{ROOT / 'include'}", "-x", "c", "-"]
+    command = [
+        "cc",
+        "-std=c11",
+        "-Wall",
+        "-Werror",
+        "-fsyntax-only",
+        f"-I{ROOT / 'include'}",
+        "-x",
+        "c",
+        "-",
+    ]
     done = subprocess.run(command, input=text, text=True, capture_output=True)
     if done.returncode:
         sys.exit(f"modelling.py: C code does not compile\n{done.stderr}")
@@ -205,13 +246,21 @@ def main():
     index += "[The catalogue](../docs/catalogue.md) explains the symbols of the equations. In the code, `a`, `b` and `arm` are bodies, "
     index += "and the numbers are those of the picture.\n\n"
     for page, (title, kinds) in PAGES.items():
-        body = "".join(entry(folder, name, added[name], row_of(name, rows), blocks) for name in kinds)
+        body = "".join(
+            entry(folder, name, added[name], row_of(name, rows), blocks) for name in kinds
+        )
         (folder / f"{page}.md").write_text(f"# {title}\n\n{body}", encoding="utf-8")
-        index += f"- [{title}]({page}.md): " + ", ".join(f"[{added[n]}]({page}.md#{added[n]})" for n in kinds) + "\n"
+        index += (
+            f"- [{title}]({page}.md): "
+            + ", ".join(f"[{added[n]}]({page}.md#{added[n]})" for n in kinds)
+            + "\n"
+        )
     compiles(blocks)
     index += "\n```{toctree}\n:hidden:\n\n" + "\n".join(PAGES) + "\n```\n"
     (folder / "index.md").write_text(index, encoding="utf-8")
-    print(f"{sum(len(kinds) for _, kinds in PAGES.values())} kinds of elements, {len(blocks)} blocks of C compiled")
+    print(
+        f"{sum(len(kinds) for _, kinds in PAGES.values())} kinds of elements, {len(blocks)} blocks of C compiled"
+    )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: reference.py XML FOLDER
 
-Prepares the XML of Doxygen in the folder XML for Breathe. Writes the pages of the reference into FOLDER: one page for each header of the library, and pages for the Python
-package. Sphinx fills them in with the comments of the headers and with the docstrings."""
+Prepares the XML of Doxygen in the folder XML for Breathe. Writes the pages of the reference into FOLDER: one page for
+each header of the library, and pages for the Python package. Sphinx fills them in with the comments of the headers and with the docstrings."""
 
 import inspect
 import re
@@ -14,9 +14,14 @@ from xml.etree import ElementTree
 import baum
 
 ROOT = Path(__file__).resolve().parents[2]
-HEADERS = "mechanism planar planar_joints spatial spatial_joints spline breaks dynamics simulation events stabilization study sweep report draw scene catalog elements status version export baum"
+HEADERS = (
+    "mechanism planar planar_joints spatial spatial_joints spline breaks dynamics simulation events stabilization study"
+    " sweep report draw scene catalog elements status version export baum"
+)
 
-CLASSES = "Mechanism Simulation Run Workspace Study Sweep Body Joint Force Input Channel View".split()
+CLASSES = (
+    "Mechanism Simulation Run Workspace Study Sweep Body Joint Force Input Channel View".split()
+)
 MODULES = ["inertia", "catalog", "typing"]
 
 
@@ -33,7 +38,9 @@ def c_pages(folder):
     missing = {path.stem for path in (ROOT / "include" / "baum").glob("*.h")} ^ set(names)
     if missing:
         sys.exit(f"reference.py: HEADERS differs from include/baum by {missing}")
-    text = "# C reference\n\nEvery header of `include/baum`, with its contracts, units and defaults. "
+    text = (
+        "# C reference\n\nEvery header of `include/baum`, with its contracts, units and defaults. "
+    )
     text += "`#include <baum/baum.h>` includes all of them except `catalog.h`.\n\n| header | contents |\n|---|---|\n"
     for name in names:
         text += f"| [{name}.h]({name}.md) | {about(name)} |\n"
@@ -44,7 +51,11 @@ def c_pages(folder):
 
 
 def directive(kind, name, *options):
-    return f"```{{eval-rst}}\n.. auto{kind}:: {name}\n" + "".join(f"   :{o}:\n" for o in options) + "```\n\n"
+    return (
+        f"```{{eval-rst}}\n.. auto{kind}:: {name}\n"
+        + "".join(f"   :{o}:\n" for o in options)
+        + "```\n\n"
+    )
 
 
 def first_line(thing):
@@ -62,13 +73,21 @@ def python_pages(folder):
         pages.append((name, body, first_line(one)))
     others = [name for name in baum.__all__ if name not in CLASSES]
     functions = [name for name in others if inspect.isfunction(getattr(baum, name))]
-    warned = [n for n in others if inspect.isclass(getattr(baum, n)) and issubclass(getattr(baum, n), BaseException)]
+    warned = [
+        n
+        for n in others
+        if inspect.isclass(getattr(baum, n)) and issubclass(getattr(baum, n), BaseException)
+    ]
     results = [n for n in others if inspect.isclass(getattr(baum, n)) and n not in warned]
     body = "# Functions\n\n" + "".join(directive("function", f"baum.{name}") for name in functions)
     pages.append(("functions", body, "Gains, stability, studies, sweeps, scenes."))
-    body = "# Results and outlines\n\n" + "".join(directive("class", f"baum.{name}") for name in results)
+    body = "# Results and outlines\n\n" + "".join(
+        directive("class", f"baum.{name}") for name in results
+    )
     pages.append(("results", body, "Named tuples of results, and outlines of bodies."))
-    body = "# Errors and warnings\n\n" + "".join(directive("class", f"baum.{name}") for name in warned)
+    body = "# Errors and warnings\n\n" + "".join(
+        directive("class", f"baum.{name}") for name in warned
+    )
     pages.append(("errors", body, "Exceptions, and one class for each kind of warning."))
     for name in MODULES:
         body = f"# baum.{name}\n\n" + directive("module", f"baum.{name}", "members")

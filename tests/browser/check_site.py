@@ -47,7 +47,9 @@ def dead_links(site):
             count += 1
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
             known = pages.get(target)
-            if not target.exists() or (parts.fragment and known and unquote(parts.fragment) not in known.anchors):
+            if not target.exists() or (
+                parts.fragment and known and unquote(parts.fragment) not in known.anchors
+            ):
                 dead.append(f"{path}: {link}")
     print(f"{len(pages)} pages, {count} links between them, {len(dead)} of them dead")
     return dead
@@ -58,7 +60,11 @@ def look(browser, path, size, scheme):
     browser.size(*size, phone=size is PHONE, scheme=scheme)
     browser.open(str(path))
     wrong = [f"console: {text}" for text in browser.complaints()]
-    wrong += [f"network: {url}" for url in browser.requests() if not url.startswith(("file:", "data:", "blob:", "about:"))]
+    wrong += [
+        f"network: {url}"
+        for url in browser.requests()
+        if not url.startswith(("file:", "data:", "blob:", "about:"))
+    ]
     width = browser.run("document.documentElement.scrollWidth")
     if width > size[0]:
         wrong.append(f"{width} pixels wide instead of {size[0]}")

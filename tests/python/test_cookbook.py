@@ -39,7 +39,11 @@ def programs(text):
     """Return the programs of a page, each with the text that it should print."""
     blocks = BLOCK.findall(text)
     pairs = zip(blocks, [*blocks[1:], ("", "")])
-    return [(one, after if kind == "text" else None) for (lang, one), (kind, after) in pairs if lang == "python"]
+    return [
+        (program, after if kind == "text" else None)
+        for (language, program), (kind, after) in pairs
+        if language == "python"
+    ]
 
 
 def missing(program):
@@ -57,7 +61,10 @@ class Cookbook(unittest.TestCase):
         count = 0
         for page in sorted(COOKBOOK.glob("*.md")):
             for k, (program, shown) in enumerate(programs(page.read_text(encoding="utf-8"))):
-                with self.subTest(page.name, program=k + 1), tempfile.TemporaryDirectory() as folder:
+                with (
+                    self.subTest(page.name, program=k + 1),
+                    tempfile.TemporaryDirectory() as folder,
+                ):
                     self.assertIsNotNone(shown, "the page does not show what the program prints")
                     if missing(program):
                         continue
