@@ -29,15 +29,18 @@ TITLES = {
     "eight_gains": "Slider-crank with eight sets of gains",
     "events": "Pendulum at a stop, and with a torque in intervals",
     "gyroscope": "Heavy top with steady precession",
+    "hookes_joint": "Hooke's joint between two shafts",
     "jansen_leg": "Jansen's leg",
     "kinematics": "Quick-return mechanism of a shaper",
     "mistakes": "Three mistakes, drawn",
+    "peaucellier": "Peaucellier's linkage",
     "pendulum": "Pendulum by a constraint function",
     "rssr": "Spatial four-bar with a motor",
     "slider_crank": "Slider-crank from lengths",
     "stewart": "Stewart platform",
     "suspension": "Double wishbone suspension",
     "tradeoff": "Error against cost of a slider-crank",
+    "trebuchet": "Trebuchet in three phases",
     "wire": "Bead on a wire, as a study of Python functions",
 }
 NOT_SHOWN = {"animation"}  # examples that only show mechanisms of the catalogue
