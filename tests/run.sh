@@ -6,7 +6,7 @@
 # Installs missing packages and runs the named stages, one after the other, until one fails. Without an argument, it
 # runs the stages in the first row. The stages in the second row run only if they are named.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser site debs packages readme fresh trixie wheels
 # BAUM_COVERAGE is the smallest line coverage of src that stage coverage accepts, in percent (default: 95). Five folders
 # of src must always have 100 %.
 # BAUM_FUZZ_SECONDS is the time for which stage fuzz runs each target (default: 600).
@@ -16,7 +16,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser debs packages readme fresh trixie wheels"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser site debs packages readme fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -179,6 +179,17 @@ stage_browser() {
     "$venv/bin/python" tests/browser/check_live.py build/browser
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_shapes.py build/browser
+}
+
+# Builds the documentation site, and runs all programs of the cookbook, including those that need SciPy.
+stage_site() {
+  build_dev
+  library=$PWD/build/dev/libbaum.so
+  BAUM_LIBRARY=$library sh docs/build.sh
+  (cd tests/python && BAUM_LIBRARY=$library PYTHONPATH=../../bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    ../../build/site-venv/bin/python -m unittest test_cookbook)
+  need_packages chromium
+  build/site-venv/bin/python tests/browser/check_site.py build/site
 }
 
 # If an input makes a target fail, it remains in build/fuzz as crash-*. Correct the error, and add the input to
