@@ -18,6 +18,7 @@
 #include <baum/simulation.h>
 #include <baum/spatial.h>
 #include <baum/spatial_joints.h>
+#include <baum/spatial_points.h>
 #include <baum/spline.h>
 #include <baum/stabilization.h>
 #include <baum/status.h>

@@ -802,11 +802,12 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the others. */
-  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
-  BAUM_WARNING_SINGULAR_START = 104 /**< Several motions may leave the initial configuration. */
+  BAUM_WARNING_BRANCH = 100,         /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101,      /**< The constraint violation is too large. */
+  BAUM_WARNING_CONTRADICTION = 102,  /**< Omitted rows no longer follow from the others. */
+  BAUM_WARNING_ACCURACY = 103,       /**< The estimated error of the motion is large. */
+  BAUM_WARNING_SINGULAR_START = 104, /**< Several motions may leave the initial configuration. */
+  BAUM_WARNING_BUSHING = 105 /**< The rotation of a bushing passed pi, where its moment jumps. */
 } baum_warning_code;
 
 /** Name of a kind of warnings.

@@ -154,6 +154,69 @@ BAUM_API baum_status baum_mechanism_get_spatial_spring(const baum_mechanism *mec
 BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism, baum_force_id id,
                                                        const baum_spatial_spring_def *def);
 
+/* ---- cable ----------------------------------------------------------------------------------- */
+
+/** A cable, rope or tendon without mass and friction. It runs along straight lines through points
+ *  that are fixed in bodies, and slides freely through all of them except the first and the last.
+ *  Its length is the sum of the distances between consecutive points. The cable only pulls. With
+ *  the stretch s = length - free_length, its tension is
+ *
+ *    stiffness s + damping w(s / transition) (d/dt length)   if s > 0 and this sum is positive,
+ *
+ *  and 0 otherwise. The factor w(x) = x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1 and is 1
+ *  above. The tension is therefore continuous when the cable becomes taut or slack. The potential
+ *  is stiffness s^2 / 2 for s > 0; all other power is the dissipation of the damper.
+ *
+ *  Consecutive points may belong to the same body, and points of ground are allowed. Between two
+ *  points that coincide the cable has no direction: it exerts no force there, and pulls only along
+ *  its other parts. If a point passes through its neighbour, the force jumps. The elements may also
+ *  be planar bodies and planar particles, which stay in the plane z = 0. */
+typedef struct baum_spatial_cable_def {
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  /** (count) the body of each point, in the order of the path. Copied. Default: NULL, must be
+   *  set. */
+  const baum_body_id *bodies;
+  /** (count x 3) [m] each point in the axes of its body. Copied. Default: NULL, must be set. */
+  const double *points;
+  int32_t count;    /**< Number of points, at least 2. Default: 0, must be set. */
+  double stiffness; /**< [N/m] >= 0. Default: 0. */
+  double damping;   /**< [N s/m] >= 0. Default: 0. */
+  /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
+   *  configuration. */
+  double free_length;
+  /** A law for the tension [N], which replaces the other numbers; the cable then has no potential
+   *  energy. It must return 0 where the cable is slack. Default: NULL. */
+  baum_spring_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads rate. RATTLE requires false. Default: true. */
+  bool depends_on_velocity;
+  /** [m] >= 0, stretch at which the damper reaches its full strength. Default: NaN, 1e-4 times
+   *  free_length. */
+  double transition;
+} baum_spatial_cable_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_spatial_cable_def_init(baum_spatial_cable_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_spatial_cable_def baum_spatial_cable_def_default(void)
+{
+  baum_spatial_cable_def def;
+  baum_spatial_cable_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_spatial_cable(baum_mechanism *mechanism,
+                                                      const baum_spatial_cable_def *def,
+                                                      baum_force_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_spatial_cable(const baum_mechanism *mechanism,
+                                                      baum_force_id id, baum_spatial_cable_def *out,
+                                                      size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism, baum_force_id id,
+                                                      const baum_spatial_cable_def *def);
+
 /* ---- torsion spring -------------------------------------------------------------------------- */
 
 /** A torsion spring and damper in parallel between two bodies, about an axis, or a law of your own.
@@ -224,7 +287,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
  *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
  *    the rotation, and its length is the angle. theta is 0 in the design configuration, unless
  *    axis_b differs from axis there. The angle must stay below pi, because theta and the moment
- *    jump at pi.
+ *    jump at pi. A run in which it passes pi warns with BAUM_WARNING_BUSHING.
  *
  *  The potential is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Joints in space. spatial.h explains points and reactions.
+ *  Joints in space that connect two bodies at axes. Joints that guide only a point of a body are in
+ *  spatial_points.h, which this header includes. spatial.h explains points and reactions.
  *
  *  Axes: `axis` is an axis of the joint that is fixed in body_a, and `axis_b` is the corresponding
  *  axis that is fixed in body_b. If `point` is given, both vectors are in ground axes and describe
@@ -16,6 +17,7 @@
 #define BAUM_SPATIAL_JOINTS_H
 
 #include <baum/mechanism.h>
+#include <baum/spatial_points.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -335,176 +337,6 @@ BAUM_API baum_status baum_mechanism_get_spatial_fixed(const baum_mechanism *mech
 /** @copydoc baum_mechanism_set_coordinates() */
 BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism, baum_joint_id id,
                                                       const baum_spatial_fixed_def *def);
-
-/* ---- distance joint (massless rod) ----------------------------------------------------------- */
-
-/** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
- *  where d is the vector from body_a's point to body_b's point. */
-typedef struct baum_spatial_distance_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  double length;     /**< [m] > 0. Default: NaN, the distance in the design configuration. */
-} baum_spatial_distance_def;
-
-/** @copydoc baum_coordinates_def_init() */
-BAUM_API void baum_spatial_distance_def_init(baum_spatial_distance_def *def, size_t caller_size);
-/** @copydoc baum_coordinates_def_default() */
-static inline baum_spatial_distance_def baum_spatial_distance_def_default(void)
-{
-  baum_spatial_distance_def def;
-  baum_spatial_distance_def_init(&def, sizeof def);
-  return def;
-}
-/** @copydoc baum_mechanism_add_coordinates() */
-BAUM_API baum_status baum_mechanism_add_spatial_distance(baum_mechanism *mechanism,
-                                                         const baum_spatial_distance_def *def,
-                                                         baum_joint_id *id);
-/** @copydoc baum_mechanism_get_coordinates() */
-BAUM_API baum_status baum_mechanism_get_spatial_distance(const baum_mechanism *mechanism,
-                                                         baum_joint_id id,
-                                                         baum_spatial_distance_def *out,
-                                                         size_t caller_size);
-/** @copydoc baum_mechanism_set_coordinates() */
-BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechanism,
-                                                         baum_joint_id id,
-                                                         const baum_spatial_distance_def *def);
-
-/* ---- point on a line ------------------------------------------------------------------------- */
-
-/** A point of body_b stays on a line of body_a, which passes through body_a's point along the axis.
- *  The joint has two rows [m]. The coordinate of the joint is the displacement from body_a's point
- *  to body_b's point along the line [m]. body_b may be a particle. */
-typedef struct baum_spatial_point_on_line_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
-  double axis[3];
-} baum_spatial_point_on_line_def;
-
-/** @copydoc baum_coordinates_def_init() */
-BAUM_API void baum_spatial_point_on_line_def_init(baum_spatial_point_on_line_def *def,
-                                                  size_t caller_size);
-/** @copydoc baum_coordinates_def_default() */
-static inline baum_spatial_point_on_line_def baum_spatial_point_on_line_def_default(void)
-{
-  baum_spatial_point_on_line_def def;
-  baum_spatial_point_on_line_def_init(&def, sizeof def);
-  return def;
-}
-/** @copydoc baum_mechanism_add_coordinates() */
-BAUM_API baum_status baum_mechanism_add_spatial_point_on_line(
-  baum_mechanism *mechanism, const baum_spatial_point_on_line_def *def, baum_joint_id *id);
-/** @copydoc baum_mechanism_get_coordinates() */
-BAUM_API baum_status baum_mechanism_get_spatial_point_on_line(const baum_mechanism *mechanism,
-                                                              baum_joint_id id,
-                                                              baum_spatial_point_on_line_def *out,
-                                                              size_t caller_size);
-/** @copydoc baum_mechanism_set_coordinates() */
-BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
-  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_line_def *def);
-
-/* ---- point on a plane ------------------------------------------------------------------------ */
-
-/** A point of body_b stays in a plane of body_a. The plane contains body_a's point, and the axis is
- *  its normal. The joint has one row [m]. body_b may be a particle. */
-typedef struct baum_spatial_point_on_plane_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< Default: none, must be set. */
-  baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
-  double axis[3];
-} baum_spatial_point_on_plane_def;
-
-/** @copydoc baum_coordinates_def_init() */
-BAUM_API void baum_spatial_point_on_plane_def_init(baum_spatial_point_on_plane_def *def,
-                                                   size_t caller_size);
-/** @copydoc baum_coordinates_def_default() */
-static inline baum_spatial_point_on_plane_def baum_spatial_point_on_plane_def_default(void)
-{
-  baum_spatial_point_on_plane_def def;
-  baum_spatial_point_on_plane_def_init(&def, sizeof def);
-  return def;
-}
-/** @copydoc baum_mechanism_add_coordinates() */
-BAUM_API baum_status baum_mechanism_add_spatial_point_on_plane(
-  baum_mechanism *mechanism, const baum_spatial_point_on_plane_def *def, baum_joint_id *id);
-/** @copydoc baum_mechanism_get_coordinates() */
-BAUM_API baum_status baum_mechanism_get_spatial_point_on_plane(const baum_mechanism *mechanism,
-                                                               baum_joint_id id,
-                                                               baum_spatial_point_on_plane_def *out,
-                                                               size_t caller_size);
-/** @copydoc baum_mechanism_set_coordinates() */
-BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
-  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_plane_def *def);
-
-/* ---- rolling disc ---------------------------------------------------------------------------- */
-
-/** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. The joint has
- *  three rows. The first is a constraint on positions: the height of the disc over the plane [m].
- *  The other two are rows of velocity level [m/s]: the velocities of the contact point in two
- *  directions of the plane. Rows of velocity level do not restrict positions. A mechanism with such
- *  rows therefore has more degrees of freedom of position than of velocity (see baum_mobility).
- *
- *  The rim has a circular cross-section with the radius rim_radius. If rim_radius is 0, the disc is
- *  thin; if it is equal to radius, the disc is a sphere. Contact is permanent: the normal force may
- *  also pull. A disc that is not a sphere must not lie flat on the plane. Both bodies must have an
- *  orientation. The reaction of the joint is the force and the moment on body_b at the contact
- *  point. The multipliers are the forces [N] on body_b along the normal and along the two
- *  directions, with the opposite sign. */
-typedef struct baum_spatial_rolling_disc_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< The body with the plane; not body_b. Default: BAUM_GROUND. */
-  baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
-  double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
-  /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
-  double normal[3];
-  double centre[3];  /**< [m] of the disc, in axes of body_b. Default: (0, 0, 0). */
-  double axis_b[3];  /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
-  double radius;     /**< [m] > 0, largest radius. Default: 0, must be set. */
-  double rim_radius; /**< [m] of the cross-section of the rim, from 0 to radius. Default: 0. */
-} baum_spatial_rolling_disc_def;
-
-/** @copydoc baum_coordinates_def_init() */
-BAUM_API void baum_spatial_rolling_disc_def_init(baum_spatial_rolling_disc_def *def,
-                                                 size_t caller_size);
-/** @copydoc baum_coordinates_def_default() */
-static inline baum_spatial_rolling_disc_def baum_spatial_rolling_disc_def_default(void)
-{
-  baum_spatial_rolling_disc_def def;
-  baum_spatial_rolling_disc_def_init(&def, sizeof def);
-  return def;
-}
-/** @copydoc baum_mechanism_add_coordinates() */
-BAUM_API baum_status baum_mechanism_add_spatial_rolling_disc(
-  baum_mechanism *mechanism, const baum_spatial_rolling_disc_def *def, baum_joint_id *id);
-/** @copydoc baum_mechanism_get_coordinates() */
-BAUM_API baum_status baum_mechanism_get_spatial_rolling_disc(const baum_mechanism *mechanism,
-                                                             baum_joint_id id,
-                                                             baum_spatial_rolling_disc_def *out,
-                                                             size_t caller_size);
-/** @copydoc baum_mechanism_set_coordinates() */
-BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
-  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_rolling_disc_def *def);
 
 /* ---- screw ----------------------------------------------------------------------------------- */
 

@@ -90,6 +90,18 @@ void baum_i_principal_axes(const double matrix[9], double moments[3], double axe
   }
 }
 
+void baum_i_normalize3(double x[3])
+{
+  double largest = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
+  for (int i = 0; i < 3; i++) {
+    x[i] /= largest;
+  }
+  double length = sqrt(baum_i_dot3(x, x));
+  for (int i = 0; i < 3; i++) {
+    x[i] /= length;
+  }
+}
+
 void baum_i_complete_axes(const double z[3], double x[3], double y[3])
 {
   int least = fabs(z[0]) <= fabs(z[1]) ? 0 : 1;

@@ -103,6 +103,9 @@ void baum_i_quaternion_of(const double axes[9], double p[4]);
  * principal axes. `axes` is a rotation matrix except for the signs of its rows. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
 
+/* Divide a vector by its length, which must not be 0. The squares of its numbers may overflow. */
+void baum_i_normalize3(double x[3]);
+
 /* Set x to a unit vector orthogonal to the unit vector z, and y to the cross product of z and x. */
 void baum_i_complete_axes(const double z[3], double x[3], double y[3]);
 

@@ -3,8 +3,10 @@
 #include <string.h>
 
 #include <baum/planar_joints.h>
+#include <baum/spatial_points.h>
 
 #include "draw/symbols.h"
+#include "mechanism/kinds.h"
 
 /* Half the length of a guide, in units, if there are no samples of a motion. */
 static const double REACH = 11.0;
@@ -139,25 +141,59 @@ void baum_i_draw_blade(const baum_i_symbol *s)
   baum_i_symbol_area(s, BAUM_I_JOINT, 0, 4, outline, axis, left);
 }
 
-/* ---- a curve F = 0 ---- */
+/* ---- a curve F = 0 in the plane, or F = G = 0 in space ---- */
 
-/* Moves a point onto the curve by Newton's method. Returns false if the curve has no tangent
- * there. */
-static bool find_on_curve(const baum_planar_curve_def *def, double xy[2], double tangent[2])
+/* The curve of a symbol: F, G and their gradients at a point. In the plane, G is z. Returns false if
+ * the function of the user fails. */
+static bool evaluate_curve(const baum_i_symbol *s, const double at[3], double value[2],
+                           double gradient[2][3])
+{
+  double f[20] = {0.0};
+  if (s->element->definition == baum_i_planar_curve_definition) {
+    const baum_planar_curve_def *def = s->element->def;
+    const bool fine = def->curve(at, f, def->user) == 0;
+    f[3] = 0.0;
+    memset(f + 10, 0, 10 * sizeof *f);
+    f[10] = at[2];
+    f[13] = 1.0;
+    if (!fine) {
+      return false;
+    }
+  } else {
+    const baum_spatial_curve_def *def = s->element->def;
+    if (def->curve(at, f, def->user) != 0) {
+      return false;
+    }
+  }
+  for (int k = 0; k < 2; k++) {
+    value[k] = f[10 * k];
+    memcpy(gradient[k], f + (ptrdiff_t)10 * k + 1, 3 * sizeof *f);
+  }
+  return true;
+}
+
+/* Moves a point onto the curve by Newton's method, with the shortest steps. Returns false if the
+ * curve has no tangent there. */
+static bool find_on_curve(const baum_i_symbol *s, double at[3], double tangent[3])
 {
   for (int k = 0; k < 5; k++) {
-    double f[6] = {0.0};
-    if (def->curve(xy, f, def->user) != 0) {
+    double f[2], n[2][3];
+    if (!evaluate_curve(s, at, f, n)) {
       return false;
     }
-    double square = f[1] * f[1] + f[2] * f[2];
-    if (!(square > 0.0) || !isfinite(f[0]) || !isfinite(square)) {
+    const double ff = baum_i_dot3(n[0], n[0]);
+    const double fg = baum_i_dot3(n[0], n[1]);
+    const double gg = baum_i_dot3(n[1], n[1]);
+    const double square = ff * gg - fg * fg;
+    if (!(square > 0.0) || !isfinite(f[0]) || !isfinite(f[1]) || !isfinite(square)) {
       return false;
     }
-    xy[0] -= f[0] * f[1] / square;
-    xy[1] -= f[0] * f[2] / square;
-    tangent[0] = -f[2] / sqrt(square);
-    tangent[1] = f[1] / sqrt(square);
+    baum_i_add_scaled3((fg * f[1] - gg * f[0]) / square, n[0], at);
+    baum_i_add_scaled3((fg * f[0] - ff * f[1]) / square, n[1], at);
+    baum_i_cross(n[1], n[0], tangent);
+    for (int i = 0; i < 3; i++) {
+      tangent[i] /= sqrt(square);
+    }
   }
   return true;
 }
@@ -173,26 +209,28 @@ typedef struct path {
 } path;
 
 /* Follows the curve from the starting point in one direction, until the curve closes or ends. */
-static void follow_curve(const baum_i_symbol *s, const double start[2], int way, int most,
+static void follow_curve(const baum_i_symbol *s, const double start[3], int way, int most,
                          path *out)
 {
   const double h = s->drawing->unit;
   const double *origin = s->place->point[0];
   const double *middle = out->points[CURVE_STEPS];
-  double xy[2] = {start[0] - origin[0], start[1] - origin[1]}, tangent[2];
-  for (int k = 0; k < most && find_on_curve(s->element->def, xy, tangent); k++) {
+  double x[3] = {start[0] - origin[0], start[1] - origin[1], start[2] - origin[2]}, tangent[3];
+  for (int k = 0; k < most && find_on_curve(s, x, tangent); k++) {
     const int at = CURVE_STEPS + way * k;
     double *point = out->points[at];
-    point[0] = origin[0] + xy[0];
-    point[1] = origin[1] + xy[1];
+    double away[3];
+    for (int i = 0; i < 3; i++) {
+      point[i] = origin[i] + x[i];
+      away[i] = point[i] - middle[i];
+    }
     *(way < 0 ? &out->first : &out->last) = at;
-    if (k > 3 && hypot(point[0] - middle[0], point[1] - middle[1]) < h) {
+    if (k > 3 && baum_i_dot3(away, away) < h * h) {
       memcpy(point, middle, sizeof *out->points);
       out->closed = true;
       return;
     }
-    xy[0] += way * h * tangent[0];
-    xy[1] += way * h * tangent[1];
+    baum_i_add_scaled3(way * h, tangent, x);
   }
 }
 
@@ -211,15 +249,17 @@ static void find_path(const baum_i_symbol *s, path *out)
   }
 }
 
-/* Draws the curve. A closed curve on a body is drawn as a cam, and all other curves as tracks. */
+/* Draws the curve. A closed curve on a body in the plane is drawn as a cam, and all other curves as
+ * tracks. */
 void baum_i_draw_curve(const baum_i_symbol *s)
 {
+  const bool planar = s->element->definition == baum_i_planar_curve_definition;
   const int body = s->place->body[0];
   path curve = {.closed = false};
   find_path(s, &curve);
   const int count = curve.last - curve.first + 1;
   double(*points)[3] = curve.points + curve.first;
-  if (curve.closed && body != 0) {
+  if (curve.closed && body != 0 && planar) {
     baum_i_symbol_shape(s, BAUM_I_WHEEL, BAUM_I_AREA, body, 0.0, count, (const double(*)[3])points);
   } else if (count > 1) {
     baum_i_symbol_shape(s, BAUM_I_GUIDE, BAUM_I_LINE, body, 0.15, count,
@@ -228,7 +268,7 @@ void baum_i_draw_curve(const baum_i_symbol *s)
   if (count > 1) {
     baum_i_draw_gap_to_line(s->drawing, s->place, count, (const double(*)[3])points);
   }
-  baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.4);
+  baum_i_symbol_point(s, BAUM_I_JOINT, 1, planar ? 0.4 : 0.9);
 }
 
 /* ---- space ---- */

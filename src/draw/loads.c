@@ -33,6 +33,25 @@ void baum_i_draw_spring(const baum_i_symbol *s)
   }
 }
 
+/* Draws a cable as straight lines with a dot at each point. */
+void baum_i_draw_cable(const baum_i_symbol *s)
+{
+  const baum_spatial_cable_def *def = s->element->def;
+  for (int k = 0; k < def->count; k++) {
+    const int more = k + 1 < def->count ? 1 : 0;
+    double points[2][3] = {{0.0}};
+    memcpy(points, def->points + (ptrdiff_t)3 * k, (size_t)(3 * (1 + more)) * sizeof **points);
+    const int body = baum_i_body_index(s->drawing->mechanism, def->bodies[k]);
+    if (more) {
+      const int next = baum_i_body_index(s->drawing->mechanism, def->bodies[k + 1]);
+      const baum_i_shape line = baum_i_shape_of(BAUM_I_ROD, BAUM_I_BETWEEN, s->element, body, next,
+                                                0.15 * s->drawing->unit);
+      baum_i_draw(s->drawing, line, 2, (const double(*)[3])points);
+    }
+    baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_BALL, body, 0.4, 1, (const double(*)[3])points);
+  }
+}
+
 static void draw_spiral(const baum_i_symbol *s, const double x[3], const double y[3])
 {
   enum { POINTS = 72 };

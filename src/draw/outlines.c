@@ -64,8 +64,9 @@ static void add_points(outline *o)
   for (int k = 0; k < count; k++) {
     const baum_i_place *place = &o->drawing->places[ends[k].place];
     const int side = ends[k].side;
-    if (is_point_on(place, side) &&
-        !(side == 0 && place->element->definition == baum_i_planar_curve_definition)) {
+    const baum_i_definition *kind = place->element->definition;
+    bool curve = kind == baum_i_planar_curve_definition || kind == baum_i_spatial_curve_definition;
+    if (is_point_on(place, side) && !(side == 0 && curve)) {
       add_point(o, place->point[side]);
     }
   }

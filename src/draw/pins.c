@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include <baum/planar_joints.h>
-#include <baum/spatial_joints.h>
+#include <baum/spatial_points.h>
 
 #include "draw/symbols.h"
 #include "mechanism/identify.h"
@@ -132,4 +132,13 @@ void baum_i_draw_rolling_disc(const baum_i_symbol *s)
   baum_i_symbol_shape(s, BAUM_I_PITCH, BAUM_I_DISC, body, def->radius / s->drawing->unit, 2,
                       (const double(*)[3])disc);
   baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_LINE, body, 0.4, 2, (const double(*)[3])axle);
+}
+
+/* A thin disc that is perpendicular to the axis. It stands for a blade or a wheel. */
+void baum_i_draw_skate(const baum_i_symbol *s)
+{
+  const double *at = s->place->point[0], *axis = s->place->axis[0];
+  const double disc[2][3] = {{at[0], at[1], at[2]}, {axis[0], axis[1], axis[2]}};
+  baum_i_symbol_shape(s, BAUM_I_PITCH, BAUM_I_DISC, s->place->body[0], 2.5, 2, disc);
+  baum_i_symbol_axis(s, BAUM_I_JOINT, 0, 0.4, 0.8);
 }

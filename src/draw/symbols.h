@@ -76,6 +76,7 @@ void baum_i_draw_plane(const baum_i_symbol *s);
 void baum_i_draw_plane_point(const baum_i_symbol *s);
 void baum_i_draw_clamp(const baum_i_symbol *s);
 void baum_i_draw_rolling_disc(const baum_i_symbol *s);
+void baum_i_draw_skate(const baum_i_symbol *s);
 
 void baum_i_draw_guide(const baum_i_symbol *s);
 void baum_i_draw_slot(const baum_i_symbol *s);
@@ -89,6 +90,7 @@ void baum_i_draw_point_on_line(const baum_i_symbol *s);
 void baum_i_draw_guide_arrow(const baum_i_symbol *s);
 
 void baum_i_draw_spring(const baum_i_symbol *s);
+void baum_i_draw_cable(const baum_i_symbol *s);
 void baum_i_draw_torsion(const baum_i_symbol *s);
 void baum_i_draw_spatial_torsion(const baum_i_symbol *s);
 void baum_i_draw_bushing(const baum_i_symbol *s);

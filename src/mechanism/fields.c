@@ -121,13 +121,13 @@ static void set_pointer(const baum_i_def_field *f, void *def, const void *pointe
   memcpy((char *)def + f->offset, &pointer, sizeof pointer);
 }
 
-/* Return the number of entries of an array. */
+/* Return the number of numbers or ids of an array. */
 static int32_t count_of(const baum_i_def_field *f, const void *def)
 {
   const char *bytes = def;
   const int32_t *counter = (const int32_t *)(const void *)(bytes + f->counter);
   const int32_t *instead = (const int32_t *)(const void *)(bytes + f->instead);
-  return *counter != 0 ? *counter : *instead;
+  return (*counter != 0 ? *counter : *instead) * baum_i_field_stride(f);
 }
 
 static bool has_function(const baum_i_def_field *f, const void *def)
@@ -221,6 +221,23 @@ static baum_status check_bodies(const baum_i_def_field *f, const baum_mechanism 
   return BAUM_OK;
 }
 
+static baum_status check_path(const baum_i_def_field *f, const baum_mechanism *mechanism,
+                              const void *def, const char *label)
+{
+  const baum_body_id *bodies = pointer_at(f, def);
+  const int32_t count = count_of(f, def);
+  if (count == 1) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count is 1, must be at least 2", label);
+  }
+  BAUM_I_TRY(check_count(label, "count", count));
+  BAUM_I_TRY(baum_i_check_given(label, f->name, bodies != NULL));
+  for (int k = 0; k < count; k++) {
+    const baum_i_text field = baum_i_text_of("%s[%d]", f->name, k);
+    BAUM_I_TRY(baum_i_check_body(mechanism, bodies[k], label, field.text));
+  }
+  return BAUM_OK;
+}
+
 /* ---- all fields ---- */
 
 /* Check the fields that give the lengths of arrays. */
@@ -255,6 +272,10 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
   case BAUM_I_FIELD_CARRIER:
     return baum_i_check_body(mechanism, *(const baum_body_id *)at, label, f->name);
   case BAUM_I_FIELD_BODIES: return check_bodies(f, mechanism, def, label);
+  case BAUM_I_FIELD_PATH: return check_path(f, mechanism, def, label);
+  case BAUM_I_FIELD_POINTS:
+    BAUM_I_TRY(baum_i_check_given(label, f->name, pointer_at(f, def) != NULL));
+    return check_array(f, def, label);
   case BAUM_I_FIELD_JOINT:
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
@@ -306,8 +327,10 @@ baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const 
 static size_t entry_size(const baum_i_def_field *f)
 {
   switch ((int)f->kind) {
-  case BAUM_I_FIELD_ARRAY: return sizeof(double);
-  case BAUM_I_FIELD_BODIES: return sizeof(baum_body_id);
+  case BAUM_I_FIELD_ARRAY:
+  case BAUM_I_FIELD_POINTS: return sizeof(double);
+  case BAUM_I_FIELD_BODIES:
+  case BAUM_I_FIELD_PATH: return sizeof(baum_body_id);
   default: return 0;
   }
 }
@@ -366,9 +389,14 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
       baum_i_digest_add_integer(sum, *(const int32_t *)at);
     } else if (f->kind == BAUM_I_FIELD_INPUT) {
       baum_i_digest_add_integer(sum, ((const baum_input_id *)at)->index1);
-    } else if (f->kind == BAUM_I_FIELD_OWN_ARRAY) {
+    } else if (f->kind == BAUM_I_FIELD_OWN_ARRAY || f->kind == BAUM_I_FIELD_POINTS) {
       size_t count = (size_t)count_of(f, def);
       baum_i_digest_add(sum, pointer_at(f, def), count * sizeof(double));
+    } else if (f->kind == BAUM_I_FIELD_PATH) {
+      const baum_body_id *bodies = pointer_at(f, def);
+      for (int32_t k = 0; k < count_of(f, def); k++) {
+        baum_i_digest_add_integer(sum, bodies[k].index1);
+      }
     }
   }
 }
@@ -407,7 +435,7 @@ int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechani
   for (const baum_i_def_field *f = definition->fields; f->name; f++) {
     if (f->kind == BAUM_I_FIELD_BODY || f->kind == BAUM_I_FIELD_CARRIER) {
       include_all(&all, mechanism, baum_i_field_at(f, def), 1);
-    } else if (f->kind == BAUM_I_FIELD_BODIES) {
+    } else if (baum_i_field_has_bodies(f)) {
       include_all(&all, mechanism, pointer_at(f, def), count_of(f, def));
     } else if (f->kind == BAUM_I_FIELD_JOINT) {
       const baum_joint_id *id = baum_i_field_at(f, def);

@@ -38,6 +38,7 @@ typedef enum baum_i_field_kind {
   /* array of doubles or NULL, its length in `counter`; used only at the start of a run */
   BAUM_I_FIELD_ARRAY,
   BAUM_I_FIELD_OWN_ARRAY,
+  BAUM_I_FIELD_POINTS, /* array of points, three doubles each, their number in `counter` */
   BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change after the element was added */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* like COUNT, but may be 0 */
   BAUM_I_FIELD_OWN_COUNT,
@@ -48,6 +49,8 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_CARRIER,    /* a body; ground if it is not given */
   /* array of body ids, its length in `counter`; ground and repeated bodies are not allowed */
   BAUM_I_FIELD_BODIES,
+  /* array of at least two body ids; ground and repeated bodies are allowed */
+  BAUM_I_FIELD_PATH,
   /* required and cannot change; the element acts on the bodies of this joint */
   BAUM_I_FIELD_JOINT,
   BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate, which the definition itself checks */
@@ -150,6 +153,17 @@ static inline double baum_i_field_default(const baum_i_def_field *field, size_t 
 static inline const void *baum_i_field_at(const baum_i_def_field *field, const void *def)
 {
   return (const char *)def + field->offset;
+}
+
+/* Return how many numbers an array has for each entry that its counter counts. */
+static inline int baum_i_field_stride(const baum_i_def_field *field)
+{
+  return field->kind == BAUM_I_FIELD_POINTS ? 3 : 1;
+}
+
+static inline bool baum_i_field_has_bodies(const baum_i_def_field *field)
+{
+  return field->kind == BAUM_I_FIELD_BODIES || field->kind == BAUM_I_FIELD_PATH;
 }
 
 /* Set all fields of a definition to their defaults. */

@@ -31,7 +31,9 @@
   KIND(joint, spatial_distance)          \
   KIND(joint, spatial_point_on_line)     \
   KIND(joint, spatial_point_on_plane)    \
+  KIND(joint, spatial_curve)             \
   KIND(joint, spatial_rolling_disc)      \
+  KIND(joint, spatial_knife_edge)        \
   KIND(joint, spatial_screw)             \
   KIND(joint, spatial_constant_velocity) \
   KIND(joint, coupling)                  \
@@ -42,6 +44,7 @@
   KIND(force, planar_torsion_spring)     \
   KIND(force, planar_load)               \
   KIND(force, spatial_spring)            \
+  KIND(force, spatial_cable)             \
   KIND(force, spatial_load)              \
   KIND(force, spatial_torsion_spring)    \
   KIND(force, spatial_bushing)           \

@@ -478,6 +478,10 @@ struct baum_i_force_type {
    * power of the part that derives from it is included only if power_is_whole is set. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
+  /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
+   * each). NULL if forces of the type never jump. */
+  bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,
+                const double *to);
 };
 
 /* ---- the mechanism ---- */

@@ -15,7 +15,7 @@
 static baum_status fill_array(const baum_i_scene_reader *r, const baum_i_def_field *f,
                               const baum_i_json_node *list, void *array)
 {
-  if (f->kind != BAUM_I_FIELD_BODIES) {
+  if (!baum_i_field_has_bodies(f)) {
     return baum_i_scene_read_numbers(r, list, (int)list->count, array);
   }
   baum_body_id *ids = array;
@@ -35,12 +35,13 @@ static baum_status read_array(const baum_i_scene_reader *r, const baum_i_definit
     return baum_i_scene_fail_kind(r, list, "a list that is not empty");
   }
   int32_t *count = baum_i_scene_counter(f, def);
+  const int stride = baum_i_field_stride(f);
   if (*count == 0 && baum_i_scene_derives(definition, f)) {
-    *count = list->count;
+    *count = list->count / stride;
   }
-  if (*count != list->count) {
+  if (*count * stride != list->count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: \"%.60s\" has %d entries, must have %d",
-                       r->label, list->line, list->key, (int)list->count, (int)*count);
+                       r->label, list->line, list->key, (int)list->count, (int)*count * stride);
   }
   void *array = baum_i_alloc((size_t)list->count, sizeof(double));
   BAUM_I_TRY(baum_i_check_memory(array));

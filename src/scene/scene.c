@@ -56,7 +56,7 @@ baum_status baum_i_scene_check_call(const char *call, bool has_mechanism, const 
 bool baum_i_scene_is_array(const baum_i_def_field *field)
 {
   return field->kind == BAUM_I_FIELD_ARRAY || field->kind == BAUM_I_FIELD_OWN_ARRAY ||
-         field->kind == BAUM_I_FIELD_BODIES;
+         field->kind == BAUM_I_FIELD_POINTS || baum_i_field_has_bodies(field);
 }
 
 int32_t *baum_i_scene_counter(const baum_i_def_field *field, void *def)

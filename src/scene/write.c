@@ -175,8 +175,8 @@ static void put_array(writer *w, const baum_i_def_field *f, void *def)
   const void *values = pointer_at(f, def);
   if (values) {
     put_key(w, f->name);
-    const int count = *baum_i_scene_counter(f, def);
-    if (f->kind == BAUM_I_FIELD_BODIES) {
+    const int count = *baum_i_scene_counter(f, def) * baum_i_field_stride(f);
+    if (baum_i_field_has_bodies(f)) {
       put_bodies(w, values, count);
     } else {
       put_numbers(w, values, count, 0);

@@ -25,6 +25,7 @@ static const double SAME_TIME = 1e-9;
 static void keep_trial(baum_simulation *run)
 {
   baum_i_run_follow_step(run, &run->trial);
+  baum_i_run_observe_jumps(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
   if (run->account) {
@@ -157,6 +158,7 @@ static baum_status internal_step(baum_simulation *run)
     baum_i_account_step(run);
   }
   baum_i_run_follow_step(run, &run->trial);
+  baum_i_run_observe_jumps(run, &run->trial);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->counters.steps++;
   if (!known) {

@@ -227,6 +227,22 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_redundant(run, t);
 }
 
+void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end)
+{
+  const baum_i_state *start = baum_i_run_has_fixed_step(run) ? &run->state : &run->ahead;
+  const baum_i_point *point = &run->workspace->point;
+  for (const baum_i_force_group *g = point->mechanism->force_groups; g->type; g++) {
+    for (int i = 0; g->type->jumps && i < g->count; i++) {
+      if (g->type->jumps(g->forces[i], point, start->q, end->q)) {
+        baum_i_run_warn(run, BAUM_WARNING_BUSHING, end->t, BAUM_I_NO_JOINT,
+                        "t = %.9g s: the rotation of %s has passed pi, where its moment jumps; for "
+                        "larger rotations, use a joint and joint springs",
+                        end->t, baum_i_label(&g->forces[i]->element).text);
+      }
+    }
+  }
+}
+
 /* ---- counters ---- */
 
 /* The counters that add up counts of solvers and methods in this process and, for a restored run,

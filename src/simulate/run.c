@@ -91,6 +91,7 @@ const char *baum_warning_name(baum_warning_code code)
     {BAUM_WARNING_CONTRADICTION, "contradiction"},
     {BAUM_WARNING_ACCURACY, "accuracy"},
     {BAUM_WARNING_SINGULAR_START, "singular_start"},
+    {BAUM_WARNING_BUSHING, "bushing"},
   };
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     if (names[i].code == code) {

@@ -206,6 +206,9 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
  * workspace, which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
+/* Warn if a force jumps in the step that ends at `end` and is about to be kept. */
+void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end);
+
 /* Accept the violation of the present state, which the user has given, without a warning. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 

@@ -343,7 +343,7 @@ static void kinds_of_warnings_have_names(void **state)
   for (int k = BAUM_WARNING_REDUNDANT_ROWS; k <= BAUM_WARNING_SINGULARITY_CROSSED; k++) {
     assert_non_null(baum_warning_name((baum_warning_code)k));
   }
-  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_SINGULAR_START; k++) {
+  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_BUSHING; k++) {
     assert_non_null(baum_warning_name((baum_warning_code)k));
   }
   assert_null(baum_warning_name((baum_warning_code)0));

@@ -27,6 +27,7 @@ from .elements import Body, Force, Input, Joint
 from .errors import (
     AccuracyWarning,
     BranchWarning,
+    BushingWarning,
     ContradictionWarning,
     DoubtWarning,
     EnergyAccountWarning,
@@ -102,6 +103,7 @@ __all__ = [
     "Body",
     "Box",
     "BranchWarning",
+    "BushingWarning",
     "Channel",
     "Circle",
     "ContradictionWarning",

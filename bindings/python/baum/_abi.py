@@ -442,6 +442,7 @@ class baum_warning_code(enum.IntEnum):
     BAUM_WARNING_CONTRADICTION = 102
     BAUM_WARNING_ACCURACY = 103
     BAUM_WARNING_SINGULAR_START = 104
+    BAUM_WARNING_BUSHING = 105
 
 
 class baum_warning(Structure):
@@ -955,6 +956,23 @@ class baum_spatial_spring_def(Structure):
     ]
 
 
+class baum_spatial_cable_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("bodies", POINTER(baum_body_id)),
+        ("points", c_void_p),
+        ("count", c_int32),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_length", c_double),
+        ("law", baum_spring_fn),
+        ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
+        ("transition", c_double),
+    ]
+
+
 class baum_spatial_torsion_spring_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1002,6 +1020,89 @@ class baum_spatial_load_def(Structure):
         ("moment", c_double * 3),
         ("input", baum_input_id),
         ("follows_body", c_bool),
+    ]
+
+
+class baum_spatial_distance_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("length", c_double),
+    ]
+
+
+class baum_spatial_point_on_line_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+    ]
+
+
+class baum_spatial_point_on_plane_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+    ]
+
+
+baum_spatial_curve_fn = CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)
+
+
+class baum_spatial_curve_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("curve", baum_spatial_curve_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_spatial_rolling_disc_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point_a", c_double * 3),
+        ("normal", c_double * 3),
+        ("centre", c_double * 3),
+        ("axis_b", c_double * 3),
+        ("radius", c_double),
+        ("rim_radius", c_double),
+    ]
+
+
+class baum_spatial_knife_edge_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("axis", c_double * 3),
     ]
 
 
@@ -1097,60 +1198,6 @@ class baum_spatial_fixed_def(Structure):
         ("point", c_double * 3),
         ("point_a", c_double * 3),
         ("point_b", c_double * 3),
-    ]
-
-
-class baum_spatial_distance_def(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("name", c_char_p),
-        ("body_a", baum_body_id),
-        ("body_b", baum_body_id),
-        ("point", c_double * 3),
-        ("point_a", c_double * 3),
-        ("point_b", c_double * 3),
-        ("length", c_double),
-    ]
-
-
-class baum_spatial_point_on_line_def(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("name", c_char_p),
-        ("body_a", baum_body_id),
-        ("body_b", baum_body_id),
-        ("point", c_double * 3),
-        ("point_a", c_double * 3),
-        ("point_b", c_double * 3),
-        ("axis", c_double * 3),
-    ]
-
-
-class baum_spatial_point_on_plane_def(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("name", c_char_p),
-        ("body_a", baum_body_id),
-        ("body_b", baum_body_id),
-        ("point", c_double * 3),
-        ("point_a", c_double * 3),
-        ("point_b", c_double * 3),
-        ("axis", c_double * 3),
-    ]
-
-
-class baum_spatial_rolling_disc_def(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("name", c_char_p),
-        ("body_a", baum_body_id),
-        ("body_b", baum_body_id),
-        ("point_a", c_double * 3),
-        ("normal", c_double * 3),
-        ("centre", c_double * 3),
-        ("axis_b", c_double * 3),
-        ("radius", c_double),
-        ("rim_radius", c_double),
     ]
 
 
@@ -1744,6 +1791,16 @@ PROTOTYPES = {
     "baum_mechanism_set_spatial_spring": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_spatial_spring_def),
     ]),
+    "baum_spatial_cable_def_init": (None, [POINTER(baum_spatial_cable_def), c_size_t]),
+    "baum_mechanism_add_spatial_cable": (c_int, [
+        c_void_p, POINTER(baum_spatial_cable_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_spatial_cable": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_cable_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_cable": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_cable_def),
+    ]),
     "baum_spatial_torsion_spring_def_init": (None, [
         POINTER(baum_spatial_torsion_spring_def), c_size_t,
     ]),
@@ -1775,6 +1832,72 @@ PROTOTYPES = {
     ]),
     "baum_mechanism_set_spatial_load": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_spatial_load_def),
+    ]),
+    "baum_spatial_distance_def_init": (None, [POINTER(baum_spatial_distance_def), c_size_t]),
+    "baum_mechanism_add_spatial_distance": (c_int, [
+        c_void_p, POINTER(baum_spatial_distance_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def),
+    ]),
+    "baum_spatial_point_on_line_def_init": (None, [
+        POINTER(baum_spatial_point_on_line_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_point_on_line": (c_int, [
+        c_void_p, POINTER(baum_spatial_point_on_line_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_point_on_line": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_point_on_line": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def),
+    ]),
+    "baum_spatial_point_on_plane_def_init": (None, [
+        POINTER(baum_spatial_point_on_plane_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_point_on_plane": (c_int, [
+        c_void_p, POINTER(baum_spatial_point_on_plane_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_point_on_plane": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_point_on_plane": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def),
+    ]),
+    "baum_spatial_curve_def_init": (None, [POINTER(baum_spatial_curve_def), c_size_t]),
+    "baum_mechanism_add_spatial_curve": (c_int, [
+        c_void_p, POINTER(baum_spatial_curve_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_curve": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_curve_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_curve": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_curve_def),
+    ]),
+    "baum_spatial_rolling_disc_def_init": (None, [
+        POINTER(baum_spatial_rolling_disc_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_rolling_disc": (c_int, [
+        c_void_p, POINTER(baum_spatial_rolling_disc_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_rolling_disc": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_rolling_disc": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def),
+    ]),
+    "baum_spatial_knife_edge_def_init": (None, [POINTER(baum_spatial_knife_edge_def), c_size_t]),
+    "baum_mechanism_add_spatial_knife_edge": (c_int, [
+        c_void_p, POINTER(baum_spatial_knife_edge_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_knife_edge": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_knife_edge_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_knife_edge": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_knife_edge_def),
     ]),
     "baum_spatial_spherical_def_init": (None, [POINTER(baum_spatial_spherical_def), c_size_t]),
     "baum_mechanism_add_spatial_spherical": (c_int, [
@@ -1845,52 +1968,6 @@ PROTOTYPES = {
     ]),
     "baum_mechanism_set_spatial_fixed": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_spatial_fixed_def),
-    ]),
-    "baum_spatial_distance_def_init": (None, [POINTER(baum_spatial_distance_def), c_size_t]),
-    "baum_mechanism_add_spatial_distance": (c_int, [
-        c_void_p, POINTER(baum_spatial_distance_def), POINTER(baum_joint_id),
-    ]),
-    "baum_mechanism_get_spatial_distance": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def), c_size_t,
-    ]),
-    "baum_mechanism_set_spatial_distance": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def),
-    ]),
-    "baum_spatial_point_on_line_def_init": (None, [
-        POINTER(baum_spatial_point_on_line_def), c_size_t,
-    ]),
-    "baum_mechanism_add_spatial_point_on_line": (c_int, [
-        c_void_p, POINTER(baum_spatial_point_on_line_def), POINTER(baum_joint_id),
-    ]),
-    "baum_mechanism_get_spatial_point_on_line": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def), c_size_t,
-    ]),
-    "baum_mechanism_set_spatial_point_on_line": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def),
-    ]),
-    "baum_spatial_point_on_plane_def_init": (None, [
-        POINTER(baum_spatial_point_on_plane_def), c_size_t,
-    ]),
-    "baum_mechanism_add_spatial_point_on_plane": (c_int, [
-        c_void_p, POINTER(baum_spatial_point_on_plane_def), POINTER(baum_joint_id),
-    ]),
-    "baum_mechanism_get_spatial_point_on_plane": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def), c_size_t,
-    ]),
-    "baum_mechanism_set_spatial_point_on_plane": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def),
-    ]),
-    "baum_spatial_rolling_disc_def_init": (None, [
-        POINTER(baum_spatial_rolling_disc_def), c_size_t,
-    ]),
-    "baum_mechanism_add_spatial_rolling_disc": (c_int, [
-        c_void_p, POINTER(baum_spatial_rolling_disc_def), POINTER(baum_joint_id),
-    ]),
-    "baum_mechanism_get_spatial_rolling_disc": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def), c_size_t,
-    ]),
-    "baum_mechanism_set_spatial_rolling_disc": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spatial_rolling_disc_def),
     ]),
     "baum_spatial_screw_def_init": (None, [POINTER(baum_spatial_screw_def), c_size_t]),
     "baum_mechanism_add_spatial_screw": (c_int, [
@@ -1983,9 +2060,16 @@ DEFAULTS = {
     baum_spatial_body_def: "baum_spatial_body_def_init",
     baum_spatial_particle_def: "baum_spatial_particle_def_init",
     baum_spatial_spring_def: "baum_spatial_spring_def_init",
+    baum_spatial_cable_def: "baum_spatial_cable_def_init",
     baum_spatial_torsion_spring_def: "baum_spatial_torsion_spring_def_init",
     baum_spatial_bushing_def: "baum_spatial_bushing_def_init",
     baum_spatial_load_def: "baum_spatial_load_def_init",
+    baum_spatial_distance_def: "baum_spatial_distance_def_init",
+    baum_spatial_point_on_line_def: "baum_spatial_point_on_line_def_init",
+    baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
+    baum_spatial_curve_def: "baum_spatial_curve_def_init",
+    baum_spatial_rolling_disc_def: "baum_spatial_rolling_disc_def_init",
+    baum_spatial_knife_edge_def: "baum_spatial_knife_edge_def_init",
     baum_spatial_spherical_def: "baum_spatial_spherical_def_init",
     baum_spatial_revolute_def: "baum_spatial_revolute_def_init",
     baum_spatial_universal_def: "baum_spatial_universal_def_init",
@@ -1993,10 +2077,6 @@ DEFAULTS = {
     baum_spatial_prismatic_def: "baum_spatial_prismatic_def_init",
     baum_spatial_planar_def: "baum_spatial_planar_def_init",
     baum_spatial_fixed_def: "baum_spatial_fixed_def_init",
-    baum_spatial_distance_def: "baum_spatial_distance_def_init",
-    baum_spatial_point_on_line_def: "baum_spatial_point_on_line_def_init",
-    baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
-    baum_spatial_rolling_disc_def: "baum_spatial_rolling_disc_def_init",
     baum_spatial_screw_def: "baum_spatial_screw_def_init",
     baum_spatial_constant_velocity_def: "baum_spatial_constant_velocity_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
@@ -2053,9 +2133,16 @@ STRUCTS = [
     baum_spatial_body_def,
     baum_spatial_particle_def,
     baum_spatial_spring_def,
+    baum_spatial_cable_def,
     baum_spatial_torsion_spring_def,
     baum_spatial_bushing_def,
     baum_spatial_load_def,
+    baum_spatial_distance_def,
+    baum_spatial_point_on_line_def,
+    baum_spatial_point_on_plane_def,
+    baum_spatial_curve_def,
+    baum_spatial_rolling_disc_def,
+    baum_spatial_knife_edge_def,
     baum_spatial_spherical_def,
     baum_spatial_revolute_def,
     baum_spatial_universal_def,
@@ -2063,10 +2150,6 @@ STRUCTS = [
     baum_spatial_prismatic_def,
     baum_spatial_planar_def,
     baum_spatial_fixed_def,
-    baum_spatial_distance_def,
-    baum_spatial_point_on_line_def,
-    baum_spatial_point_on_plane_def,
-    baum_spatial_rolling_disc_def,
     baum_spatial_screw_def,
     baum_spatial_constant_velocity_def,
     baum_spline_driver_def,

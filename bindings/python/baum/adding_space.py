@@ -3,11 +3,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Sequence, TypeVar
 
 from .elements import Body, Element, Force, Joint
 from .outlines import OutlineLike
-from .typing import ArrayLike, BodyLike, InputLike, LawOfLength, OrientationLike, Scalar
+from .typing import (
+    ArrayLike,
+    BodyLike,
+    CurveFunction,
+    InputLike,
+    LawOfLength,
+    OrientationLike,
+    Scalar,
+)
 
 Added = TypeVar("Added", bound=Element)
 
@@ -313,6 +321,35 @@ class AddingInSpace:
         """
         return self._add(Joint, "spatial_point_on_plane", locals())
 
+    def spatial_curve(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        body_b: BodyLike,
+        curve: CurveFunction,
+        *,
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        point_b: ArrayLike | None = None,
+        user: Any = None,
+    ) -> Joint:
+        """Keep a point of body_b on a curve that is fixed in body_a, as a bead on a wire.
+
+        Two surfaces F(x, y, z) = 0 and G(x, y, z) = 0 intersect in the curve. The joint has two
+        rows, F and G [m]. Choose F and G such that the lengths of their gradients are about 1 near
+        the curve. For a helix with the radius r and the rise c per radian, F = x - r cos(z / c) and
+        G = y - r sin(z / c). Give either `point`, or both point_a and point_b.
+
+        curve(xyz): 20 numbers at the point xyz [m]: F [m], F_x, F_y, F_z, F_xx, F_xy, F_xz, F_yy,
+            F_yz, F_zz, and then the same ten numbers of G. The coordinates xyz are in the axes of
+            body_a, with body_a's point as origin.
+        point: the origin of the curve in the design configuration, in ground axes [m].
+        point_a, point_b: the origin of the curve and the point of body_b, in the axes of the bodies
+            [m].
+        user: the last argument of a compiled function.
+        """
+        return self._add(Joint, "spatial_curve", locals())
+
     def rolling_disc(
         self,
         name: str | None,
@@ -341,6 +378,31 @@ class AddingInSpace:
             the disc is thin, and with `radius` it is a sphere.
         """
         return self._add(Joint, "spatial_rolling_disc", locals())
+
+    def spatial_knife_edge(
+        self,
+        name: str | None,
+        body_a: BodyLike,
+        *,
+        axis: ArrayLike = (0.0, 0.0, 1.0),
+        point: ArrayLike | None = None,
+        point_a: ArrayLike | None = None,
+        body_b: BodyLike | None = None,
+    ) -> Joint:
+        """Keep a point of body_a from moving along an axis that is fixed in body_a, relative to
+        body_b. An example is a skate, whose axis is perpendicular to the sides of its blade.
+
+        The joint has one row of velocity level [m/s], the velocity of the point along the axis. It
+        does not keep the point on a surface. Give either `point` or point_a.
+
+        axis: direction in which the point does not move. It is in ground axes if `point` is given,
+            otherwise in the axes of body_a. The planar knife_edge() has the direction of the blade
+            instead.
+        point: the point in the design configuration, in ground axes [m].
+        point_a: the point in the axes of body_a [m].
+        body_b: the body on which the blade slides, by default ground.
+        """
+        return self._add(Joint, "spatial_knife_edge", locals())
 
     def screw(
         self,
@@ -413,6 +475,44 @@ class AddingInSpace:
         is zero when the points coincide.
         """
         return self._add(Force, "spatial_spring", locals())
+
+    def cable(
+        self,
+        name: str | None,
+        bodies: Sequence[BodyLike],
+        points: ArrayLike,
+        *,
+        stiffness: Scalar = 0.0,
+        damping: Scalar = 0.0,
+        free_length: Scalar | None = None,
+        law: LawOfLength | None = None,
+        depends_on_velocity: bool = True,
+        user: Any = None,
+        transition: Scalar | None = None,
+    ) -> Force:
+        """Add a cable, rope or tendon that runs along straight lines through points of bodies, and
+        slides through them without friction. It only pulls.
+
+        With the stretch s = length - free_length, the tension is stiffness s + damping
+        w(s / transition) (d/dt length) if s and this sum are positive, otherwise 0. The function
+        w(x) = x^2 (3 - 2 x) grows from 0 to 1, so the tension is continuous when the cable becomes
+        taut. Between two points that coincide, the cable exerts no force.
+
+        bodies: the body of each point, in the order of the path. The same body may occur several
+            times.
+        points: x, y, z of each point in the axes of its body [m].
+        stiffness: [N/m].
+        damping: [N s/m].
+        free_length: length up to which the cable is slack [m], by default that of the design
+            configuration.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
+            replaces the other numbers, and must return zeros where the cable is slack. The cable
+            then has no potential energy.
+        depends_on_velocity, user: as in spring().
+        transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
+            free_length.
+        """
+        return self._add(Force, "spatial_cable", locals())
 
     def spatial_torsion_spring(
         self,

@@ -194,11 +194,12 @@ def _shell_spring(function: Function, write: Write, nq: int, nv: int) -> Shell:
 
 
 def _shell_curve(function: Function, write: Write, nq: int, nv: int) -> Shell:
-    xy_at = _Views((2,), writeable=False)
+    # nq is the number of coordinates of the point, 2 or 3.
+    point_at = _Views((nq,), writeable=False)
 
-    def shell(xy: int, out: int, user: Any) -> int:
+    def shell(point: int, out: int, user: Any) -> int:
         try:
-            write(out, function(xy_at[xy]))
+            write(out, function(point_at[point]))
             return FINE
         except BaseException as error:
             return _answer(error)

@@ -109,7 +109,9 @@ KINDS = {
         Kind("spatial_distance", "joint", units=("m",)),
         Kind("spatial_point_on_line", "joint", units=("m", "m"), coordinates=_DISPLACEMENT),
         Kind("spatial_point_on_plane", "joint", units=("m",)),
+        Kind("spatial_curve", "joint", units=("m", "m")),
         Kind("spatial_rolling_disc", "joint", units=("m",) * 3),
+        Kind("spatial_knife_edge", "joint", units=("m",)),
         Kind(
             "spatial_screw",
             "joint",
@@ -125,6 +127,7 @@ KINDS = {
         Kind("planar_torsion_spring", "force"),
         Kind("planar_load", "force"),
         Kind("spatial_spring", "force"),
+        Kind("spatial_cable", "force"),
         Kind("spatial_load", "force"),
         Kind("spatial_torsion_spring", "force"),
         Kind("spatial_bushing", "force"),
@@ -198,8 +201,9 @@ class Definition:
             )
         user = given.pop("user", None)
         self._set_count(given)
-        # Sizes are set first, because they determine the lengths of arrays.
-        for name in sorted(given, key=lambda name: self._types[name] is not ctypes.c_int32):
+        # Sizes and bodies are set first, because they determine the lengths of arrays.
+        sizes_first = lambda name: name != "bodies" and self._types[name] is not ctypes.c_int32
+        for name in sorted(given, key=sizes_first):
             self._set(name, given[name])
         for name, function in functions.items():
             self._set_function(name, function, inputs)
@@ -251,7 +255,7 @@ class Definition:
         alone = isinstance(value, str) or hasattr(value, "family")
         handles = [self._find("body", body) for body in ([value] if alone else value)]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
-        self.struct.body_count = len(handles)
+        setattr(self.struct, "count" if "points" in self._types else "body_count", len(handles))
 
     def _pointer(self, name: str, value: Any, label: str) -> Any:
         """Return the address for a pointer field. The field `user` holds an address or a ctypes
@@ -266,6 +270,8 @@ class Definition:
                 raise TypeError(
                     f"{label}: an address or an object of ctypes is wanted, not {value!r}"
                 ) from None
+        if name == "points":
+            value = [x for point in value for x in vector(point, 3, label)]
         array = vector(value, length(self.struct, name), label)
         self.keep.append(array)
         return address(array)
@@ -284,7 +290,7 @@ class Definition:
             "gamma": (rows,),
             "jacobian": (rows, nv),
             "law": (3,),
-            "curve": (6,),
+            "curve": (20 if self.kind.is_spatial else 6,),
             "rate": (nq,),
             "move": (nq,),
             "difference": (nv,),
@@ -302,6 +308,8 @@ class Definition:
         if self.kind.name == "coordinates":
             # The library refuses negative sizes.
             return max(position_count(self.struct), 0), max(self.struct.size, 0)
+        if self.kind.name.endswith("_curve"):
+            return (3 if self.kind.is_spatial else 2), 0
         if "body_count" not in self._types:
             return 0, 0
         count = self.struct.body_count
@@ -327,7 +335,7 @@ def length(definition: Any, name: str) -> int:
     if name in ("q", "position_scale"):
         return position_count(definition)
     count: int = definition.size if hasattr(definition, "size") else definition.count
-    return count
+    return 3 * count if name == "points" else count
 
 
 def as_dict(definition: Any, find: Find) -> dict[str, Any]:
@@ -335,9 +343,15 @@ def as_dict(definition: Any, find: Find) -> dict[str, Any]:
     values = {}
     for name, kind in definition._fields_:
         value = getattr(definition, name)
-        if name in HIDDEN or kind in callbacks.SHELLS or name in ("bodies", "user"):
+        if name in HIDDEN or kind in callbacks.SHELLS or name == "user":
             continue
-        if kind in FAMILIES:
+        if name == "bodies":
+            if not hasattr(definition, "points"):
+                continue
+            value = tuple(find("body", value[k]) for k in range(definition.count))
+        elif name == "points":
+            value = numbers(value, length(definition, name)).reshape(-1, 3)
+        elif kind in FAMILIES:
             value = find(FAMILIES[kind], value)
         elif name.startswith("coordinate"):
             value = list(COORDINATES)[value]

@@ -120,6 +120,11 @@ def taken(element: Element, moved: Collection[str]) -> Values:
         if math.isnan(values["free_value"]) and _is_at(joint.definition, moved):
             return {"free_value": _coordinate(joint, values["coordinate"])}
         return {}
+    if "points" in values:
+        is_moved = any(body.name in moved for body in values["bodies"])
+        if math.isnan(values["free_length"]) and is_moved:
+            return {"free_length": design_space.cable_length(values)}
+        return {}
     if not _is_at(values, moved):
         return {}
     if element.kind is not None and element.kind.is_spatial:

@@ -64,7 +64,8 @@ def taken(values: Values) -> Values:
         axis_a = axis_b = np.eye(3)
         fields["point"] = NOT_GIVEN
         fields["point_a"] = _tuple(a.local(values["point"]))
-        fields["point_b"] = _tuple(b.local(values["point"]))
+        if "point_b" in values:
+            fields["point_b"] = _tuple(b.local(values["point"]))
     if "axis" in values:
         axis = axis_a @ values["axis"]
         fields["axis"] = _tuple(axis @ a.axes)
@@ -80,6 +81,13 @@ def taken(values: Values) -> Values:
     if math.isnan(values.get("offset", 0.0)):  # of a screw
         fields["offset"] = coordinate(values, "displacement")
     return fields
+
+
+def cable_length(values: Values) -> float:
+    """Return the length of a cable in the design configuration."""
+    frames = [Frame.of(body) for body in values["bodies"]]
+    places = [f.place + f.axes @ p for f, p in zip(frames, values["points"])]
+    return float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
 
 
 def _x_axis(values: Values, a: Frame) -> Array:

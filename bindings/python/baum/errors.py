@@ -186,6 +186,12 @@ class SingularStartWarning(DoubtWarning):
     code = 104
 
 
+class BushingWarning(DoubtWarning):
+    """The rotation of a bushing has passed pi, where its moment jumps."""
+
+    code = 105
+
+
 class UncertainSensitivityWarning(Warning):
     """sensitivities() found different derivatives with two steps. This warning is not one of a
     run."""

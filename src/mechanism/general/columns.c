@@ -31,6 +31,22 @@ void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_sp
   }
 }
 
+void baum_i_columns_find(const baum_mechanism *mechanism, const baum_i_span *span, int k, int width,
+                         int *at)
+{
+  int first = 0;
+  for (int i = 0; i < k; i++) {
+    first += mechanism->bodies[span->bodies[i]]->nv;
+  }
+  for (int i = 0; i < width; i++) {
+    at[i] = -1;
+  }
+  const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+  for (int i = 0; i < body->nv; i++) {
+    at[column(body, width, i)] = first + i;
+  }
+}
+
 BAUM_I_INLINE void pack_wide(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                              int rows, const double *wide, double *packed)
 {

@@ -83,6 +83,11 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
   }
 }
 
+/* For each of the `width` columns of body number k of a span, find its index among the packed
+ * columns of the span. The index is -1 if the body does not have the column. */
+void baum_i_columns_find(const baum_mechanism *mechanism, const baum_i_span *span, int k, int width,
+                         int *at);
+
 /* Convert a square matrix over all wide columns to a matrix of nl x nl entries. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);

@@ -10,12 +10,16 @@
 
 /* ---- memory and coordinates ---- */
 
+/* Largest number of results of functions whose size does not depend on rows and columns. It is that
+ * of a curve in space. */
+enum { CURVE_SIZE = 20 };
+
 int64_t baum_i_scratch_size(int columns, int rows)
 {
   /* Differences may be nested: a difference may call a function that itself computes differences.
    * Each of the two levels needs about a dozen vectors, and there are up to three matrices at a
    * time. */
-  int64_t vectors = 48 * ((int64_t)columns + rows);
+  int64_t vectors = 48 * ((int64_t)columns + rows) + 24 * (int64_t)CURVE_SIZE;
   int64_t matrices = 3 * ((int64_t)columns * rows);
   return vectors + matrices;
 }

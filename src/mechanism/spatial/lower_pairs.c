@@ -76,18 +76,6 @@ static baum_status check_two_axes(const baum_mechanism *mechanism, const void *d
 
 /* ---- parameters ---- */
 
-static void normalize(double x[3])
-{
-  double largest = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
-  for (int i = 0; i < 3; i++) {
-    x[i] /= largest;
-  }
-  double length = sqrt(baum_i_dot3(x, x));
-  for (int i = 0; i < 3; i++) {
-    x[i] /= length;
-  }
-}
-
 static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {
@@ -104,7 +92,7 @@ static void to_ground(const baum_i_spatial_head *head, const baum_i_spatial_fram
   } else {
     baum_i_turn(frame->axes, axis, out);
   }
-  normalize(out);
+  baum_i_normalize3(out);
 }
 
 /* Computes the joint axes x, y and z in body axes. The arguments z and x are in ground axes, and x
@@ -120,7 +108,7 @@ static bool put_axes(const baum_i_spatial_frame *frame, const double z[3], const
   if (baum_i_dot3(ground, ground) < OPPOSITE * OPPOSITE) {
     return false;
   }
-  normalize(ground);
+  baum_i_normalize3(ground);
   memcpy(ground + 6, z, 3 * sizeof *z);
   baum_i_cross(z, ground, ground + 3);
   for (int i = 0; i < 9; i += 3) {

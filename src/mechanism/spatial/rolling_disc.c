@@ -76,29 +76,19 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return BAUM_OK;
 }
 
-static void make_unit(const double given[3], double out[3])
-{
-  double largest = fmax(fmax(fabs(given[0]), fabs(given[1])), fabs(given[2]));
-  for (int i = 0; i < 3; i++) {
-    out[i] = given[i] / largest;
-  }
-  double length = sqrt(baum_i_dot3(out, out));
-  for (int i = 0; i < 3; i++) {
-    out[i] /= length;
-  }
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
   (void)mechanism;
   const baum_spatial_rolling_disc_def *def = joint->element.def;
   double *k = parameters + VECTORS;
-  make_unit(def->normal, k);
+  memcpy(k, def->normal, sizeof def->normal);
+  baum_i_normalize3(k);
   baum_i_complete_axes(k, k + 3, k + 6);
   parameters[OFFSET] = baum_i_dot3(k, def->point_a);
   memcpy(parameters + CENTRE, def->centre, sizeof def->centre);
-  make_unit(def->axis_b, parameters + AXIS);
+  memcpy(parameters + AXIS, def->axis_b, sizeof def->axis_b);
+  baum_i_normalize3(parameters + AXIS);
   parameters[RADIUS] = def->radius - def->rim_radius;
   parameters[RIM] = def->rim_radius;
   return BAUM_OK;

@@ -9,6 +9,7 @@
 
 #include <baum/spatial.h>
 #include <baum/spatial_joints.h>
+#include <baum/spatial_points.h>
 
 #include "base/rotation.h"
 #include "mechanism/general/columns.h"

@@ -403,6 +403,51 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
+/* ---- jumps at pi ---- */
+
+static void rotation_at(const baum_i_force *element, const baum_i_point *point, const double *q,
+                        double theta[3])
+{
+  const double *numbers = point->parameters + element->element.parameter;
+  double axes[2][9], r[9];
+  for (int k = 0; k < 2; k++) {
+    const baum_i_body_place *place = &point->mechanism->places[element->span.bodies[k]];
+    const baum_i_spatial_frame frame =
+      baum_i_spatial_frame_at((baum_i_frame_kind)place->kind, q + place->q, NULL);
+    for (int i = 0; i < 9; i += 3) {
+      baum_i_turn(frame.axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)9 * k + i, axes[k] + i);
+    }
+  }
+  for (int i = 0; i < 9; i++) {
+    r[i] = baum_i_dot3(axes[0] + (ptrdiff_t)3 * (i / 3), axes[1] + (ptrdiff_t)3 * (i % 3));
+  }
+  const turn t = turn_of(r);
+  memcpy(theta, t.theta, sizeof t.theta);
+}
+
+/* theta reverses its direction when the angle passes pi. A bushing whose moments are zero does not
+ * jump. The diagonal of a semidefinite matrix tells which of its rows are zero. */
+static bool jumps(const baum_i_force *element, const baum_i_point *point, const double *from,
+                  const double *to)
+{
+  const double *numbers = point->parameters + element->element.parameter;
+  double before[3], after[3], largest = 0.0;
+  for (int i = 3; i < SIX; i++) {
+    const int k = (SIX + 1) * i;
+    largest = fmax(largest, fmax(numbers[STIFFNESS + k], numbers[DAMPING + k]));
+  }
+  if (largest == 0.0) {
+    return false;
+  }
+  rotation_at(element, point, to, after);
+  const double quarter = 0.25 * BAUM_I_REVOLUTION;
+  if (baum_i_dot3(after, after) < quarter * quarter) {
+    return false;
+  }
+  rotation_at(element, point, from, before);
+  return baum_i_dot3(before, before) > quarter * quarter && baum_i_dot3(before, after) < 0.0;
+}
+
 static const baum_i_force_type type = {
   .definition = {BAUM_I_DEFINITION(spatial_bushing, "spatial bushing", fields), .check = check,
                  .parameter_count = PARAMETER_COUNT},
@@ -413,6 +458,7 @@ static const baum_i_force_type type = {
   .potential = potential,
   .linearize = linearize,
   .power = power,
+  .jumps = jumps,
 };
 
 BAUM_I_DEFINE(force, spatial_bushing, type)
