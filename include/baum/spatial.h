@@ -174,14 +174,14 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 typedef struct baum_spatial_cable_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  /** (count) the body of each point, in the order of the path. Copied. Default: NULL, must be
+  /** (point_count) the body of each point, in the order of the path. Copied. Default: NULL, must be
    *  set. */
   const baum_body_id *bodies;
-  /** (count x 3) [m] each point in the axes of its body. Copied. Default: NULL, must be set. */
+  /** (point_count x 3) [m] each point in the axes of its body. Copied. Default: NULL, must be set. */
   const double *points;
-  int32_t count;    /**< Number of points, at least 2. Default: 0, must be set. */
-  double stiffness; /**< [N/m] >= 0. Default: 0. */
-  double damping;   /**< [N s/m] >= 0. Default: 0. */
+  int32_t point_count; /**< Number of points, at least 2. Default: 0, must be set. */
+  double stiffness;    /**< [N/m] >= 0. Default: 0. */
+  double damping;      /**< [N s/m] >= 0. Default: 0. */
   /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
    *  configuration. */
   double free_length;

@@ -37,8 +37,8 @@ void baum_i_draw_spring(const baum_i_symbol *s)
 void baum_i_draw_cable(const baum_i_symbol *s)
 {
   const baum_spatial_cable_def *def = s->element->def;
-  for (int k = 0; k < def->count; k++) {
-    const int more = k + 1 < def->count ? 1 : 0;
+  for (int k = 0; k < def->point_count; k++) {
+    const int more = k + 1 < def->point_count ? 1 : 0;
     double points[2][3] = {{0.0}};
     memcpy(points, def->points + (ptrdiff_t)3 * k, (size_t)(3 * (1 + more)) * sizeof **points);
     const int body = baum_i_body_index(s->drawing->mechanism, def->bodies[k]);

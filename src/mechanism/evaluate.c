@@ -153,22 +153,26 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
  * potential is known exactly, as a difference of two values.
  */
 
-/* Some types compute their power from the whole force, including the part that has a potential. If
- * `whole_power` is set, include only these types. */
-static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
-                                  double *of_forces)
+/* Some elements compute their power from the whole force, including the part that has a potential.
+ * If `whole_power` is set, include only these elements, and add each potential to that of its class
+ * in sum (BAUM_I_POWERS). Otherwise add all potentials to *sum. */
+static baum_status add_potentials(baum_i_point *point, bool whole_power, double *sum)
 {
   const baum_mechanism *m = point->mechanism;
   for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
     bool wanted = group->type->potential && (group->type->power || !whole_power);
     for (int i = 0; wanted && i < group->count; i++) {
+      double *of_bodies = whole_power ? &sum[BAUM_I_POWER_BODIES] : sum;
       BAUM_I_TRY(group->type->potential(group->bodies[i], point, of_bodies));
     }
   }
   for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
-    bool wanted = group->type->potential && (group->type->power_is_whole || !whole_power);
-    for (int i = 0; wanted && i < group->count; i++) {
-      BAUM_I_TRY(group->type->potential(group->forces[i], point, of_forces));
+    const baum_i_force_type *type = group->type;
+    for (int i = 0; type->potential && i < group->count; i++) {
+      const baum_i_force *force = group->forces[i];
+      if (!whole_power || (type->power_is_whole && type->power_is_whole(force))) {
+        BAUM_I_TRY(type->potential(force, point, whole_power ? &sum[type->whole_class] : sum));
+      }
     }
   }
   return BAUM_OK;
@@ -177,15 +181,14 @@ static baum_status add_potentials(baum_i_point *point, bool whole_power, double 
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)
 {
   *potential = 0.0;
-  return add_potentials(point, false, potential, potential);
+  return add_potentials(point, false, potential);
 }
 
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
                                                 double potential[BAUM_I_POWERS])
 {
   clear(potential, BAUM_I_POWERS);
-  return add_potentials(point, true, &potential[BAUM_I_POWER_BODIES],
-                        &potential[BAUM_I_POWER_USER_FORCES]);
+  return add_potentials(point, true, potential);
 }
 
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS])

@@ -226,14 +226,27 @@ static baum_status check_path(const baum_i_def_field *f, const baum_mechanism *m
 {
   const baum_body_id *bodies = pointer_at(f, def);
   const int32_t count = count_of(f, def);
-  if (count == 1) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count is 1, must be at least 2", label);
+  if (count < 2) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: point_count is %d, must be at least 2", label,
+                       (int)count);
   }
-  BAUM_I_TRY(check_count(label, "count", count));
+  BAUM_I_TRY(check_count(label, "point_count", count));
   BAUM_I_TRY(baum_i_check_given(label, f->name, bodies != NULL));
   for (int k = 0; k < count; k++) {
     const baum_i_text field = baum_i_text_of("%s[%d]", f->name, k);
     BAUM_I_TRY(baum_i_check_body(mechanism, bodies[k], label, field.text));
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_points(const baum_i_def_field *f, const void *def, const char *label)
+{
+  const double *values = pointer_at(f, def);
+  const int32_t count = count_of(f, def);
+  BAUM_I_TRY(baum_i_check_given(label, f->name, values != NULL));
+  for (int32_t k = 0; k < count; k++) {
+    const baum_i_text field = baum_i_text_of("%s[%d][%d]", f->name, (int)k / 3, (int)k % 3);
+    BAUM_I_TRY(baum_i_check_number(label, field.text, "m", f->rule, values[k]));
   }
   return BAUM_OK;
 }
@@ -273,9 +286,7 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_body(mechanism, *(const baum_body_id *)at, label, f->name);
   case BAUM_I_FIELD_BODIES: return check_bodies(f, mechanism, def, label);
   case BAUM_I_FIELD_PATH: return check_path(f, mechanism, def, label);
-  case BAUM_I_FIELD_POINTS:
-    BAUM_I_TRY(baum_i_check_given(label, f->name, pointer_at(f, def) != NULL));
-    return check_array(f, def, label);
+  case BAUM_I_FIELD_POINTS: return check_points(f, def, label);
   case BAUM_I_FIELD_JOINT:
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);

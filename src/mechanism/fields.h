@@ -38,7 +38,7 @@ typedef enum baum_i_field_kind {
   /* array of doubles or NULL, its length in `counter`; used only at the start of a run */
   BAUM_I_FIELD_ARRAY,
   BAUM_I_FIELD_OWN_ARRAY,
-  BAUM_I_FIELD_POINTS, /* array of points, three doubles each, their number in `counter` */
+  BAUM_I_FIELD_POINTS,         /* array of points, three doubles each, their number in `counter` */
   BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change after the element was added */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* like COUNT, but may be 0 */
   BAUM_I_FIELD_OWN_COUNT,

@@ -475,9 +475,11 @@ struct baum_i_force_type {
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
   /* Adds the power g^T v of one force to the power of its class. If the force has a potential, the
-   * power of the part that derives from it is included only if power_is_whole is set. */
+   * power of the part that derives from it is included only if power_is_whole() returns true. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
-  bool power_is_whole;
+  /* NULL if it never returns true. */
+  bool (*power_is_whole)(const baum_i_force *force);
+  baum_i_power whole_class; /* the class of such a power */
   /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
    * each). NULL if forces of the type never jump. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One small mechanism for each kind of element, both planar and spatial."""
 
+import math
+
 import numpy as np
 
 import baum
@@ -305,6 +307,24 @@ def spatial_point_on_plane(m):
 
 
 @scene(SPACE)
+def spatial_curve(m):
+    def helix(p):
+        x, y = 0.7 * math.cos(p[2] / 0.2), 0.7 * math.sin(p[2] / 0.2)
+        return [p[0] - x, 1, 0, y / 0.2, 0, 0, 0, 0, 0, x / 0.04, p[1] - y, 0, 1, -x / 0.2, 0, 0, 0, 0, 0, y / 0.04]
+
+    bead = m.spatial_particle("bead", position=(0.7, 0, 0))
+    m.spatial_curve("wire", m.ground, bead, helix, point_a=(0, 0, 0), point_b=(0, 0, 0))
+    m.spherical("frame", m.ground, arm(m, "a", (1, 1, 0), (1, 1, 1)), point=(1, 1, 0))
+
+
+@scene(SPACE)
+def spatial_knife_edge(m):
+    a = arm(m, "a", (0, 0, 0), (1, 0.5, 0))
+    m.point_on_plane("ice", m.ground, a, point=(0, 0, 0), axis=(0, 0, 1))
+    m.spatial_knife_edge("blade", a, point=(0, 0, 0), axis=(-1, 2, 0))
+
+
+@scene(SPACE)
 def spatial_screw(m):
     a = arm(m, "a", (0, 0, 0), (1, 0, 0))
     m.screw("joint", m.ground, a, 0.2, point=(0, 0, 0), axis=(0, 0, 1))
@@ -346,6 +366,14 @@ def spatial_spring(m):
     for k, law in enumerate(({"stiffness": 9}, {"damping": 1}, {"stiffness": 9, "damping": 1})):
         p = m.spatial_particle(None, mass=1, position=(k, 0, 0))
         m.spatial_spring(None, m.ground, p, point_a=(k, 0, 1.5), point_b=(0, 0, 0), **law)
+
+
+@scene(SPACE)
+def spatial_cable(m):
+    a = arm(m, "a", (0, 0, 0), (1, 1, 0))
+    m.spherical("joint", m.ground, a, point=(0, 0, 0))
+    p = m.spatial_particle("weight", position=(2, 0, 0))
+    m.cable("rope", [m.ground, a, m.ground, p], [(0, 0, 1), (0.5, 0.5, 0), (2, 0, 1.5), (0, 0, 0)], stiffness=9)
 
 
 @scene(SPACE)

@@ -350,6 +350,56 @@ static void every_method_makes_the_same_motion(void **state)
   }
 }
 
+/* ---- a bushing that rotates too far ---- */
+
+/* Runs a sphere that rotates in a bushing about a tilted axis, and returns its warning, or 0. The
+ * angle swings to w_0 / sqrt(k / I). */
+static int warning_of(double angle, double stiffness, bool fixed)
+{
+  static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};
+  baum_mechanism *m = NULL;
+  baum_simulation *run = NULL;
+  baum_warning warning = {.code = (baum_warning_code)0};
+  double v[SIX] = {0.0};
+  const double q[7] = {0.0, 0.0, 0.0, 1.0};
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
+  baum_spatial_bushing_def def = bushing_on(add_body(m, SPHERE));
+  def.name = "rubber";
+  for (int i = 0; i < SIX; i++) {
+    def.stiffness[7 * i] = i < 3 ? 10.0 : stiffness;
+  }
+  check(baum_mechanism_add_spatial_bushing(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_dp5();
+  o.step = fixed ? 1e-2 : (double)NAN;
+  o.rtol = fixed ? (double)NAN : 1e-8;
+  baum_i_add_scaled3(angle * sqrt(4.0 / 0.5), n, v + 3);
+  check(baum_simulation_create(m, &o, &run));
+  check(baum_simulation_set_state(run, 0.0, q, v));
+  baum_status status = baum_simulation_advance_to(run, 5.0);
+  assert_true(status == BAUM_OK || status == BAUM_WARNED);
+  if (status == BAUM_WARNED) {
+    check(baum_simulation_warning(run, 0, &warning, sizeof warning));
+    assert_true(warning.doubts_motion);
+    assert_non_null(strstr(warning.text, "the rotation of force 1 \"rubber\" has passed pi"));
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+  return (int)warning.code;
+}
+
+static void a_bushing_that_passes_pi_warns(void **state)
+{
+  (void)state;
+  for (int fixed = 0; fixed < 2; fixed++) {
+    assert_int_equal(warning_of(3.1, 4.0, fixed), 0);
+    assert_int_equal(warning_of(3.2, 4.0, fixed), BAUM_WARNING_BUSHING);
+    assert_int_equal(warning_of(3.2, 0.0, fixed), 0); /* without a moment nothing jumps */
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -357,6 +407,7 @@ int main(void)
     cmocka_unit_test(a_torsion_spring_measures_the_twist),
     cmocka_unit_test(small_motions_are_those_of_the_linear_equations),
     cmocka_unit_test(every_method_makes_the_same_motion),
+    cmocka_unit_test(a_bushing_that_passes_pi_warns),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,6 +42,12 @@ def circle(xy):
     return xy[0] ** 2 + xy[1] ** 2 - 0.25, 2 * xy[0], 2 * xy[1], 2, 0, 2
 
 
+def helix(xyz):
+    x, y, z = xyz
+    c, s = 0.5 * math.cos(z / 0.2), 0.5 * math.sin(z / 0.2)
+    return [x - c, 1, 0, s / 0.2, 0, 0, 0, 0, 0, c / 0.04, y - s, 0, 1, -c / 0.2, 0, 0, 0, 0, 0, s / 0.04]
+
+
 ALONG = {"point": (1, 0, 0), "axis": (1, 0, 0)}
 # For each kind of joint, two lists of displacements of the body (x, y, angle). Those in the first
 # list keep the joint closed.
@@ -77,6 +83,8 @@ SPACE = {
     "point_on_line": (lambda m, b: m.point_on_line("joint", m.ground, b, **ALONG), [(0.2, 0, 0), "x"], [(0, 0.1, 0)]),
     "point_on_plane": (lambda m, b: m.point_on_plane("joint", m.ground, b, **ALONG),
                        [(0, 0.1, 0.1), "x"], [(0.1, 0, 0)]),
+    "spatial_curve": (lambda m, b: m.spatial_curve("joint", m.ground, b, helix, point_a=(0.5, 0, 0), point_b=(0, 0, 0)),
+                      [(-1, 0, 0.2 * math.pi), "x"], [(0.1, 0, 0), (0, 0, 0.2)]),
 }
 
 

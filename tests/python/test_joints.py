@@ -94,6 +94,64 @@ class Rows(unittest.TestCase):
         run.advance_to(1)
         np.testing.assert_allclose(run.q[:3], (2, 0.5, 0), atol=1e-12)
 
+    def test_a_skate_in_space(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        skate = m.spatial_body("skate", position=(1, 0, 0), velocity=(2, 3, 1), angular_velocity=(0, 0, 0))
+        m.spatial_knife_edge("blade", skate, point_a=(0, 0, 0), axis=(0, 0, 2))
+        mobility = m.freeze().mobility()
+        self.assertEqual((mobility.degrees_of_freedom, mobility.position_degrees_of_freedom), (5, 6))
+        run = baum.Simulation(m, "rk4", step=1e-2)
+        np.testing.assert_allclose(run.v, (2, 3, 0, 0, 0, 0), atol=1e-14)
+        run.advance_to(1)
+        np.testing.assert_allclose(run.q[:3], (3, 3, 0), atol=1e-12)
+
+    def test_a_point_stays_on_a_curve_in_space(self):
+        seen = []
+
+        def line(xyz):
+            seen.append(xyz.tolist())
+            return [xyz[0], 1, *[0] * 8, xyz[1] - 2 * xyz[2], 0, 1, -2, *[0] * 6]
+
+        m = baum.Mechanism()
+        ball = m.spatial_particle("ball", position=(0.5, 4, 2))
+        m.spatial_curve("wire", m.ground, ball, line, point_a=(0.5, 0, 0), point_b=(0, 0, 0))
+        np.testing.assert_allclose(phi(m, (2.5, 5, 1)), [2.0, 3.0])
+        self.assertIn([2.0, 5.0, 1.0], seen)
+        m = baum.Mechanism()
+        m.spatial_particle("ball")
+        m.spatial_curve("wire", "ground", "ball", lambda xyz: 6 * [0.0], point=(0, 0, 0))
+        with self.assertRaisesRegex(ValueError, r"wire.*curve must return an array of shape \(20,\)"):
+            phi(m, (0, 0, 0))
+
+    def test_a_cable_lifts_a_weight(self):
+        m = baum.Mechanism(up="z")
+        m.spatial_particle("light", position=(0, 0, 0))
+        m.spatial_particle("heavy", mass=3, position=(1, 0, 0))
+        path = [(0, 0, 0), (0, 0, 2), (1, 0, 2), (0, 0, 0)]
+        rope = m.cable("rope", ["light", m.ground, m.ground, "heavy"], path, stiffness=1e4, free_length=5.0 - 15e-4 * 9.81)
+        self.assertEqual([one.name for one in rope.definition["bodies"]], ["light", "ground", "ground", "heavy"])
+        np.testing.assert_allclose(rope.definition["points"], path)
+        # The initial stretch is that of the tension 2 m M g / (m + M) of Atwood's machine.
+        run = m.freeze().simulation("rk8", step=1e-3)
+        run.advance_to(0.5)
+        np.testing.assert_allclose(run.q[[2, 5]], (0.125 * 9.81 / 2, -0.125 * 9.81 / 2), atol=1e-9)
+
+    def test_wrong_cables_are_refused(self):
+        for bodies, points, error, said in (
+            (["bob"], [(0, 0, 0)], baum.Error, r"len\(bodies\) is 1, must be at least 2"),
+            ([], [], baum.Error, r"len\(bodies\) is 0, must be at least 2"),
+            (["bob", "ground"], [(0, 0, 0)], ValueError, "points: 6 numbers are wanted, not 3"),
+            (["bob", "ground"], [(0, 0), (0, 0, 0)], ValueError, "points: 3 numbers are wanted, not 2"),
+            (["bob", "ground"], 3, TypeError, "points are wanted, not 3"),
+            (["bob", "ground"], [(0, 0, 0), (0, math.inf, 0)], baum.Error, r"points\[1\]\[1\] is inf m, must be finite"),
+            (["ground", "bob"], [(0, 0, 0), (0, 1, 0)], baum.Error, r"points\[1\] is \(0, 1, 0\) m, must be \(0, 0, 0\)"),
+            (["bob", "nobody"], [(0, 0, 0), (0, 1, 0)], KeyError, "nobody"),
+        ):
+            m = baum.Mechanism()
+            m.spatial_particle("bob")
+            with self.subTest(points), self.assertRaisesRegex(error, said):
+                m.cable("rope", bodies, points)
+
     def test_stability_of_rows_of_velocity_level(self):
         self.assertEqual(baum.stability_limit("euler", velocity_level=True), 2)
         self.assertAlmostEqual(baum.stability("rk2", 1.0).spectral_radius, 0.5, 14)

@@ -27,6 +27,12 @@ class Rotation:
         return np.roll(self.p, -1)
 
 
+def saddle(xyz):
+    """The curve in which z = x y and x + 0.5 z = 0 intersect."""
+    x, y, z = xyz
+    return [z - x * y, -y, -x, 1, 0, -1, 0, 0, 0, 0, x + 0.5 * z, 1, 0, 0.5, 0, 0, 0, 0, 0, 0]
+
+
 def add_every_joint(m, a, b, p):
     """Add one joint of each kind between two bodies and a particle. Some have a common point in
     ground axes, others have points and axes in the axes of both bodies."""
@@ -43,6 +49,9 @@ def add_every_joint(m, a, b, p):
     m.constant_velocity("cage", a, b, point=point, axis=(1, 0, 0), axis_b=(1, 1, 0))
     m.point_on_line("line", a, p, point_a=point, point_b=(0, 0, 0), axis=(1, 0, 2))
     m.point_on_plane("plane", a, p, point=(1, 2, 3), axis=(0, 1, 0))
+    m.spatial_curve("curve", a, p, saddle, point=(1, 2, 3))
+    m.spatial_knife_edge("edge", a, point=point, axis=(1, 0, 2), body_b=b)
+    m.cable("cable", [a, m.ground, b], [point, (1, 1, 1), (0, 0, 0.2)], stiffness=2, damping=0.1)
     m.spatial_spring(
         "spring", a, b, point_a=(0, 0, 0), point_b=(0.1, 0, 0), stiffness=3, damping=0.1
     )
@@ -514,6 +523,15 @@ class MovedCopies(unittest.TestCase):
         hinge.driver("motor", "J")
         with self.assertRaisesRegex(ValueError, 'joint "J" keeps'):
             hinge.copy(a=dict(orientation=TILTED))
+
+    def test_a_cable_keeps_its_free_length(self):
+        m = everything().freeze()
+        moved = m.copy(b=dict(position=(1, 1, 1)))
+        length = moved["cable"].definition["free_length"]
+        w, there = baum.Workspace(m), baum.Workspace(m.copy(cable=dict(free_length=length)))
+        q = w.design()[0]
+        np.testing.assert_allclose(w.force(0, q, np.zeros(15)), there.force(0, q, np.zeros(15)), atol=1e-14)
+        self.assertTrue(math.isnan(m.copy(p=dict(position=(1, 2, 3)))["cable"].definition["free_length"]))
 
     def test_planar_bodies_take_part(self):
         m = baum.Mechanism()

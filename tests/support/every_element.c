@@ -18,8 +18,7 @@ static const double CIRCLE_RADIUS = 0.3;
 static const double CRANK_ANGLE = 0.5;
 static const double BLOCK_ANGLE = 0.1; /* angle of all blocks, so that none is horizontal */
 
-/* Counts a call. If the call has to fail, writes NaN into `out` or returns fault->answer. */
-static int answer(void *user, double t, double *out)
+int every_element_answer(void *user, double t, double *out)
 {
   every_fault *fault = user;
   if (!fault) {
@@ -43,7 +42,7 @@ static int circle_phi(double t, const double *q, double *out, void *user)
   double x = q[3] - q[0];
   double y = q[4] - q[1];
   out[0] = 0.5 * (x * x + y * y - CIRCLE_RADIUS * CIRCLE_RADIUS);
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int circle_jacobian(double t, const double *q, double *out, void *user)
@@ -52,13 +51,13 @@ static int circle_jacobian(double t, const double *q, double *out, void *user)
   out[1] = q[1] - q[4];
   out[3] = q[3] - q[0];
   out[4] = q[4] - q[1];
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int circle_nu(double t, const double *q, double *out, void *user)
 {
   (void)q;
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int circle_gamma(double t, const double *q, const double *v, double *out, void *user)
@@ -67,7 +66,7 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
   double x = v[3] - v[0];
   double y = v[4] - v[1];
   out[0] = -(x * x + y * y);
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int masses_mass(double t, const double *q, double *out, void *user)
@@ -75,7 +74,7 @@ static int masses_mass(double t, const double *q, double *out, void *user)
   (void)q;
   out[0] = 2.0;
   out[3] = 1.0;
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int masses_force(double t, const double *q, const double *v, const double *inputs,
@@ -85,13 +84,13 @@ static int masses_force(double t, const double *q, const double *v, const double
   (void)inputs;
   out[0] = -8.0 * q[0] + 4.0 * (q[1] - q[0]);
   out[1] = -4.0 * (q[1] - q[0]);
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int masses_potential(double t, const double *q, double *out, void *user)
 {
   out[0] = 4.0 * q[0] * q[0] + 2.0 * (q[1] - q[0]) * (q[1] - q[0]);
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int drag_force(double t, const double *q, const double *v, const double *inputs, double *out,
@@ -101,7 +100,7 @@ static int drag_force(double t, const double *q, const double *v, const double *
   (void)inputs;
   out[0] = -0.1 * v[0];
   out[1] = -0.1 * v[1];
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int drag_force_q(double t, const double *q, const double *v, const double *inputs,
@@ -110,7 +109,7 @@ static int drag_force_q(double t, const double *q, const double *v, const double
   (void)q;
   (void)v;
   (void)inputs;
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 static int drag_force_v(double t, const double *q, const double *v, const double *inputs,
@@ -121,7 +120,7 @@ static int drag_force_v(double t, const double *q, const double *v, const double
   (void)inputs;
   out[0] = -0.1;
   out[3] = -0.1;
-  return answer(user, t, out);
+  return every_element_answer(user, t, out);
 }
 
 /* The position of the bead in the slot of the disc, as a function of the crank's angle. The law has
@@ -131,7 +130,7 @@ static int lead_law(double x, double f[3], void *user)
   f[0] = 0.05 + 0.02 * sin(x - CRANK_ANGLE);
   f[1] = 0.02 * cos(x - CRANK_ANGLE);
   f[2] = -0.02 * sin(x - CRANK_ANGLE);
-  return answer(user, -(double)INFINITY, f);
+  return every_element_answer(user, -(double)INFINITY, f);
 }
 
 /* The curve y = 2 x^2 - 0.1. It has no time argument either, so fault->after has no effect. */
@@ -141,7 +140,7 @@ static int track_curve(const double xy[2], double out[6], void *user)
   out[1] = -4.0 * xy[0];
   out[2] = 1.0;
   out[3] = -4.0;
-  return answer(user, -(double)INFINITY, out);
+  return every_element_answer(user, -(double)INFINITY, out);
 }
 
 /* ---- definitions ---- */
@@ -492,6 +491,9 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   parts->circle_bodies[0] = parts->slider;
   parts->circle_bodies[1] = parts->bob;
   parts->drag_bodies[0] = parts->bob;
+  parts->rope_bodies[0] = parts->skate;
+  parts->rope_bodies[1] = BAUM_GROUND;
+  parts->rope_bodies[2] = parts->drop;
   kind->good(parts, &def);
   baum_status status = kind->add(parts->mechanism, &def, &id);
   if (status == BAUM_OK) {
@@ -501,14 +503,15 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
 }
 
 /* Indices of kinds that need additional bodies: the first joint of the train, the spline driver,
- * the first kind in space, the knife edge, the rolling disc, and the screw. */
+ * the first kind in space, the knife edge, the rolling disc, the screw, and the curve in space. */
 enum {
   EVERY_WITHOUT_TRAIN = 13,
   EVERY_WITHOUT_WHEEL = 18,
   EVERY_WITHOUT_SPACE = 19,
   EVERY_WITHOUT_SLED = 34,
   EVERY_WITHOUT_COIN = 35,
-  EVERY_WITHOUT_NUT = 38
+  EVERY_WITHOUT_NUT = 38,
+  EVERY_WITHOUT_SKATE = 40
 };
 
 /* Adds the bodies that a kind needs, unless they exist. */
@@ -521,6 +524,7 @@ static baum_status add_needed_bodies(every_element *parts, int kind)
   case EVERY_WITHOUT_SLED: return add_block(parts, "sled", 0.9, 0.5, &parts->sled);
   case EVERY_WITHOUT_COIN: return every_element_add_coin(parts);
   case EVERY_WITHOUT_NUT: return every_element_add_nut(parts);
+  case EVERY_WITHOUT_SKATE: return every_element_add_skate(parts);
   default: return BAUM_OK;
   }
 }

@@ -26,9 +26,11 @@
  *   a twirl (torsion spring of the top) and a rubber (bushing of the cap)
  *
  * The last elements are a sled in the plane on a blade (knife edge), a coin that rolls (rolling
- * disc), a nut on a thread (screw), and a spindle behind a constant-velocity joint of the nut.
+ * disc), a nut on a thread (screw), a spindle behind a constant-velocity joint of the nut, a drop on a
+ * spiral (curve in space), and a skate on a runner (knife edge in space) with a rope (cable) to the
+ * drop.
  *
- * The mechanism has 95 positions, 86 velocities, 69 rows and 17 degrees of freedom of velocity. The
+ * The mechanism has 105 positions, 95 velocities, 72 rows and 23 degrees of freedom of velocity. The
  * planar part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4
  * degrees of freedom. The design configuration satisfies all rows except the row of `cam`.
  */
@@ -78,6 +80,8 @@ typedef struct every_element {
   baum_body_id coin;
   baum_body_id nut;
   baum_body_id spindle;
+  baum_body_id drop;
+  baum_body_id skate;
   baum_joint_id pin;
   baum_joint_id rod;
   baum_joint_id guide;
@@ -107,6 +111,8 @@ typedef struct every_element {
   baum_joint_id rolling;
   baum_joint_id thread;
   baum_joint_id ball_cage;
+  baum_joint_id spiral;
+  baum_joint_id runner;
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
@@ -116,14 +122,16 @@ typedef struct every_element {
   baum_force_id winding;
   baum_force_id twirl;
   baum_force_id rubber;
+  baum_force_id rope;
   /* The input of the loads `load` and `push`; its initial value is 1. */
   baum_input_id throttle;
   every_fault *fault;            /* the `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* arrays for the definitions */
   baum_body_id drag_bodies[1];
+  baum_body_id rope_bodies[3];
 } every_element;
 
-enum { EVERY_NQ = 95, EVERY_NV = 86, EVERY_NC = 69, EVERY_DEF_SIZE = 1024 };
+enum { EVERY_NQ = 105, EVERY_NV = 95, EVERY_NC = 72, EVERY_DEF_SIZE = 1024 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -179,7 +187,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 40 };
+enum { ELEMENT_KINDS = 43 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };

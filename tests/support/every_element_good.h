@@ -47,12 +47,20 @@ void good_spatial_bushing(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
 void good_planar_knife_edge(const every_element *parts, any_def *to);
 void good_spatial_rolling_disc(const every_element *parts, any_def *to);
+void good_spatial_curve(const every_element *parts, any_def *to);
+void good_spatial_knife_edge(const every_element *parts, any_def *to);
+void good_spatial_cable(const every_element *parts, any_def *to);
 
 /* Adds those spatial bodies that are needed in addition to one example of each kind. The function
  * is in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 baum_status every_element_add_coin(every_element *parts);
 baum_status every_element_add_nut(every_element *parts);
+baum_status every_element_add_skate(every_element *parts);
+
+/* Counts a call of a user function. If the call has to fail, writes NaN into `out` or returns
+ * fault->answer. */
+int every_element_answer(void *user, double t, double *out);
 
 /* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */
 #define GOOD(NAME)                                                 \

@@ -123,6 +123,9 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(force, spatial_bushing, "spatial bushing", rubber),
   KIND(joint, spatial_screw, "spatial screw", thread),
   KIND(joint, spatial_constant_velocity, "spatial constant-velocity joint", ball_cage),
+  KIND(joint, spatial_curve, "spatial point on a curve", spiral),
+  KIND(joint, spatial_knife_edge, "spatial knife edge", runner),
+  KIND(force, spatial_cable, "spatial cable", rope),
 };
 
 /* ---- fields of a definition, read from the library's table ---- */
@@ -133,6 +136,7 @@ static field_type type_of(const baum_i_def_field *field)
     [BAUM_I_FIELD_NUMBERS] = FIELD_NUMBERS,
     [BAUM_I_FIELD_ARRAY] = FIELD_ARRAY,
     [BAUM_I_FIELD_OWN_ARRAY] = FIELD_ARRAY,
+    [BAUM_I_FIELD_POINTS] = FIELD_ARRAY,
     [BAUM_I_FIELD_COUNT] = FIELD_INTEGER,
     [BAUM_I_FIELD_OPTIONAL_COUNT] = FIELD_INTEGER,
     [BAUM_I_FIELD_OWN_COUNT] = FIELD_INTEGER,
@@ -142,6 +146,7 @@ static field_type type_of(const baum_i_def_field *field)
     [BAUM_I_FIELD_BODY] = FIELD_ID,
     [BAUM_I_FIELD_CARRIER] = FIELD_ID,
     [BAUM_I_FIELD_BODIES] = FIELD_ARRAY,
+    [BAUM_I_FIELD_PATH] = FIELD_ARRAY,
     [BAUM_I_FIELD_JOINT] = FIELD_ID,
     [BAUM_I_FIELD_COORDINATE] = FIELD_INTEGER,
     [BAUM_I_FIELD_INPUT] = FIELD_ID,

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The spatial part of the mechanism that has every element. */
+#include <math.h>
+
 #include "every_element_good.h"
 
 /* ---- bodies ---- */
@@ -274,5 +276,74 @@ GOOD(spatial_rolling_disc)
   set3(def.point_a, 0.0, -0.5, 0.0);
   def.radius = 0.1;
   def.rim_radius = 0.02;
+  return def;
+}
+
+/* ---- a drop on a spiral, and a skate ---- */
+
+static const double SPIRAL_RADIUS = 0.2;
+static const double SPIRAL_RISE = 0.1; /* [m/rad] */
+
+/* The helix x = r cos(z / c), y = r sin(z / c). */
+static int spiral(const double xyz[3], double out[20], void *user)
+{
+  const double r = SPIRAL_RADIUS, c = SPIRAL_RISE;
+  const double x = r * cos(xyz[2] / c), y = r * sin(xyz[2] / c);
+  out[0] = xyz[0] - x;
+  out[1] = 1.0;
+  out[3] = y / c;
+  out[9] = x / (c * c);
+  out[10] = xyz[1] - y;
+  out[12] = 1.0;
+  out[13] = -x / c;
+  out[19] = y / (c * c);
+  return every_element_answer(user, -(double)INFINITY, out);
+}
+
+baum_status every_element_add_skate(every_element *parts)
+{
+  baum_spatial_particle_def drop = baum_spatial_particle_def_default();
+  drop.name = "drop";
+  drop.mass = 0.1;
+  set3(drop.position, 1.5 + SPIRAL_RADIUS, 0.2, 0.0);
+  const baum_spatial_body_def skate = body_at("skate", 1.6, -0.3, 0.2);
+  baum_status status = baum_mechanism_add_spatial_particle(parts->mechanism, &drop, &parts->drop);
+  return status == BAUM_OK
+           ? baum_mechanism_add_spatial_body(parts->mechanism, &skate, &parts->skate)
+           : status;
+}
+
+GOOD(spatial_curve)
+{
+  baum_spatial_curve_def def = baum_spatial_curve_def_default();
+  BETWEEN(def, "spiral", BAUM_GROUND, parts->drop);
+  set3(def.point_a, 1.5, 0.2, 0.0);
+  set3(def.point_b, 0.0, 0.0, 0.0);
+  def.curve = spiral;
+  def.user = parts->fault;
+  return def;
+}
+
+GOOD(spatial_knife_edge)
+{
+  baum_spatial_knife_edge_def def = baum_spatial_knife_edge_def_default();
+  def.name = "runner";
+  def.body_a = parts->skate;
+  set3(def.point_a, 0.02, -0.05, 0.01);
+  set3(def.axis, 0.1, 0.2, 1.0);
+  return def;
+}
+
+GOOD(spatial_cable)
+{
+  static const double points[9] = {0.02, 0.05, 0.01, 1.5, 0.4, 0.1, 0.0, 0.0, 0.0};
+  baum_spatial_cable_def def = baum_spatial_cable_def_default();
+  def.name = "rope";
+  def.bodies = parts->rope_bodies;
+  def.points = points;
+  def.point_count = 3;
+  def.stiffness = 2.0;
+  def.damping = 0.02;
+  def.free_length = 0.5;
   return def;
 }

@@ -174,6 +174,87 @@ static void add_sphere(scene *s, int a, int b)
   add_rolling(s, a, b, 0.6);
 }
 
+static void add_knife_edge(scene *s, int a, int b)
+{
+  static const double vectors[2][3] = {{0.3, -0.2, 0.5}, {0.3, 1.0, 0.7}};
+  baum_spatial_knife_edge_def def = baum_spatial_knife_edge_def_default();
+  def.body_a = s->bodies[a];
+  def.body_b = s->bodies[b];
+  memcpy(def.point_a, vectors[0], sizeof def.point_a);
+  memcpy(def.axis, vectors[1], sizeof def.axis);
+  check(baum_mechanism_add_spatial_knife_edge(s->mechanism, &def, NULL));
+}
+
+/* F = c . x + 0.1 (c . x) (d . x) + 0.3 sin(d . x) with all derivatives nonzero, and the same function G
+ * with other vectors. */
+static int bent(const double xyz[3], double out[20], void *user)
+{
+  static const double c[2][3] = {{0.9, 0.2, -0.4}, {-0.3, 0.8, 0.3}};
+  static const double d[2][3] = {{0.7, -0.5, 0.4}, {0.3, 0.6, 0.9}};
+  (void)user;
+  for (int row = 0; row < 2; row++) {
+    double *f = out + 10 * row;
+    double along = 0.0;
+    double turned = 0.0;
+    for (int i = 0; i < 3; i++) {
+      along += c[row][i] * xyz[i];
+      turned += d[row][i] * xyz[i];
+    }
+    f[0] = along + 0.1 * along * turned + 0.3 * sin(turned);
+    for (int i = 0, k = 4; i < 3; i++) {
+      f[1 + i] = c[row][i] * (1.0 + 0.1 * turned) + d[row][i] * (0.1 * along + 0.3 * cos(turned));
+      for (int j = i; j < 3; j++, k++) {
+        f[k] = 0.1 * (c[row][i] * d[row][j] + c[row][j] * d[row][i]) -
+               0.3 * sin(turned) * d[row][i] * d[row][j];
+      }
+    }
+  }
+  return 0;
+}
+
+static void add_curve(scene *s, int a, int b)
+{
+  baum_spatial_curve_def def = baum_spatial_curve_def_default();
+  BETWEEN(s, def, a, b);
+  def.curve = bent;
+  check(baum_mechanism_add_spatial_curve(s->mechanism, &def, NULL));
+}
+
+/* Adds a cable that touches ground and runs twice through body a. If body a is a particle, the last
+ * part of the cable has no length. */
+static void add_cable_with(scene *s, int a, int b, double transition)
+{
+  double points[5][3] = {
+    {0.3, -0.2, 0.5}, {-0.1, 0.4, 0.25}, {0.2, 1.5, -0.6}, {-0.4, 0.1, 0.3}, {0.5, 0.2, 0.1}};
+  const baum_body_id bodies[5] = {s->bodies[a], s->bodies[b], BAUM_GROUND, s->bodies[a],
+                                  s->bodies[a]};
+  baum_spatial_cable_def def = baum_spatial_cable_def_default();
+  for (int k = 0; k < 5; k++) {
+    if (k != 2 && is_particle(k == 1 ? b : a)) {
+      memset(points[k], 0, sizeof points[k]);
+    }
+  }
+  def.bodies = bodies;
+  def.points = points[0];
+  def.point_count = 5;
+  def.stiffness = 3.0;
+  def.damping = 0.7;
+  def.free_length = 0.4;
+  def.transition = transition;
+  check(baum_mechanism_add_spatial_cable(s->mechanism, &def, NULL));
+}
+
+static void add_cable(scene *s, int a, int b)
+{
+  add_cable_with(s, a, b, 0.0);
+}
+
+/* The stretch of this cable is always smaller than its transition. */
+static void add_soft_cable(scene *s, int a, int b)
+{
+  add_cable_with(s, a, b, 50.0);
+}
+
 static void add_spring(scene *s, int a, int b)
 {
   baum_spatial_spring_def def = baum_spatial_spring_def_default();
@@ -263,7 +344,11 @@ static const element elements[] = {
   {"rolling disc", add_disc, false, false, false, false},
   {"rolling wheel", add_wheel, false, false, false, false},
   {"rolling sphere", add_sphere, false, false, false, false},
+  {"curve", add_curve, false, true, false, false},
+  {"knife edge", add_knife_edge, false, false, false, false},
   {"spring", add_spring, true, true, true, false},
+  {"cable", add_cable, true, true, true, false},
+  {"soft cable", add_soft_cable, true, true, true, false},
   {"torsion spring", add_torsion_spring, false, false, true, false},
   {"bushing", add_bushing, false, false, true, false},
   {"load", add_load, true, true, true, false},

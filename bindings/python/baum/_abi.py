@@ -962,7 +962,7 @@ class baum_spatial_cable_def(Structure):
         ("name", c_char_p),
         ("bodies", POINTER(baum_body_id)),
         ("points", c_void_p),
-        ("count", c_int32),
+        ("point_count", c_int32),
         ("stiffness", c_double),
         ("damping", c_double),
         ("free_length", c_double),

@@ -147,7 +147,7 @@ Find = Callable[[str, Any], Any]
 # Arguments whose names differ from those of their fields: argument -> field.
 FIELDS = {"rows": "row_count"}
 ARGUMENTS = {field: argument for argument, field in FIELDS.items()}
-HIDDEN = ("struct_size", "body_count", "count")
+HIDDEN = ("struct_size", "body_count", "point_count", "count")
 # Fields that accept several forms, and the functions that convert them.
 FORMS = {
     ("spatial_body", "inertia"): _rotation.tensor,
@@ -255,7 +255,7 @@ class Definition:
         alone = isinstance(value, str) or hasattr(value, "family")
         handles = [self._find("body", body) for body in ([value] if alone else value)]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
-        setattr(self.struct, "count" if "points" in self._types else "body_count", len(handles))
+        setattr(self.struct, "point_count" if "points" in self._types else "body_count", len(handles))
 
     def _pointer(self, name: str, value: Any, label: str) -> Any:
         """Return the address for a pointer field. The field `user` holds an address or a ctypes
@@ -271,7 +271,11 @@ class Definition:
                     f"{label}: an address or an object of ctypes is wanted, not {value!r}"
                 ) from None
         if name == "points":
-            value = [x for point in value for x in vector(point, 3, label)]
+            try:
+                rows = list(value)
+            except TypeError:
+                raise TypeError(f"{label}: points are wanted, not {value!r}") from None
+            value = [x for row in rows for x in vector(row, 3, label)]
         array = vector(value, length(self.struct, name), label)
         self.keep.append(array)
         return address(array)
@@ -334,8 +338,10 @@ def length(definition: Any, name: str) -> int:
     """Return the number of entries of an array of a definition."""
     if name in ("q", "position_scale"):
         return position_count(definition)
+    if name == "points":
+        return 3 * int(definition.point_count)
     count: int = definition.size if hasattr(definition, "size") else definition.count
-    return 3 * count if name == "points" else count
+    return count
 
 
 def as_dict(definition: Any, find: Find) -> dict[str, Any]:
@@ -348,7 +354,7 @@ def as_dict(definition: Any, find: Find) -> dict[str, Any]:
         if name == "bodies":
             if not hasattr(definition, "points"):
                 continue
-            value = tuple(find("body", value[k]) for k in range(definition.count))
+            value = tuple(find("body", value[k]) for k in range(definition.point_count))
         elif name == "points":
             value = numbers(value, length(definition, name)).reshape(-1, 3)
         elif kind in FAMILIES:

@@ -52,6 +52,12 @@ static baum_status potential(const baum_i_force *element, baum_i_point *point, d
   return baum_i_given_force_potential(&f, &at, sum);
 }
 
+static bool power_is_whole(const baum_i_force *force)
+{
+  (void)force;
+  return true;
+}
+
 static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
@@ -87,7 +93,8 @@ static const baum_i_force_type type = {
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .power_is_whole = true,
+  .power_is_whole = power_is_whole,
+  .whole_class = BAUM_I_POWER_USER_FORCES,
 };
 
 BAUM_I_DEFINE(force, user_force, type)

@@ -34,9 +34,9 @@ static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};
 BAUM_I_CHECK_SPRING_DEF(baum_spatial_cable_def);
 
 static const baum_i_def_field fields[] = {
-  BAUM_I_ARRAY(baum_spatial_cable_def, bodies, PATH, FINITE, count, count),
-  BAUM_I_ARRAY(baum_spatial_cable_def, points, POINTS, FINITE, count, count),
-  BAUM_I_FIELD(baum_spatial_cable_def, count, OWN_COUNT),
+  BAUM_I_ARRAY(baum_spatial_cable_def, bodies, PATH, FINITE, point_count, point_count),
+  BAUM_I_ARRAY(baum_spatial_cable_def, points, POINTS, FINITE, point_count, point_count),
+  BAUM_I_FIELD(baum_spatial_cable_def, point_count, OWN_COUNT),
   BAUM_I_SPRING_FIELDS(baum_spatial_cable_def, "N/m", "N s/m", free_length, OPTIONAL_NOT_NEGATIVE,
                        "m"),
   BAUM_I_OPTIONAL(baum_spatial_cable_def, transition, OPTIONAL_NOT_NEGATIVE, "m"),
@@ -48,7 +48,7 @@ static const baum_i_def_field fields[] = {
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spatial_cable_def *def = given;
-  for (int k = 0; k < def->count; k++) {
+  for (int k = 0; k < def->point_count; k++) {
     const baum_i_text body = baum_i_text_of("bodies[%d]", k);
     const baum_i_text point = baum_i_text_of("points[%d]", k);
     BAUM_I_TRY(baum_i_spatial_check_body(mechanism, def->bodies[k], label, body.text));
@@ -74,7 +74,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 {
   const baum_spatial_cable_def *def = force->element.def;
   double length = 0.0;
-  for (int k = 0; k + 1 < def->count; k++) {
+  for (int k = 0; k + 1 < def->point_count; k++) {
     ends at = ends_of(mechanism, def, k);
     const baum_i_span span = {.body_count = 2, .bodies = at.bodies};
     length += baum_i_spatial_design_length(mechanism, &span, def->points + 3 * (ptrdiff_t)k);
@@ -119,7 +119,7 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 {
   const baum_spatial_cable_def *def = force->element.def;
   baum_i_stretch sum = {.scale = point->mechanism->length};
-  for (int k = 0; k + 1 < def->count; k++) {
+  for (int k = 0; k + 1 < def->point_count; k++) {
     const part p = part_at(force, point, k);
     sum.length += p.length;
     sum.rate += p.rate;
@@ -170,18 +170,26 @@ static baum_status potential(const baum_i_force *force, baum_i_point *point, dou
   return BAUM_OK;
 }
 
+/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but loses its
+ * potential. The steps of a run are not adapted to this loss, which ends suddenly at s = 0. The power
+ * of a damped cable is therefore computed from the whole force, and the loss is the difference of two
+ * potentials. */
+static bool power_is_whole(const baum_i_force *force)
+{
+  const baum_spatial_cable_def *def = force->element.def;
+  return !def->law && def->damping != 0.0;
+}
+
 static baum_status power(const baum_i_force *force, baum_i_point *point, double sum[BAUM_I_POWERS])
 {
   const baum_spatial_cable_def *def = force->element.def;
-  const double *law = numbers_of(force, point) + LAW;
   const baum_i_stretch now = stretch(force, point);
   baum_i_tension t;
   BAUM_I_TRY(tension_at(force, point, &now, &t));
   if (def->law) {
     sum[BAUM_I_POWER_SPRINGS] -= t.value * now.rate;
-  } else {
-    double s = fmax(now.length - law[BAUM_I_FREE_LENGTH], 0.0);
-    sum[BAUM_I_POWER_DAMPERS] -= (t.value - law[BAUM_I_STIFFNESS] * s) * now.rate;
+  } else if (def->damping != 0.0) {
+    sum[BAUM_I_POWER_DAMPERS] -= t.value * now.rate;
   }
   return BAUM_OK;
 }
@@ -210,7 +218,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     const baum_i_stretch now = stretch(one, point);
     baum_i_tension t;
     BAUM_I_TRY(tension_at(one, point, &now, &t));
-    for (int k = 0; t.value != 0.0 && k + 1 < def->count; k++) {
+    for (int k = 0; t.value != 0.0 && k + 1 < def->point_count; k++) {
       add_part(one, point, k, t.value, out);
     }
   }
@@ -266,7 +274,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   double *h = point->scratch;
   double *rate_q = point->scratch + span->nl;
   memset(h, 0, 2 * (size_t)span->nl * sizeof *h);
-  for (int k = 0; k + 1 < def->count; k++) {
+  for (int k = 0; k + 1 < def->point_count; k++) {
     const part p = part_at(element, point, k);
     int at[COLUMNS];
     if (p.length > 0.0) {
@@ -299,6 +307,8 @@ static const baum_i_force_type type = {
   .stretch = stretch,
   .potential = potential,
   .power = power,
+  .power_is_whole = power_is_whole,
+  .whole_class = BAUM_I_POWER_DAMPERS,
 };
 
 BAUM_I_DEFINE(force, spatial_cable, type)
