@@ -143,8 +143,8 @@ void baum_i_draw_blade(const baum_i_symbol *s)
 
 /* ---- a curve F = 0 in the plane, or F = G = 0 in space ---- */
 
-/* The curve of a symbol: F, G and their gradients at a point. In the plane, G is z. Returns false if
- * the function of the user fails. */
+/* The curve of a symbol: F, G and their gradients at a point. In the plane, G is z. Returns false
+ * if the function of the user fails. */
 static bool evaluate_curve(const baum_i_symbol *s, const double at[3], double value[2],
                            double gradient[2][3])
 {

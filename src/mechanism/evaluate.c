@@ -153,6 +153,11 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
  * potential is known exactly, as a difference of two values.
  */
 
+static bool has_whole_power(const baum_i_force_type *type, const baum_i_force *force)
+{
+  return type->power_is_whole && type->power_is_whole(force);
+}
+
 /* Some elements compute their power from the whole force, including the part that has a potential.
  * If `whole_power` is set, include only these elements, and add each potential to that of its class
  * in sum (BAUM_I_POWERS). Otherwise add all potentials to *sum. */
@@ -170,7 +175,7 @@ static baum_status add_potentials(baum_i_point *point, bool whole_power, double 
     const baum_i_force_type *type = group->type;
     for (int i = 0; type->potential && i < group->count; i++) {
       const baum_i_force *force = group->forces[i];
-      if (!whole_power || (type->power_is_whole && type->power_is_whole(force))) {
+      if (!whole_power || has_whole_power(type, force)) {
         BAUM_I_TRY(type->potential(force, point, whole_power ? &sum[type->whole_class] : sum));
       }
     }

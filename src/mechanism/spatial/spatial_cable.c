@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cable over points that are fixed in bodies. Let e_k be the vector from point k to point k + 1, l_k
- * = |e_k|, l = sum of l_k, and h = l_q. T(l, l') is the tension: that of a user's law, or with
+/* Cable over points that are fixed in bodies. Let e_k be the vector from point k to point k + 1,
+ * l_k = |e_k|, l = sum of l_k, and h = l_q. T(l, l') is the tension: that of a user's law, or with
  * s = l - l_0
  *
  *   T = max(0, k s + c w(s / d) l') for s > 0, otherwise 0;   w(x) = x^2 (3 - 2 x), 1 for x > 1
@@ -10,8 +10,8 @@
  *   g_v = -T_l' h h^T
  *
  * h, h_q and (l')_q are sums over the parts k. Each part is a product (spatial_spring.c). A part
- * with l_k = 0 has no direction and is omitted. Points of one body that follow each other are a part
- * of constant length, whose derivatives cancel.
+ * with l_k = 0 has no direction and is omitted. Points of one body that follow each other are a
+ * part of constant length, whose derivatives cancel.
  */
 #include <float.h>
 #include <math.h>
@@ -170,10 +170,10 @@ static baum_status potential(const baum_i_force *force, baum_i_point *point, dou
   return BAUM_OK;
 }
 
-/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but loses its
- * potential. The steps of a run are not adapted to this loss, which ends suddenly at s = 0. The power
- * of a damped cable is therefore computed from the whole force, and the loss is the difference of two
- * potentials. */
+/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but loses
+ * its potential. The steps of a run are not adapted to this loss, which ends suddenly at s = 0. The
+ * power of a damped cable is therefore computed from the whole force, and the loss is the
+ * difference of two potentials. */
 static bool power_is_whole(const baum_i_force *force)
 {
   const baum_spatial_cable_def *def = force->element.def;
