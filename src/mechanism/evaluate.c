@@ -158,27 +158,34 @@ static bool has_whole_power(const baum_i_force_type *type, const baum_i_force *f
   return type->power_is_whole && type->power_is_whole(force);
 }
 
+static baum_status add_of_forces(const baum_i_force_group *group, baum_i_point *point,
+                                 bool whole_power, double *sum)
+{
+  const baum_i_force_type *type = group->type;
+  for (int i = 0; type->potential && i < group->count; i++) {
+    if (!whole_power || has_whole_power(type, group->forces[i])) {
+      double *own = whole_power ? &sum[type->whole_class] : sum;
+      BAUM_I_TRY(type->potential(group->forces[i], point, own));
+    }
+  }
+  return BAUM_OK;
+}
+
 /* Some elements compute their power from the whole force, including the part that has a potential.
  * If `whole_power` is set, include only these elements, and add each potential to that of its class
  * in sum (BAUM_I_POWERS). Otherwise add all potentials to *sum. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *sum)
 {
   const baum_mechanism *m = point->mechanism;
+  double *of_bodies = whole_power ? &sum[BAUM_I_POWER_BODIES] : sum;
   for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
     bool wanted = group->type->potential && (group->type->power || !whole_power);
     for (int i = 0; wanted && i < group->count; i++) {
-      double *of_bodies = whole_power ? &sum[BAUM_I_POWER_BODIES] : sum;
       BAUM_I_TRY(group->type->potential(group->bodies[i], point, of_bodies));
     }
   }
   for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
-    const baum_i_force_type *type = group->type;
-    for (int i = 0; type->potential && i < group->count; i++) {
-      const baum_i_force *force = group->forces[i];
-      if (!whole_power || has_whole_power(type, force)) {
-        BAUM_I_TRY(type->potential(force, point, whole_power ? &sum[type->whole_class] : sum));
-      }
-    }
+    BAUM_I_TRY(add_of_forces(group, point, whole_power, sum));
   }
   return BAUM_OK;
 }
