@@ -513,7 +513,8 @@ static void the_energy_account_holds_across_slack(void **state)
     check(baum_simulation_advance_to(run, 3.0));
     check(baum_simulation_energy_account(run, &account, sizeof account));
     assert_true(account.dampers < -1.0);
-    assert_true(fabs(account.residual) <= (fixed ? 1e-3 : 1e-6));
+    /* A fixed step of 3e-4 m is longer than the transition of 1e-4 m. */
+    assert_true(fabs(account.residual) <= (fixed ? 2e-3 : 2e-5));
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);

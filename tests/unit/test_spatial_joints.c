@@ -12,7 +12,7 @@
 
 #include "check.h"
 #include "derivatives.h"
-#include "spatial_scene.h"
+#include "spatial_elements.h"
 
 #include <baum/baum.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A mechanism with bodies of all kinds, and every spatial element to add between two of them. */
-#ifndef BAUM_TEST_SPATIAL_SCENE_H
-#define BAUM_TEST_SPATIAL_SCENE_H
+#ifndef BAUM_TEST_SPATIAL_ELEMENTS_H
+#define BAUM_TEST_SPATIAL_ELEMENTS_H
 
 #include <baum/baum.h>
 

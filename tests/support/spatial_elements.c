@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "spatial_scene.h"
+#include "spatial_elements.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
