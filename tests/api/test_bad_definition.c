@@ -175,7 +175,7 @@ static bool may_be_nan(const char *name)
 {
   return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
          begins(name, "free_length") || begins(name, "free_angle") || begins(name, "free_value") ||
-         begins(name, "offset") || strcmp(name, "angle") == 0;
+         begins(name, "offset") || begins(name, "transition") || strcmp(name, "angle") == 0;
 }
 
 static void check_not_finite(every_element *parts, const element_kind *kind)

@@ -153,7 +153,7 @@ static void axes_without_direction_are_refused(void **state)
       (void)refuses(&parts, kind, "axis_b", half, "axis_b|nan");
     }
   }
-  assert_int_equal(counts[0], 11);
+  assert_int_equal(counts[0], 12);
   assert_int_equal(counts[1], 10);
   assert_true(
     refuses(&parts, kind_of("spatial_universal"), "axis_b", absent, "axis_b is not given"));
@@ -177,6 +177,44 @@ static void the_shortest_axis_has_a_direction(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+/* ---- cables ---- */
+
+static void wrong_cables_are_refused(void **state)
+{
+  (void)state;
+  every_element parts = open_parts();
+  const baum_body_id bodies[2] = {BAUM_GROUND, parts.ball};
+  const baum_body_id none[2] = {BAUM_GROUND, {0, 0}};
+  const baum_body_id coordinates[2] = {BAUM_GROUND, parts.masses};
+  static const double good[6] = {0.0}, infinite[6] = {[2] = (double)INFINITY};
+  static const double off[6] = {[5] = 0.1};
+  const struct {
+    const baum_body_id *bodies;
+    const double *points;
+    int32_t count;
+    const char *message;
+  } wrong[] = {
+    {NULL, good, 2, "bodies is NULL, must be given"},
+    {bodies, NULL, 2, "points is NULL, must be given"},
+    {bodies, good, 1, "point_count is 1, must be at least 2"},
+    {bodies, good, -2, "point_count is -2, must be at least 2"},
+    {bodies, good, INT32_MAX, "point_count is 2147483647, must be at most 10000"},
+    {none, good, 2, "bodies[1]"},
+    {coordinates, good, 2, "bodies[1] is body |\"masses\", which has no place in space"},
+    {bodies, infinite, 2, "points[0][2] is inf m, must be finite"},
+    {bodies, off, 2, "points[1] is (0, 0, 0.1) m, must be (0, 0, 0) on the particle"},
+  };
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    baum_spatial_cable_def def = baum_spatial_cable_def_default();
+    def.bodies = wrong[k].bodies;
+    def.points = wrong[k].points;
+    def.point_count = wrong[k].count;
+    ASSERT_SAYS(baum_mechanism_add_spatial_cable(parts.mechanism, &def, NULL), BAUM_ERR_ARGUMENT,
+                wrong[k].message);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 /* ---- bodies of the wrong kind ---- */
 
 static void check_bodies(const every_element *parts, const element_kind *kind)
@@ -185,11 +223,13 @@ static void check_bodies(const every_element *parts, const element_kind *kind)
     const char *name;
     /* Which bodies must have an orientation: 1 for body_a, 2 for body_b, 3 for both. */
     int oriented;
-  } needs[] = {
-    {"spatial_revolute", 3},          {"spatial_universal", 3},      {"spatial_cylindrical", 3},
-    {"spatial_prismatic", 3},         {"spatial_planar", 3},         {"spatial_fixed", 3},
-    {"spatial_point_on_line", 1},     {"spatial_point_on_plane", 1}, {"spatial_screw", 3},
-    {"spatial_constant_velocity", 3}, {"spatial_torsion_spring", 3}, {"spatial_bushing", 3}};
+  } needs[] = {{"spatial_revolute", 3},       {"spatial_universal", 3},
+               {"spatial_cylindrical", 3},    {"spatial_prismatic", 3},
+               {"spatial_planar", 3},         {"spatial_fixed", 3},
+               {"spatial_point_on_line", 1},  {"spatial_point_on_plane", 1},
+               {"spatial_screw", 3},          {"spatial_constant_velocity", 3},
+               {"spatial_torsion_spring", 3}, {"spatial_bushing", 3},
+               {"spatial_curve", 1},          {"spatial_knife_edge", 3}};
   int oriented = 0;
   for (size_t k = 0; k < sizeof needs / sizeof *needs; k++) {
     oriented = strcmp(needs[k].name, kind->name) == 0 ? needs[k].oriented : oriented;
@@ -487,6 +527,7 @@ int main(void)
     cmocka_unit_test(orientations_that_are_no_unit_quaternion_are_refused),
     cmocka_unit_test(inertias_of_no_body_are_refused),
     cmocka_unit_test(axes_without_direction_are_refused),
+    cmocka_unit_test(wrong_cables_are_refused),
     cmocka_unit_test(the_shortest_axis_has_a_direction),
     cmocka_unit_test(bodies_of_the_wrong_kind_are_refused),
     cmocka_unit_test(coordinates_that_joints_do_not_have_are_refused),

@@ -19,9 +19,9 @@
 
 enum { HEADER_SIZE = 65536, TEXT_SIZE = 128, NAME_SIZE = 64, FILL = 0xA5, OTHER_FILL = 0x5A };
 
-static const char *const header_names[] = {"mechanism.h",  "planar.h",  "planar_joints.h",
-                                           "simulation.h", "spatial.h", "spatial_joints.h",
-                                           "spline.h"};
+static const char *const header_names[] = {"mechanism.h",      "planar.h",  "planar_joints.h",
+                                           "simulation.h",     "spatial.h", "spatial_joints.h",
+                                           "spatial_points.h", "spline.h"};
 enum { HEADERS = sizeof header_names / sizeof *header_names };
 
 /* Reads the text of all headers, one after the other. The caller frees this text. */

@@ -493,7 +493,7 @@ static void a_run_explains_itself(void **state)
     assert_non_null(strstr(text, "alpha 4.5 1/s, beta 5.5 1/s"));
     assert_non_null(strstr(text, isnan(o.step) ? "rtol 1e-08" : "fixed step 0.01 s"));
     assert_non_null(strstr(text, "klu"));
-    assert_non_null(strstr(text, "degrees of freedom 17 of velocity, 20 of position"));
+    assert_non_null(strstr(text, "degrees of freedom 23 of velocity, 27 of position"));
     close_scene(&s);
   }
 }

@@ -46,8 +46,8 @@ static const baum_i_def_field fields[] = {
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spatial_curve_def *def = given;
-  BAUM_I_TRY(baum_i_spatial_check_head(mechanism, def, label, false));
-  return baum_i_spatial_check_turning(mechanism, def->body_a, label, "body_a");
+  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_a, label, "body_a"));
+  return baum_i_spatial_check_head(mechanism, def, label, false);
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
