@@ -319,9 +319,9 @@ def spatial_curve(m):
 
 @scene(SPACE)
 def spatial_knife_edge(m):
-    a = arm(m, "a", (0, 0, 0), (1, 0.5, 0))
+    a = arm(m, "a", (0, 0, 0), (1, -0.5, 0))
     m.point_on_plane("ice", m.ground, a, point=(0, 0, 0), axis=(0, 0, 1))
-    m.spatial_knife_edge("blade", a, point=(0, 0, 0), axis=(-1, 2, 0))
+    m.spatial_knife_edge("blade", a, point=(0, 0, 0), axis=(1, 2, 0))
 
 
 @scene(SPACE)
@@ -373,7 +373,7 @@ def spatial_cable(m):
     a = arm(m, "a", (0, 0, 0), (1, 1, 0))
     m.spherical("joint", m.ground, a, point=(0, 0, 0))
     p = m.spatial_particle("weight", position=(2, 0, 0))
-    m.cable("rope", [m.ground, a, m.ground, p], [(0, 0, 1), (0.5, 0.5, 0), (2, 0, 1.5), (0, 0, 0)], stiffness=9)
+    m.cable("rope", [m.ground, a, m.ground, p], [(0, 0, 1), (0.2, 0.2, 0), (2, 0, 1.5), (0, 0, 0)], stiffness=9)
 
 
 @scene(SPACE)
