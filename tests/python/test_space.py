@@ -405,6 +405,36 @@ class Forces(unittest.TestCase):
         g = baum.Workspace(m.freeze()).force(0, (0, 0, 2), (0, 0, 0))
         np.testing.assert_allclose(g, (0, 0, -4))
 
+    def test_the_drag_of_a_plate(self):
+        """The function gives only the force. Implicit methods use derivatives by differences."""
+
+        def drag(t, q, v):
+            normal = matrix(q[3:7])[:, 2]
+            speed = normal @ v[:3]
+            return [*(-0.8 * abs(speed) * speed * normal), *(-0.3 * v[3:])]
+
+        def plate(orientation):
+            m = baum.Mechanism(gravity=(0, 0, 0))
+            body = m.spatial_body(
+                "plate", mass=2, inertia=(1, 1, 2), orientation=orientation, velocity=(0.5, -1, 6),
+                angular_velocity=(0, 0, 3),
+            )  # fmt: skip
+            m.force("air", body, drag)
+            return m.freeze()
+
+        for method, accuracy in (("rk8", 1e-8), ("cvode_bdf", 1e-5), ("ida", 1e-5)):
+            options = {"rtol": 1e-9, "check_derivatives": True}
+            s = plate((1, 0, 0, 0)).simulation(method, **options)
+            s.advance_to(1)
+            # The speed v along the normal and the spin w obey 2 v' = -0.8 v^2 and 2 w' = -0.3 w.
+            want = (0.5, -1, 6 / (1 + 0.4 * 6), 0, 0, 3 * math.exp(-0.15))
+            np.testing.assert_allclose(s.v, want, rtol=accuracy, atol=accuracy)
+            s = plate(TILTED).simulation(method, **options)
+            s.advance_to(1)
+            if method == "rk8":
+                tilted = s.v
+            np.testing.assert_allclose(s.v, tilted, rtol=accuracy, atol=accuracy)
+
     def test_a_moment_turns_a_body(self):
         m = baum.Mechanism(gravity=(0, 0, 0))
         body = m.spatial_body("body", inertia=(1, 2, 2.5), orientation=(HALF, HALF, 0, 0))
