@@ -177,7 +177,7 @@ typedef struct baum_spatial_cable_def {
   /** (point_count) the body of each point, in the order of the path. Copied. Default: NULL, must be
    *  set. */
   const baum_body_id *bodies;
-  /** (point_count x 3) [m] points in the axes of their bodies. Copied. Default: NULL, must be set. */
+  /** (point_count x 3) [m] points in axes of their bodies. Copied. Default: NULL, must be set. */
   const double *points;
   int32_t point_count; /**< Number of points, at least 2. Default: 0, must be set. */
   double stiffness;    /**< [N/m] >= 0. Default: 0. */

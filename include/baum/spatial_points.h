@@ -134,7 +134,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 
 /* ---- point on a curve ------------------------------------------------------------------------ */
 
-/** The function of a curve in space, where the surfaces F(x, y, z) = 0 and G(x, y, z) = 0 intersect:
+/** The function of a curve in space, where the surfaces F(x, y, z) = 0 and G(x, y, z) = 0 meet:
  *  computes F, G and their derivatives. The derivatives must be exact near the curve, too, not only
  *  on it. Scale F and G so that their gradients have lengths of about 1 on the curve. The gradients
  *  must not be parallel there.

@@ -26,9 +26,9 @@
  *   a twirl (torsion spring of the top) and a rubber (bushing of the cap)
  *
  * The last elements are a sled in the plane on a blade (knife edge), a coin that rolls (rolling
- * disc), a nut on a thread (screw), a spindle behind a constant-velocity joint of the nut, a drop on
- * a spiral (curve in space), and a skate on a runner (knife edge in space) with a rope (cable) to
- * the drop.
+ * disc), a nut on a thread (screw), a spindle behind a constant-velocity joint of the nut, a drop
+ * on a spiral (curve in space), and a skate on a runner (knife edge in space) with a rope (cable)
+ * to the drop.
  *
  * The mechanism has 105 positions, 95 velocities, 72 rows and 23 degrees of freedom of velocity.
  * The planar part without the sled comes first. It has 26 positions, 26 velocities, 22 rows and 4

@@ -170,8 +170,8 @@ static void add_knife_edge(spatial_scene *s, int a, int b)
   check(baum_mechanism_add_spatial_knife_edge(s->mechanism, &def, NULL));
 }
 
-/* F = c . x + 0.1 (c . x) (d . x) + 0.3 sin(d . x) with all derivatives nonzero, and the same function G
- * with other vectors. */
+/* F = c . x + 0.1 (c . x) (d . x) + 0.3 sin(d . x) with all derivatives nonzero, and the same
+ * function G with other vectors. */
 static int bent(const double xyz[3], double out[20], void *user)
 {
   static const double c[2][3] = {{0.9, 0.2, -0.4}, {-0.3, 0.8, 0.3}};

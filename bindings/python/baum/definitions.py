@@ -202,8 +202,9 @@ class Definition:
         user = given.pop("user", None)
         self._set_count(given)
         # Sizes and bodies are set first, because they determine the lengths of arrays.
-        sizes_first = lambda name: name != "bodies" and self._types[name] is not ctypes.c_int32
-        for name in sorted(given, key=sizes_first):
+        for name in sorted(
+            given, key=lambda name: name != "bodies" and self._types[name] is not ctypes.c_int32
+        ):
             self._set(name, given[name])
         for name, function in functions.items():
             self._set_function(name, function, inputs)
@@ -255,7 +256,8 @@ class Definition:
         alone = isinstance(value, str) or hasattr(value, "family")
         handles = [self._find("body", body) for body in ([value] if alone else value)]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
-        setattr(self.struct, "point_count" if "points" in self._types else "body_count", len(handles))
+        counter = "point_count" if "points" in self._types else "body_count"
+        setattr(self.struct, counter, len(handles))
 
     def _pointer(self, name: str, value: Any, label: str) -> Any:
         """Return the address for a pointer field. The field `user` holds an address or a ctypes

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Point on a curve in space. The user's functions F(x, y, z) and G(x, y, z) are zero on a curve
  * that is fixed in body_a, and the point of body_b stays on this curve. Let e be the vector from
- * the point of body_a to the point of body_b. The coordinates x_i are products (spatial_rows.h) of e
- * and the axes of body_a:
+ * the point of body_a to the point of body_b. The coordinates x_i are products (spatial_rows.h) of
+ * e and the axes of body_a:
  *
  *   x_i = u_i . e,   Phi = (F(x), G(x))                     (2 rows)
  *
