@@ -358,7 +358,8 @@ def as_dict(definition: Any, find: Find) -> dict[str, Any]:
                 continue
             value = tuple(find("body", value[k]) for k in range(definition.point_count))
         elif name == "points":
-            value = numbers(value, length(definition, name)).reshape(-1, 3)
+            array = numbers(value, length(definition, name))
+            value = None if array is None else array.reshape(-1, 3)
         elif kind in FAMILIES:
             value = find(FAMILIES[kind], value)
         elif name.startswith("coordinate"):
