@@ -215,6 +215,41 @@ static void wrong_cables_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+/* ---- knife edges ---- */
+
+static void wrong_knife_edges_are_refused(void **state)
+{
+  (void)state;
+  every_element parts = open_parts();
+  const struct {
+    baum_body_id body_b;
+    bool point, point_a;
+    const char *message;
+  } wrong[] = {
+    {parts.skate, true, false, "body_a and body_b are both body |\"skate\""},
+    {parts.drop, true, false, "body_b is body |\"drop\", which has no orientation"},
+    {BAUM_GROUND, false, false, "no point is given; give either point or point_a"},
+    {BAUM_GROUND, true, true, "point and point_a are both given; give either"},
+  };
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    baum_spatial_knife_edge_def def = baum_spatial_knife_edge_def_default();
+    def.body_a = parts.skate;
+    def.body_b = wrong[k].body_b;
+    for (int i = 0; i < 3; i++) {
+      def.point[i] = wrong[k].point ? 0.0 : (double)NAN;
+      def.point_a[i] = wrong[k].point_a ? 0.0 : (double)NAN;
+    }
+    ASSERT_SAYS(baum_mechanism_add_spatial_knife_edge(parts.mechanism, &def, NULL),
+                BAUM_ERR_ARGUMENT, wrong[k].message);
+  }
+  baum_spatial_knife_edge_def ground = baum_spatial_knife_edge_def_default();
+  ground.body_a = BAUM_GROUND;
+  ground.point[0] = ground.point[1] = ground.point[2] = 0.0;
+  ASSERT_SAYS(baum_mechanism_add_spatial_knife_edge(parts.mechanism, &ground, NULL),
+              BAUM_ERR_ARGUMENT, "body_a and body_b are both ground");
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 /* ---- bodies of the wrong kind ---- */
 
 static void check_bodies(const every_element *parts, const element_kind *kind)
@@ -528,6 +563,7 @@ int main(void)
     cmocka_unit_test(inertias_of_no_body_are_refused),
     cmocka_unit_test(axes_without_direction_are_refused),
     cmocka_unit_test(wrong_cables_are_refused),
+    cmocka_unit_test(wrong_knife_edges_are_refused),
     cmocka_unit_test(the_shortest_axis_has_a_direction),
     cmocka_unit_test(bodies_of_the_wrong_kind_are_refused),
     cmocka_unit_test(coordinates_that_joints_do_not_have_are_refused),
