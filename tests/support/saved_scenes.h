@@ -8,7 +8,7 @@
 
 #include <baum/baum.h>
 
-enum { SAVED_NQ_MAX = 104, SAVED_NAME = 80 };
+enum { SAVED_NQ_MAX = 112, SAVED_NAME = 80 };
 
 typedef struct saved_scene saved_scene;
 
