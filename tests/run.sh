@@ -184,10 +184,9 @@ stage_browser() {
 # Builds the documentation site, and runs all programs of the cookbook, including those that need SciPy.
 stage_site() {
   build_dev
-  library=$PWD/build/dev/libbaum.so
-  BAUM_LIBRARY=$library sh docs/build.sh
-  (cd tests/python && BAUM_LIBRARY=$library PYTHONPATH=../../bindings/python PYTHONDONTWRITEBYTECODE=1 \
-    ../../build/site-venv/bin/python -m unittest test_cookbook)
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so sh docs/build.sh
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    build/site-venv/bin/python -m unittest discover -s tests/python -p test_cookbook.py
   need_packages chromium
   build/site-venv/bin/python tests/browser/check_site.py build/site
 }
