@@ -11,6 +11,7 @@
 #define ADDRESS(name) &baum_i_##name,
 static const baum_i_catalog_mechanism *const MECHANISMS[] = {BAUM_I_CATALOG_LIST(ADDRESS)};
 enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], MESSAGE = 1024 };
+static const double QUARTER = 1.5707963267948966; /* [rad] a quarter of a revolution */
 
 baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)
 {
@@ -112,7 +113,7 @@ baum_status baum_catalog_parameter_at(const char *name, int32_t k, baum_catalog_
                                         .unit = parameter->unit,
                                         .meaning = parameter->meaning,
                                         .value = of->defaults[k],
-                                        .positive = parameter->range != BAUM_I_ANY,
+                                        .positive = parameter->range >= BAUM_I_POSITIVE,
                                         .whole = parameter->range == BAUM_I_WHOLE};
   return baum_i_catalog_give(out, caller_size, &whole, sizeof whole);
 }
@@ -132,6 +133,25 @@ static int find_parameter(const baum_i_catalog_mechanism *of, const char *name)
   return -1;
 }
 
+/* What values in a range must be. */
+static const char *const RULES[] = {[BAUM_I_ANY] = "finite",
+                                    [BAUM_I_NONZERO] = "other than 0",
+                                    [BAUM_I_ACUTE] = "between -pi/2 and pi/2",
+                                    [BAUM_I_POSITIVE] = "positive",
+                                    [BAUM_I_WHOLE] = "a whole number from 1 to 1e6"};
+
+static bool is_in_range(baum_i_catalog_range range, double value)
+{
+  switch (range) {
+  case BAUM_I_ANY: break;
+  case BAUM_I_NONZERO: return value != 0.0;
+  case BAUM_I_ACUTE: return fabs(value) < QUARTER;
+  case BAUM_I_POSITIVE: return value > 0.0;
+  case BAUM_I_WHOLE: return value == floor(value) && value > 0.0 && value <= 1e6;
+  }
+  return true;
+}
+
 static baum_status set_parameter(const baum_i_catalog_mechanism *of,
                                  const baum_catalog_setting *setting, double *p)
 {
@@ -141,19 +161,12 @@ static baum_status set_parameter(const baum_i_catalog_mechanism *of,
   }
   const baum_i_catalog_parameter *parameter = &of->parameters[k];
   double value = setting->value;
-  const char *wrong = NULL;
-  if (!isfinite(value)) {
-    wrong = "finite";
-  } else if (parameter->range != BAUM_I_ANY && value <= 0.0) {
-    wrong = "positive";
-  } else if (parameter->range == BAUM_I_WHOLE && (value != floor(value) || value > 1e6)) {
-    wrong = "a whole number up to 1e6";
-  }
-  if (wrong) {
+  if (!isfinite(value) || !is_in_range(parameter->range, value)) {
+    const char *rule = RULES[isfinite(value) ? parameter->range : BAUM_I_ANY];
     bool pure = strcmp(parameter->unit, "-") == 0;
     return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: \"%s\": %s is %g%s%s, must be %s",
                                of->name, parameter->name, value, pure ? "" : " ",
-                               pure ? "" : parameter->unit, wrong);
+                               pure ? "" : parameter->unit, rule);
   }
   p[k] = value;
   return BAUM_OK;

@@ -16,6 +16,8 @@ enum {
 
 typedef enum baum_i_catalog_range {
   BAUM_I_ANY,
+  BAUM_I_NONZERO,
+  BAUM_I_ACUTE, /* an angle between -pi/2 and pi/2 */
   BAUM_I_POSITIVE,
   BAUM_I_WHOLE /* a whole number > 0 */
 } baum_i_catalog_range;

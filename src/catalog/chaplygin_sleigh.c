@@ -27,7 +27,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [INERTIA] = {"inertia", "kg m^2", "about the centre of mass", BAUM_I_POSITIVE},
   [DISTANCE] = {"distance", "m", "of the blade behind the centre of mass", BAUM_I_POSITIVE},
   [SPEED] = {"speed", "m/s", "of the blade at start", BAUM_I_ANY},
-  [RATE] = {"rate", "rad/s", "angular velocity at start, not 0", BAUM_I_ANY},
+  [RATE] = {"rate", "rad/s", "angular velocity at start, not 0", BAUM_I_NONZERO},
 };
 
 /* Numbers that do not change during the motion. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A left front wheel on two wishbones, with steering and a road. x points backwards, y to the left
- * and z up. The wishbones rotate about skew axes on the car, which is the ground. The upright
+/* A right front wheel on two wishbones, with steering and a road. x points backwards, y to the
+ * right and z up. The wishbones rotate about skew axes on the car, which is the ground. The upright
  * connects their ball joints. A tie rod of constant length connects it to a rack, which a driver
  * moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
  *

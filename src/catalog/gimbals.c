@@ -26,19 +26,22 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [ARM] = {"arm", "m", "of the weight", BAUM_I_ANY},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
   [TILT] = {"tilt", "rad", "of the rotor's axis above the horizontal", BAUM_I_ANY},
-  [PRECESSION] = {"precession", "rad/s", "not 0", BAUM_I_ANY},
+  [PRECESSION] = {"precession", "rad/s", "not 0", BAUM_I_NONZERO},
 };
 
 static double solution(const double *p, double t, double *q, double *v)
 {
   double across = p[ACROSS] + p[INNER] / 2 + p[WEIGHT] * p[ARM] * p[ARM];
-  double moment =
-    p[WEIGHT] * p[GRAVITY] * p[ARM] + across * p[PRECESSION] * p[PRECESSION] * sin(p[TILT]);
+  double weight = p[WEIGHT] * p[GRAVITY] * p[ARM];
+  double gyration = across * p[PRECESSION] * p[PRECESSION] * sin(p[TILT]);
+  double scale = p[AXIAL] * p[PRECESSION];
   v[0] = p[PRECESSION];
-  v[1] = moment / (p[AXIAL] * p[PRECESSION]) - p[PRECESSION] * sin(p[TILT]);
+  v[1] = (weight + gyration) / scale - p[PRECESSION] * sin(p[TILT]);
   q[0] = v[0] * t;
   q[1] = v[1] * t;
-  return DBL_EPSILON * (fabs(q[0]) + fabs(q[1]));
+  /* Rounding errors are proportional to the sizes of the terms. */
+  double sum = (fabs(weight) + fabs(gyration)) / fabs(scale);
+  return DBL_EPSILON * (fabs(v[0]) + sum) * (1.0 + fabs(t));
 }
 
 /* Computes axes of the outer ring (0), the inner ring (1) or the rotor (2), whose origin is the

@@ -22,35 +22,39 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [ACROSS] = {"across", "kg m^2", "moment of inertia about a diameter", BAUM_I_POSITIVE},
   [AXIAL] = {"axial", "kg m^2", "moment of inertia about the axis", BAUM_I_POSITIVE},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
-  [TILT] = {"tilt", "rad", "of the axis above the plane; -pi/2 to pi/2", BAUM_I_ANY},
-  [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_ANY},
+  [TILT] = {"tilt", "rad", "of the axis above the plane, between -pi/2 and pi/2", BAUM_I_ACUTE},
+  [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_NONZERO},
 };
 
-/* Returns n. */
-static double axial_rate(const double *p)
+/* Returns n. `sum` becomes the sum of the sizes of its terms, to which rounding errors are
+ * proportional. */
+static double axial_rate(const double *p, double *sum)
 {
   double turning = p[TURNING];
-  double moment =
-    p[ACROSS] * turning * turning * sin(p[TILT]) - p[MASS] * p[GRAVITY] * p[RADIUS] * tan(p[TILT]);
-  return moment / (turning * (p[AXIAL] + p[MASS] * p[RADIUS] * p[RADIUS]));
+  double gyration = p[ACROSS] * turning * turning * sin(p[TILT]);
+  double weight = p[MASS] * p[GRAVITY] * p[RADIUS] * tan(p[TILT]);
+  double scale = turning * (p[AXIAL] + p[MASS] * p[RADIUS] * p[RADIUS]);
+  *sum = (fabs(gyration) + fabs(weight)) / fabs(scale);
+  return (gyration - weight) / scale;
 }
 
-/* The disc lies below the plane if cos b is negative. */
 static double solution(const double *p, double t, double *q, double *v)
 {
+  double sum = 0.0;
   v[0] = p[TURNING];
-  v[1] = axial_rate(p) - p[TURNING] * sin(p[TILT]);
+  v[1] = axial_rate(p, &sum) - p[TURNING] * sin(p[TILT]);
   q[0] = v[0] * t;
   q[1] = v[1] * t;
-  double circle = fabs(p[RADIUS] * axial_rate(p) / p[TURNING]);
-  double off = DBL_EPSILON * (fabs(q[0]) + fabs(q[1])) * (1.0 + circle);
-  return cos(p[TILT]) > 0.0 ? off : (double)INFINITY;
+  double angles = (fabs(v[0]) + sum) * (1.0 + fabs(t));
+  double centre = p[RADIUS] * sum * (1.0 + 1.0 / fabs(v[0])) * (1.0 + fabs(q[0]));
+  return DBL_EPSILON * (angles + centre);
 }
 
 static baum_i_body_state state(const double *p, const double *q, const double *v, int body)
 {
   (void)body;
-  double circle = p[RADIUS] * axial_rate(p) / p[TURNING];
+  double sum = 0.0;
+  double circle = p[RADIUS] * axial_rate(p, &sum) / p[TURNING];
   const double centre[3] = {circle * sin(q[0]), -circle * cos(q[0]), p[RADIUS] * cos(p[TILT])};
   const double rate[3] = {circle * cos(q[0]) * v[0], circle * sin(q[0]) * v[0], 0.0};
   baum_i_axes at = baum_i_axes_at(centre, rate);

@@ -20,7 +20,6 @@ typedef struct baum_i_fmu_instance {
   baum_simulation *run; /* NULL before initialization */
   double *row;          /* (width) the outputs */
   int width;
-  char token[64]; /* the first characters of the instantiation token */
   bool is_initialized;
   fmi3LogMessage *log; /* may be NULL */
   void *environment;
@@ -166,9 +165,6 @@ static fmi3Status load(instance *fmu, const char *folder, const char *token)
   }
   if (strcmp(fmu->resources.token, token) != 0) {
     return fail(fmu, "the instantiation token is that of another FMU");
-  }
-  for (size_t k = 0; k < sizeof fmu->token && token[k]; k++) {
-    fmu->token[k] = token[k];
   }
   fmu->numbers = baum_i_alloc((size_t)fmu->resources.number_count, sizeof(double));
   return fmu->numbers ? fmi3Reset(fmu) : converted(fmu, baum_i_fail_memory());
@@ -366,6 +362,12 @@ fmi3Status fmi3FreeFMUState(fmi3Instance fmu, fmi3FMUState *place)
   return FMI3_OK;
 }
 
+/* Tell whether a state is one of this FMU. */
+static bool is_own(const instance *fmu, const state *saved)
+{
+  return strncmp(saved->token, fmu->resources.token, sizeof saved->token) == 0;
+}
+
 static size_t numbers_size(const instance *fmu)
 {
   return (size_t)fmu->resources.number_count * sizeof(double);
@@ -385,7 +387,9 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
   }
   saved->size = size;
   saved->run = run_size;
-  memcpy(saved->token, fmu->token, sizeof saved->token);
+  const size_t length = strlen(fmu->resources.token);
+  memcpy(saved->token, fmu->resources.token,
+         length < sizeof saved->token ? length : sizeof saved->token);
   saved->start_time = fmu->options.start_time;
   saved->rtol = fmu->options.rtol;
   saved->is_initialized = fmu->is_initialized;
@@ -411,7 +415,7 @@ static bool needs_other_run(const instance *fmu, const state *saved)
 FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance, fmi3FMUState);
 fmi3Status fmi3SetFMUState(fmi3Instance fmu, fmi3FMUState saved)
 {
-  if (!saved || memcmp(saved->token, fmu->token, sizeof fmu->token) != 0) {
+  if (!saved || !is_own(fmu, saved)) {
     return fail(fmu, "fmi3SetFMUState: the state is that of another FMU");
   }
   if (needs_other_run(fmu, saved)) {
@@ -463,7 +467,7 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance fmu, const uint8_t *bytes, size_
   state head = {.size = 0};
   memcpy(&head, bytes, size < least ? 0 : sizeof head);
   if (head.size < least || head.size > size || head.run != head.size - least ||
-      memcmp(head.token, fmu->token, sizeof fmu->token) != 0) {
+      !is_own(fmu, &head)) {
     return fail(fmu, "fmi3DeserializeFMUState: the bytes are not a state of this FMU");
   }
   state *copy = baum_i_copy(bytes, head.size, 1);

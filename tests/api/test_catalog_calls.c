@@ -197,9 +197,14 @@ static void parameters_out_of_range_are_refused(void **state)
     {"slider_crank", {"crank", 0.0}, "crank is 0 m, must be positive"},
     {"slider_crank", {"angle", (double)NAN}, "angle is nan rad, must be finite"},
     {"n_four_bar", {"windows", 1.5}, "windows is 1.5, must be a whole number"},
-    {"n_four_bar", {"windows", -1.0}, "must be positive"},
-    {"n_four_bar", {"windows", 1e9}, "must be a whole number up to 1e6"},
+    {"n_four_bar", {"windows", -1.0}, "must be a whole number from 1"},
+    {"n_four_bar", {"windows", 1e9}, "must be a whole number from 1 to 1e6"},
     {"slider_crank", {"eccentricity", 1.0}, "position"},
+    {"rolling_disc", {"tilt", 2.0}, "tilt is 2 rad, must be between -pi/2 and pi/2"},
+    {"rolling_disc", {"tilt", -1.5707963267948966}, "must be between -pi/2 and pi/2"},
+    {"rolling_disc", {"turning", 0.0}, "turning is 0 rad/s, must be other than 0"},
+    {"gimbals", {"precession", -0.0}, "precession is -0 rad/s, must be other than 0"},
+    {"chaplygin_sleigh", {"rate", 0.0}, "rate is 0 rad/s, must be other than 0"},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const baum_catalog_choice choice = {cases[k].name, &cases[k].setting, 1};
@@ -235,6 +240,54 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
   assert_int_equal(baum_catalog_reference(&too_short, 0.0, q, NULL), BAUM_OK);
   ASSERT_SAYS(baum_catalog_reference(&too_short, 0.0314159, q, NULL), BAUM_ERR_UNSUPPORTED,
               "with these parameters");
+}
+
+static void formulas_that_cancel_or_overflow_are_not_given(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *name;
+    const char *message;
+    double t;
+    int count;
+    baum_catalog_setting settings[7];
+  } cases[] = {
+    /* The two terms of the moment of the disc cancel. */
+    {"rolling_disc",
+     "may be off by",
+     0.0,
+     6,
+     {{"mass", 0.1},
+      {"radius", 1e-4},
+      {"across", 1.0},
+      {"axial", 1e-9},
+      {"tilt", 0.3},
+      {"turning", 0.010133}}}, /* sqrt(0.1 9.81e-4 / cos 0.3), rounded */
+    {"rolling_disc",
+     "may be off by",
+     0.0,
+     6,
+     {{"mass", 100.0},
+      {"radius", 1e-4},
+      {"across", 1.0},
+      {"axial", 1e-6},
+      {"tilt", 0.3},
+      {"turning", 0.32045}}}, /* sqrt(9.81e-2 / cos 0.3), rounded */
+    /* 0.3 9.81 arm = -(across + inner / 2) 2^2 sin 0.4, almost */
+    {"gimbals", "may be off by", 1.0, 2, {{"axial", 1e-9}, {"arm", -8.47e-4}}},
+    {"differential", "may be off by", 1.0, 1, {{"damping", 1e-9}}},
+    {"chaplygin_sleigh", "off by inf", 1e4, 0, {{NULL, 0.0}}},
+    /* The square of the rate is 0. */
+    {"chaplygin_sleigh", "has no reference at t = 1 s", 1.0, 2, {{"speed", 0.0}, {"rate", 1e-200}}},
+  };
+  double q[28];
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+    const baum_catalog_choice choice = {cases[k].name, cases[k].settings, cases[k].count};
+    const baum_catalog_choice usual = {.name = cases[k].name};
+    ASSERT_SAYS(baum_catalog_reference(&choice, cases[k].t, q, NULL), BAUM_ERR_UNSUPPORTED,
+                cases[k].message);
+    assert_int_equal(baum_catalog_reference(&usual, 1.0, q, NULL), BAUM_OK);
+  }
 }
 
 static void a_study_takes_a_formula_as_its_solution(void **state)
@@ -443,6 +496,7 @@ int main(void)
     cmocka_unit_test(missing_entries_and_parameters_are_refused_by_name),
     cmocka_unit_test(parameters_out_of_range_are_refused),
     cmocka_unit_test(a_reference_that_does_not_hold_is_not_given),
+    cmocka_unit_test(formulas_that_cancel_or_overflow_are_not_given),
     cmocka_unit_test(a_study_takes_a_formula_as_its_solution),
     cmocka_unit_test(errors_are_differences_by_the_scales),
     cmocka_unit_test(states_of_something_else_are_not_compared),

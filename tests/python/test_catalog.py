@@ -100,7 +100,7 @@ class Catalog(unittest.TestCase):
         ):
             with self.subTest(name):
                 run = catalog.build(name).simulate(catalog.times(name), "rk8", rtol=1e-9)
-                # The largest error measured is 3e-8, of the rolling disc.
+                # The largest errors measured are 4e-8 (gimbals) and 3e-8 (rolling disc).
                 self.assertLess(catalog.compare(run, name).q, 3e-7)
 
     def test_the_motions_obey_their_laws(self):
@@ -109,11 +109,6 @@ class Catalog(unittest.TestCase):
         def run(name, method="rk8", **options):
             options = options if method == "kinematics" else dict(rtol=1e-11, **options)
             return catalog.build(name).simulate(t, method, **options)
-
-        one = run("differential")
-        left, right = (one[f"{side} wheel.velocity"][:, 3] for side in ("left", "right"))
-        self.assertGreater(abs(left - right).max(), 1)
-        self.assertLess(abs((left + right) / 2 - one["carrier.velocity"][:, 3]).max(), 1e-13)
 
         x, y, angle = run("chaplygin_sleigh")["sleigh.pose"].T
         vx, vy, rate = run("chaplygin_sleigh")["sleigh.velocity"].T
@@ -128,23 +123,11 @@ class Catalog(unittest.TestCase):
         azimuth = np.unwrap(np.arctan2(inner[:, 1], inner[:, 0]))
         np.testing.assert_allclose(azimuth - azimuth[0], 2.0 * t, rtol=0, atol=1e-8)
 
-        one = run("double_wishbone", "kinematics", record=["bumps.effort"])
+        one = run("double_wishbone", "kinematics")
         wheel = one["upright.pose"][:, 2]
         self.assertLess(abs(wheel - 0.32 - 0.05 * np.sin(5 * t)).max(), 1e-14)
-        tie_rod = one["rack.pose"][:, 1]
-        self.assertLess(abs(tie_rod - 0.02 * np.sin(3 * t)).max(), 1e-14)
-
-        m = catalog.build("quadruped")
-        one = m.simulate(t / 2, "rk8", rtol=1e-11, record=["energy"])
-        names = ["trunk", *(f"body{k}" for k in range(2, 15))]
-        mass = np.array([m[name].definition["mass"] for name in names])
-        share = mass / mass.sum()
-        centre = np.tensordot(share, [one[f"{name}.pose"][:, :3] for name in names], 1)
-        speed = share @ [one[f"{name}.velocity"][0, :3] for name in names]
-        fall = np.outer((t / 2) ** 2 / 2, (0, 0, -9.81))
-        self.assertLess(abs(centre - centre[0] - np.outer(t / 2, speed) - fall).max(), 1e-12)
-        energy = one["energy"].sum(axis=1)
-        self.assertLess(abs(energy - energy[0]).max(), 1e-9)
+        rack = one["rack.pose"][:, 1]
+        self.assertLess(abs(rack - 0.02 * np.sin(3 * t)).max(), 1e-14)
 
     def test_assembly_solves_the_forward_kinematics_of_the_stewart_platform(self):
         m = catalog.build("stewart")

@@ -222,6 +222,16 @@ class BinaryTest(FmuTest):
         for wrong in (size.value - 1, 3):
             with self.assertRaisesRegex(OSError, "not a state of this FMU"):
                 other.call("fmi3DeserializeFMUState", bytes, SIZE(wrong), ctypes.byref(copy))
+        damaged = (ctypes.c_uint8 * size.value).from_buffer_copy(bytes)
+        damaged[1000] ^= 1  # the saved run begins before byte 200 and has more than 2000 bytes
+        other.call("fmi3DeserializeFMUState", damaged, size, ctypes.byref(copy))
+        with self.assertRaisesRegex(OSError, "damaged"):
+            other.call("fmi3SetFMUState", copy)
+        with self.assertRaisesRegex(OSError, "not initialized"):
+            other.step(0.1, PERIOD)
+        other.call("fmi3Reset")
+        expected = self.another().initialize().loop(0, 5)
+        np.testing.assert_array_equal(other.initialize().loop(0, 5), expected)
         stranger = self.create(step=5e-4)  # an FMU with the same variables
         with self.assertRaisesRegex(OSError, "not a state of this FMU"):
             stranger.call("fmi3DeserializeFMUState", bytes, size, ctypes.byref(copy))

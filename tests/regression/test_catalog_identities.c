@@ -250,7 +250,7 @@ static void the_wheel_follows_newtons_solution(void **state)
     const double got[4] = {asin(axis[2]), atan2(axis[0], axis[1]), q[0], q[1]};
     worst = fmax(worst, largest(got, DOUBLE_WISHBONE_Q[i], DOUBLE_WISHBONE_WIDTH));
   }
-  print_message("double wishbone: camber, toe and path %.1e rad or m\n", worst);
+  print_message("double wishbone: axis and path %.1e rad or m\n", worst);
   assert_true(worst <= 1e-13);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
