@@ -51,6 +51,7 @@ ROWS = {
     "planar_pin_in_slot": "pin in a slot",
     "planar_gear": "gear pair",
     "planar_curve": "point on a curve",
+    "spatial_curve": "point on a curve",
     "spatial_point_on_line": "point on a line",
     "spatial_point_on_plane": "point on a plane",
     "planar_spring": "spring-damper, planar.h",
@@ -127,7 +128,7 @@ def row_of(name, rows):
     found = [cells for first, cells in rows.items() if first.startswith(start)]
     if not found:
         sys.exit(f"modelling.py: docs/catalogue.md has no row for {name}")
-    return found[-1 if name.startswith("spatial") and name not in ROWS else 0]
+    return found[-1 if name.startswith("spatial") else 0]
 
 
 def python_code(scene, method):
@@ -187,7 +188,7 @@ def c_code(m, element):
 
 
 # Kinds whose definitions contain functions or arrays: the tutorial and the cookbook have complete programs.
-NO_C = {"planar_curve", "user_constraint", "user_force", "spline_driver"}
+NO_C = {"planar_curve", "spatial_curve", "user_constraint", "user_force", "spline_driver"}
 
 
 def compiles(blocks):
@@ -215,6 +216,8 @@ def compiles(blocks):
 
 def entry(folder, name, method, cells, blocks):
     kind = KINDS[name]
+    if name not in {**scenes.PLANE, **scenes.SPACE}:
+        sys.exit(f"modelling.py: tests/browser/scenes.py has no scene for {name}")
     group = scenes.SPACE if name in scenes.SPACE else scenes.PLANE
     m = scenes.build(group, name)
     m.draw().save(folder / f"{name}.svg")
