@@ -388,7 +388,7 @@ BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *
   for (int j = 0; j < n; j++) {
     d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
     double weight = points && j < 3 ? weights[0][j] + weights[1][j] : 0.0;
-    put(&d[j], j, baum_i_four_all(weight + 1.0 - keep[j]), 0);
+    put(&d[j], j, baum_i_four_all(weight + (1.0 - keep[j])), 0);
     BAUM_I_UNROLL(3)
     for (int c = 0; slides && c < 3; c++) {
       double s = sign * (weights[0][c] + weights[1][c]) * move[baum_i_column_entry(3, j, c)];

@@ -65,12 +65,13 @@ static baum_spatial_body_def changed(baum_spatial_body_def def, change by)
   return def;
 }
 
-/* Replaces the mechanism of a model by one with other masses and inertias. */
-static void change_bodies(model *m, change by)
+/* Replaces the mechanism of a model by one in which every `stride`-th body has another mass and
+ * inertia. */
+static void change_bodies(model *m, change by, int stride)
 {
   baum_mechanism *copy = NULL;
   check(baum_mechanism_copy(m->mechanism, &copy));
-  for (int k = 1; k < m->body_count; k += 2) {
+  for (int k = stride - 1; k < m->body_count; k += stride) {
     baum_spatial_body_def def = baum_spatial_body_def_default();
     check(baum_mechanism_get_spatial_body(copy, m->bodies[k], &def, sizeof def));
     def = changed(def, by);
@@ -86,7 +87,7 @@ static posed pose_scene(model_spatial which, int links, change by)
   model m;
   baum_status status = model_spatial_build(which, links, &m);
   if (status == BAUM_OK) {
-    change_bodies(&m, by);
+    change_bodies(&m, by, 2);
   }
   posed p = pose_model(status, m);
   check(baum_workspace_assemble(p.workspace, 0.0, p.q, p.v, NULL, 0));
@@ -325,6 +326,26 @@ static void uneven_masses_keep_eleven_digits(void **state)
   assert_int_equal(failures, 0);
 }
 
+/* In chains, only masses and weights act, so accelerations do not depend on a common factor. */
+static void accelerations_do_not_depend_on_the_unit_of_mass(void **state)
+{
+  (void)state;
+  for (int which = MODEL_SPHERICAL_CHAIN; which <= MODEL_REVOLUTE_CHAIN; which++) {
+    posed p = pose_scene((model_spatial)which, LINKS, NO_CHANGE);
+    check(baum_i_acceleration(p.workspace, 0.0, p.q, p.v, 0.0, 0.0));
+    for (int power = -12; power <= 12; power += 3) {
+      model m;
+      baum_status status = model_spatial_build((model_spatial)which, LINKS, &m);
+      change_bodies(&m, (change){pow(10.0, power), 1.0}, 1);
+      posed scaled = pose_model(status, m);
+      check(baum_i_acceleration(scaled.workspace, 0.0, p.q, p.v, 0.0, 0.0));
+      assert_true(quad_error(p.nv, scaled.workspace->a, p.workspace->a) <= 1e-12);
+      unpose(&scaled);
+    }
+    unpose(&p);
+  }
+}
+
 static void thin_shafts_between_heavy_rods_keep_eleven_digits(void **state)
 {
   (void)state;
@@ -404,6 +425,7 @@ int main(void)
     cmocka_unit_test(ordinary_configurations_keep_twelve_digits),
     cmocka_unit_test(errors_do_not_grow_with_the_length_of_chains),
     cmocka_unit_test(uneven_masses_keep_eleven_digits),
+    cmocka_unit_test(accelerations_do_not_depend_on_the_unit_of_mass),
     cmocka_unit_test(thin_shafts_between_heavy_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_may_turn_freely),
