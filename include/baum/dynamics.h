@@ -254,7 +254,7 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
 
 /** Project a state onto the constraints: change q by the least amount such that Phi = 0, and then v
  *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
- *  M.
+ *  M; in it, the axial moment of inertia of a slender rod may be raised.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
  *                              unchanged on failure
