@@ -29,12 +29,14 @@ static void report(const spatial_tally *t)
     t->counts[SPATIAL_ACCELERATED], t->counts[SPATIAL_REACTION], t->counts[SPATIAL_BALANCE],
     t->counts[SPATIAL_MOBILITY], t->counts[SPATIAL_FALSE_ALARM], t->worst,
     (unsigned long long)t->worst_seed, t->worst_reaction);
-  (void)printf("%ld screws, %ld constant-velocity joints, %ld rolling discs, %ld knife edges, %ld "
-               "couplings, %ld user constraints, %ld torsion springs, %ld bushings\n",
-               t->joints[ORACLE_SCREW], t->joints[ORACLE_CONSTANT_VELOCITY],
-               t->joints[ORACLE_ROLLING_DISC], t->joints[ORACLE_KNIFE_EDGE],
-               t->joints[ORACLE_COUPLING], t->joints[ORACLE_USER], t->forces[ORACLE_TORSION_SPRING],
-               t->forces[ORACLE_BUSHING]);
+  (void)printf(
+    "%ld screws, %ld constant-velocity joints, %ld rolling discs, %ld knife edges, %ld "
+    "couplings, %ld user constraints, %ld torsion springs, %ld bushings, %ld spatial knife edges, "
+    "%ld curves, %ld cables\n",
+    t->joints[ORACLE_SCREW], t->joints[ORACLE_CONSTANT_VELOCITY], t->joints[ORACLE_ROLLING_DISC],
+    t->joints[ORACLE_KNIFE_EDGE], t->joints[ORACLE_COUPLING], t->joints[ORACLE_USER],
+    t->forces[ORACLE_TORSION_SPRING], t->forces[ORACLE_BUSHING], t->joints[ORACLE_SPATIAL_EDGE],
+    t->joints[ORACLE_CURVE], t->forces[ORACLE_CABLE]);
 }
 
 int main(int count, char **arguments)

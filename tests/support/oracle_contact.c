@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of velocity level. They state that material points of two bodies, which are at the same
- * place P, have equal velocities in some directions. The velocity of the material point of a body
- * at P is r' + W x (P - r). Its derivative follows from the motion of P. */
+/* Rows of velocity level, and points on curves. Rows of velocity level state that material points of
+ * two bodies, which are at the same place P, have equal velocities in some directions. The velocity
+ * of the material point of a body at P is r' + W x (P - r). Its derivative follows from the motion
+ * of P. */
 #include <math.h>
 #include <string.h>
 
@@ -46,6 +47,11 @@ static jet velocity_row(const jet e[3], const jet u[3])
   return (jet){{0, value.d[0], value.d[1]}};
 }
 
+bool oracle_is_edge(const oracle_joint *joint)
+{
+  return joint->kind == ORACLE_KNIFE_EDGE || joint->kind == ORACLE_SPATIAL_EDGE;
+}
+
 /* The point of the rim nearest to the plane is below the centre in the direction n x (k x n), where
  * n is the axis of the disc and k is the normal of the plane. */
 void oracle_contact_point(const oracle_joint *joint, const motion *bodies, jet out[3])
@@ -55,7 +61,7 @@ void oracle_contact_point(const oracle_joint *joint, const motion *bodies, jet o
   jet n[3];
   jet beside[3];
   jet up[3];
-  if (joint->kind == ORACLE_KNIFE_EDGE) {
+  if (oracle_is_edge(joint)) {
     point_on(&bodies[joint->a], joint->s[0], out);
     return;
   }
@@ -104,6 +110,51 @@ int oracle_edge_rows(const oracle_joint *joint, const motion *bodies, jet *out)
   oracle_turned(&bodies[joint->a], joint->axes[0] + 3, across);
   out[0] = velocity_row(across, u);
   return 1;
+}
+
+/* Computes cosine and sine of an angle. */
+static void turn_along(jet angle, jet *cosine, jet *sine)
+{
+  const wide rate = angle.d[1];
+  wide c;
+  wide s;
+  oracle_turn(angle.d[0], &c, &s);
+  *cosine = (jet){{c, -s * rate, -c * rate * rate - s * angle.d[2]}};
+  *sine = (jet){{s, c * rate, c * angle.d[2] - s * rate * rate}};
+}
+
+int oracle_curve_rows(const oracle_joint *joint, const motion *bodies, jet *out)
+{
+  const oracle_curve *curve = &joint->curve;
+  const wide r = curve->r;
+  const moving m = oracle_moving_of(joint, bodies);
+  jet y[3];
+  jet cosine;
+  jet sine;
+  for (int i = 0; i < 3; i++) {
+    y[i] = (jet){{curve->shift[i], 0, 0}};
+    for (int j = 0; j < 3; j++) {
+      y[i] =
+        jet_add(y[i], jet_scale(curve->turn[3 * i + j], jet_dot(bodies[joint->a].axes[j], m.e)));
+    }
+  }
+  switch ((int)curve->kind) {
+  case ORACLE_HELIX:
+    turn_along(jet_scale(1 / (wide)curve->c, y[2]), &cosine, &sine);
+    out[0] = jet_less(y[0], jet_scale(r, cosine));
+    out[1] = jet_less(y[1], jet_scale(r, sine));
+    break;
+  case ORACLE_CIRCLE:
+    out[0] = jet_scale(1 / (2 * r), jet_add(jet_times(y[0], y[0]), jet_times(y[1], y[1])));
+    out[0].d[0] -= r / 2;
+    out[1] = y[2];
+    break;
+  default:
+    out[0] = jet_less(y[1], jet_scale(r / 2, jet_times(y[0], y[0])));
+    out[1] = jet_less(y[2], jet_scale(curve->c, y[0]));
+    break;
+  }
+  return 2;
 }
 
 int oracle_user_rows(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,

@@ -216,6 +216,75 @@ static void add_bushing(const oracle_force *f, const instant *now, wide six[][6]
   }
 }
 
+/* ---- cables ---- */
+
+/* Computes the length of a cable, the points of its path, and the unit vector of each part. The
+ * unit vector of a part without length is 0. */
+static jet length_of(const oracle_force *f, const motion *bodies, wide at[ORACLE_PATH][3],
+                     wide along[ORACLE_PATH][3])
+{
+  jet points[ORACLE_PATH][3];
+  jet sum = {{0, 0, 0}};
+  memset(along, 0, ORACLE_PATH * sizeof *along);
+  for (int k = 0; k < f->point_count; k++) {
+    place_at(&bodies[f->path[k]], f->points[k], points[k]);
+    for (int i = 0; i < 3; i++) {
+      at[k][i] = points[k][i].d[0];
+    }
+  }
+  for (int k = 0; k + 1 < f->point_count; k++) {
+    jet apart[3];
+    for (int i = 0; i < 3; i++) {
+      apart[i] = jet_less(points[k + 1][i], points[k][i]);
+    }
+    const jet square = jet_dot(apart, apart);
+    if (square.d[0] > 0) {
+      const jet length = jet_root(square);
+      sum = jet_add(sum, length);
+      for (int i = 0; i < 3; i++) {
+        along[k][i] = apart[i].d[0] / length.d[0];
+      }
+    }
+  }
+  return sum;
+}
+
+wide oracle_design_length(const spatial_oracle *o, const oracle_force *cable)
+{
+  motion bodies[ORACLE_BODIES];
+  wide at[ORACLE_PATH][3];
+  wide along[ORACLE_PATH][3];
+  oracle_design_motions(o, bodies);
+  return length_of(cable, bodies, at, along).d[0];
+}
+
+/* Returns the tension of a cable. The factor of the damping is 3 x^2 - 2 x^3 during the
+ * transition. */
+static wide tension_of(const oracle_force *f, jet length)
+{
+  const wide stretch = length.d[0] - f->free_length;
+  const wide x = stretch < f->transition ? stretch / f->transition : 1;
+  const wide tension =
+    f->stiffness * stretch + f->damping * (3 * x * x - 2 * x * x * x) * length.d[1];
+  return stretch > 0 && tension > 0 ? tension : 0;
+}
+
+/* The tension pulls each point towards the next one and towards the one before. */
+static void add_cable(const oracle_force *f, const motion *bodies, wide six[][6])
+{
+  static const wide none[3] = {0};
+  wide at[ORACLE_PATH][3];
+  wide along[ORACLE_PATH][3];
+  const wide tension = tension_of(f, length_of(f, bodies, at, along));
+  for (int k = 0; k < f->point_count; k++) {
+    wide force[3];
+    for (int i = 0; i < 3; i++) {
+      force[i] = tension * (along[k][i] - (k > 0 ? along[k - 1][i] : 0));
+    }
+    oracle_add_wrench(&bodies[f->path[k]], at[k], force, none, six[f->path[k]]);
+  }
+}
+
 /* ---- all ---- */
 
 void oracle_forces_at(const instant *now, wide six[][6])
@@ -241,6 +310,7 @@ void oracle_forces_at(const instant *now, wide six[][6])
     case ORACLE_JOINT_SPRING: add_joint_spring(f, now, six); break;
     case ORACLE_TORSION_SPRING: add_torsion_spring(f, now->bodies, six); break;
     case ORACLE_BUSHING: add_bushing(f, now, six); break;
+    case ORACLE_CABLE: add_cable(f, now->bodies, six); break;
     case ORACLE_FORCE_KINDS:
     default: break;
     }

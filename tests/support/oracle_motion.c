@@ -14,9 +14,9 @@ static void normalize3(wide x[3])
   }
 }
 
-/* Computes cosine and sine. The angle is halved until it is below 1, the series are summed, and the
+/* The angle is halved until it is below 1, the series are summed, and the
  * angle is doubled again. */
-static void wide_turn(wide angle, wide *cosine, wide *sine)
+void oracle_turn(wide angle, wide *cosine, wide *sine)
 {
   int halved = 0;
   for (; wide_size(angle) > 1; halved++) {
@@ -62,7 +62,7 @@ static void matrix_of(const oracle_body *body, const wide *q, wide a[9])
   if (body->kind == 's') {
     matrix_of_quaternion(q + 3, a);
   } else if (body->kind == 'b') {
-    wide_turn(q[2], &a[0], &a[3]);
+    oracle_turn(q[2], &a[0], &a[3]);
     a[1] = -a[3];
     a[4] = a[0];
   }
@@ -389,14 +389,16 @@ static int rows_of(const oracle_joint *joint, const motion *bodies, jet out[ORAC
     n = add_coincident(&m, out);
     return n + add_equal_speeds(joint, &m, bodies, out + n);
   case ORACLE_ROLLING_DISC: return oracle_disc_rows(joint, bodies, out);
-  case ORACLE_KNIFE_EDGE: return oracle_edge_rows(joint, bodies, out);
+  case ORACLE_KNIFE_EDGE:
+  case ORACLE_SPATIAL_EDGE: return oracle_edge_rows(joint, bodies, out);
+  case ORACLE_CURVE: return oracle_curve_rows(joint, bodies, out);
   default: return basic_rows_of(joint, &m, out);
   }
 }
 
 bool oracle_is_velocity_row(const oracle_joint *joint, int row)
 {
-  return (joint->kind == ORACLE_ROLLING_DISC && row > 0) || joint->kind == ORACLE_KNIFE_EDGE ||
+  return (joint->kind == ORACLE_ROLLING_DISC && row > 0) || oracle_is_edge(joint) ||
          joint->kind == ORACLE_USER;
 }
 
@@ -439,7 +441,7 @@ int oracle_members_of(const spatial_oracle *o, const oracle_joint *joint,
 void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3])
 {
   const motion *body = &bodies[joint->b];
-  bool touches = joint->kind == ORACLE_ROLLING_DISC || joint->kind == ORACLE_KNIFE_EDGE;
+  bool touches = joint->kind == ORACLE_ROLLING_DISC || oracle_is_edge(joint);
   jet at[3];
   if (touches) {
     oracle_contact_point(joint, bodies, at);

@@ -56,6 +56,9 @@ instant oracle_stop(const instant *now);
 /* Gives one body other velocities. */
 void oracle_set_velocities(instant *now, int body, const wide six[6]);
 
+/* Computes cosine and sine. */
+void oracle_turn(wide angle, wide *cosine, wide *sine);
+
 /* The vectors of a joint during a motion. */
 typedef struct moving {
   jet e[3]; /* the vector from body_a's point to body_b's point */
@@ -92,14 +95,17 @@ const oracle_joint *oracle_pair_of(const spatial_oracle *o, const oracle_joint *
 /* Computes the vector from the origin of body_b to the point of its reaction. */
 void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3]);
 
-/* These functions are in oracle_contact.c. The first three evaluate the rows of a rolling disc, of
- * a knife edge and of a user constraint. The last one computes the point of contact in ground axes,
- * or the point of the blade. */
+/* These functions are in oracle_contact.c. The first four evaluate the rows of a rolling disc, of
+ * knife edges, of a point on a curve and of a user constraint. The last one computes the point of
+ * contact in ground axes, or the point of the blade. */
 int oracle_disc_rows(const oracle_joint *joint, const motion *bodies, jet *out);
 int oracle_edge_rows(const oracle_joint *joint, const motion *bodies, jet *out);
+int oracle_curve_rows(const oracle_joint *joint, const motion *bodies, jet *out);
 int oracle_user_rows(const spatial_oracle *o, const oracle_joint *joint, const motion *bodies,
                      double t, int flow, jet *out);
 void oracle_contact_point(const oracle_joint *joint, const motion *bodies, jet out[3]);
+/* Returns whether a joint is a planar or a spatial knife edge. */
+bool oracle_is_edge(const oracle_joint *joint);
 
 /* Computes the six generalized forces on every body: gravity, gyroscopic moments and the forces of
  * all elements. */

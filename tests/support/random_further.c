@@ -13,6 +13,7 @@
 #include "oracle_motion.h"
 #include "random_coordinates.h"
 #include "random_definitions.h"
+#include "rotation.h"
 
 /* Returns a random body that has an orientation, or ground. If `planar` is true, the body is planar
  * or ground. */
@@ -307,6 +308,219 @@ static void add_bushing(random_spatial *r)
   check(baum_mechanism_add_spatial_bushing(r->mechanism, &def, NULL));
 }
 
+/* ---- spatial knife edges ---- */
+
+/* One edge in six is added twice. */
+static void add_spatial_edge(random_spatial *r)
+{
+  chance *c = &r->chance;
+  spatial_oracle *o = &r->oracle;
+  int a = choose_turning(r, false);
+  int b = choose_turning(r, false);
+  double given[2][3];
+  random_vector(c, 1.0, given[0]);
+  random_vector(c, 1.0, given[1]);
+  bool in_ground = chance_below(c, 2) == 0;
+  for (int k = chance_below(c, 6) == 0 ? 2 : 1; k > 0 && a != b; k--) {
+    oracle_joint *joint = random_spatial_next_joint(r, ORACLE_SPATIAL_EDGE, a, b);
+    baum_spatial_knife_edge_def def = baum_spatial_knife_edge_def_default();
+    wide point[3];
+    wide axis[3];
+    def.body_a = o->bodies[a].id;
+    def.body_b = o->bodies[b].id;
+    memcpy(in_ground ? def.point : def.point_a, given[0], sizeof given[0]);
+    memcpy(def.axis, given[1], sizeof given[1]);
+    wide_from_double(given[0], point);
+    wide_from_double(given[1], axis);
+    wide length = wide_root(dot3(axis, axis));
+    for (int i = 0; i < 3; i++) {
+      axis[i] /= length;
+    }
+    memcpy(joint->s[0], point, sizeof point);
+    memcpy(joint->axes[0] + 3, axis, sizeof axis);
+    if (in_ground) {
+      oracle_to_body(&o->bodies[a], point, joint->s[0]);
+      oracle_axis_to_body(&o->bodies[a], axis, joint->axes[0] + 3);
+    }
+    check(baum_mechanism_add_spatial_knife_edge(r->mechanism, &def, &joint->id));
+  }
+}
+
+/* ---- curves ---- */
+
+/* Computes F or G, and its derivatives with respect to y: three first ones, and the second ones by
+ * y_1 twice, by y_2 twice and by y_3 twice. All mixed ones are 0. */
+static void curve_of(const oracle_curve *u, int row, const double y[3], double out[7])
+{
+  const double r = u->r;
+  const double cosine = cos(y[2] / u->c);
+  const double sine = sin(y[2] / u->c);
+  const double helix[2][7] = {
+    {y[0] - r * cosine, 1.0, 0.0, r * sine / u->c, 0.0, 0.0, r * cosine / (u->c * u->c)},
+    {y[1] - r * sine, 0.0, 1.0, -r * cosine / u->c, 0.0, 0.0, r * sine / (u->c * u->c)}};
+  const double circle[2][7] = {{(y[0] * y[0] + y[1] * y[1] - r * r) / (2.0 * r), y[0] / r, y[1] / r,
+                                0.0, 1.0 / r, 1.0 / r, 0.0},
+                               {y[2], 0.0, 0.0, 1.0}};
+  const double parabola[2][7] = {{y[1] - 0.5 * r * y[0] * y[0], -r * y[0], 1.0, 0.0, -r},
+                                 {y[2] - u->c * y[0], -u->c, 0.0, 1.0}};
+  memcpy(out,
+         u->kind == ORACLE_HELIX    ? helix[row]
+         : u->kind == ORACLE_CIRCLE ? circle[row]
+                                    : parabola[row],
+         sizeof helix[row]);
+}
+
+static int curve(const double xyz[3], double out[20], void *data)
+{
+  const oracle_curve *u = data;
+  double y[3];
+  for (int i = 0; i < 3; i++) {
+    const double *turn = u->turn + (ptrdiff_t)3 * i;
+    y[i] = u->shift[i] + turn[0] * xyz[0] + turn[1] * xyz[1] + turn[2] * xyz[2];
+  }
+  for (int row = 0; row < 2; row++) {
+    double f[7];
+    double *second = out + 10 * row + 4;
+    curve_of(u, row, y, f);
+    out[10 * row] = f[0];
+    for (int i = 0; i < 3; i++) {
+      for (int k = 0; k < 3; k++) {
+        out[10 * row + 1 + i] += f[1 + k] * u->turn[3 * k + i];
+      }
+      for (int j = i; j < 3; j++, second++) {
+        for (int k = 0; k < 3; k++) {
+          *second += f[4 + k] * u->turn[3 * k + i] * u->turn[3 * k + j];
+        }
+      }
+    }
+  }
+  return 0;
+}
+
+/* Chooses a curve, and a point y of it. */
+static void choose_curve(chance *c, oracle_curve *u, double y[3])
+{
+  double p[4];
+  const double along = chance_number(c, -1.0, 1.0);
+  u->kind = chance_below(c, ORACLE_CURVES);
+  u->r = chance_number(c, 0.3, 1.0);
+  u->c = chance_number(c, 0.3, 1.0);
+  for (int i = 0; i < 4; i++) {
+    p[i] = chance_number(c, -1.0, 1.0);
+  }
+  quaternion_normalize(p);
+  rotation_matrix(p, u->turn);
+  if (u->kind == ORACLE_PARABOLA) {
+    y[0] = along;
+    y[1] = 0.5 * u->r * along * along;
+    y[2] = u->c * along;
+    return;
+  }
+  y[0] = u->r * cos(along / u->c);
+  y[1] = u->r * sin(along / u->c);
+  y[2] = u->kind == ORACLE_HELIX ? along : 0.0;
+}
+
+/* Puts a point of body b on a curve on body a. The point is at body_a's point in half of all
+ * cases. Otherwise, this vector is random. */
+static void add_curve(random_spatial *r, int a, int b)
+{
+  static const wide z[3] = {0, 0, 1};
+  chance *c = &r->chance;
+  spatial_oracle *o = &r->oracle;
+  oracle_joint *joint = random_spatial_next_joint(r, ORACLE_CURVE, a, b);
+  oracle_curve *u = &joint->curve;
+  baum_spatial_curve_def def = baum_spatial_curve_def_default();
+  bool in_ground = chance_below(c, 2) == 0;
+  double y[3];
+  double apart[3] = {0.0};
+  wide point[3];
+  choose_curve(c, u, y);
+  random_vector(c, random_turns(&o->bodies[b]) ? 1.0 : 0.0, def.point_b);
+  wide_from_double(def.point_b, joint->s[1]);
+  oracle_to_ground(&o->bodies[b], joint->s[1], point);
+  if (in_ground) {
+    wide_to_double(point, def.point);
+    def.point_b[0] = def.point_b[1] = def.point_b[2] = (double)NAN;
+    wide_from_double(def.point, point);
+    oracle_place(o, joint, point, point, z);
+  } else {
+    random_vector(c, 1.0, apart);
+    oracle_to_body(&o->bodies[a], point, joint->s[0]);
+    for (int i = 0; i < 3; i++) {
+      def.point_a[i] = (double)joint->s[0][i] - apart[i];
+    }
+    wide_from_double(def.point_a, joint->s[0]);
+  }
+  for (int i = 0; i < 3; i++) {
+    const double *turn = u->turn + (ptrdiff_t)3 * i;
+    u->shift[i] = y[i] - turn[0] * apart[0] - turn[1] * apart[1] - turn[2] * apart[2];
+  }
+  def.body_a = o->bodies[a].id;
+  def.body_b = o->bodies[b].id;
+  def.curve = curve;
+  def.user = u;
+  check(baum_mechanism_add_spatial_curve(r->mechanism, &def, &joint->id));
+}
+
+/* Adds a body or a particle, which is often in a plane, with a point on a curve. If it is a body,
+ * it may have the curve instead. */
+static void add_bead(random_spatial *r)
+{
+  chance *c = &r->chance;
+  bool particle = chance_below(c, 2) == 0;
+  bool planar = chance_below(c, 3) == 0;
+  int other = choose_turning(r, false);
+  bool swap = chance_below(c, 2) == 0 && !particle && other > 0;
+  random_spatial_add_body(r, particle, planar);
+  int added = r->oracle.body_count - 1;
+  add_curve(r, swap ? added : other, swap ? other : added);
+}
+
+/* ---- cables ---- */
+
+static void choose_path(random_spatial *r, oracle_force *f, baum_body_id bodies[ORACLE_PATH])
+{
+  chance *c = &r->chance;
+  spatial_oracle *o = &r->oracle;
+  f->point_count = 2 + chance_below(c, ORACLE_PATH - 1);
+  for (int k = 0; k < f->point_count; k++) {
+    f->path[k] = chance_below(c, o->body_count);
+    bodies[k] = o->bodies[f->path[k]].id;
+    random_vector(c, random_turns(&o->bodies[f->path[k]]) ? 1.0 : 0.0, f->points[k]);
+  }
+}
+
+/* The path often visits a body twice. The default of the free length makes the cable start where
+ * it becomes taut, and a transition of 0 would make its damping jump there. */
+static void add_cable(random_spatial *r)
+{
+  static const double share = 1e-4; /* the default of the transition, relative to the free length */
+  chance *c = &r->chance;
+  oracle_force f = {.kind = ORACLE_CABLE};
+  baum_body_id bodies[ORACLE_PATH];
+  baum_spatial_cable_def def = baum_spatial_cable_def_default();
+  choose_path(r, &f, bodies);
+  f.stiffness = def.stiffness = chance_decade(c, 1.0, 100.0);
+  f.damping = def.damping = chance_below(c, 3) == 0 ? 0.0 : chance_decade(c, 0.01, 10.0);
+  f.free_length = oracle_design_length(&r->oracle, &f);
+  bool is_default = chance_below(c, 6) == 0;
+  if (!is_default) {
+    def.free_length = chance_number(c, 0.2, 1.1) * (double)f.free_length;
+    f.free_length = def.free_length;
+  }
+  f.transition = share * f.free_length;
+  if (chance_below(c, 2) == 0) {
+    def.transition = !is_default && chance_below(c, 4) == 0 ? 0.0 : chance_decade(c, 0.1, 10.0);
+    f.transition = def.transition;
+  }
+  r->oracle.forces[r->oracle.force_count++] = f;
+  def.bodies = bodies;
+  def.points = f.points[0];
+  def.point_count = f.point_count;
+  check(baum_mechanism_add_spatial_cable(r->mechanism, &def, NULL));
+}
+
 /* ---- all ---- */
 
 /* Calls `add` up to `most` times. */
@@ -326,4 +540,7 @@ void random_spatial_add_further(random_spatial *r)
   repeat(r, 1, add_user_rows);
   repeat(r, 2, add_torsion_spring);
   repeat(r, 2, add_bushing);
+  repeat(r, 2, add_spatial_edge);
+  repeat(r, 1, add_bead);
+  repeat(r, 2, add_cable);
 }

@@ -18,7 +18,7 @@
 #include "quad_rows.h"
 
 enum {
-  ORACLE_BODIES = 12, /* includes ground, which is body 0 */
+  ORACLE_BODIES = 13, /* includes ground, which is body 0 */
   ORACLE_JOINTS = 44,
   ORACLE_FORCES = 14,
   ORACLE_ROWS = 12,     /* of one joint */
@@ -26,6 +26,7 @@ enum {
   ORACLE_REACTION = 24, /* numbers of the reaction of one joint */
   ORACLE_USER_ROWS = 2, /* of one user constraint */
   ORACLE_USER_COLUMNS = 12,
+  ORACLE_PATH = 5, /* points of one cable */
   ORACLE_COLUMNS = 6 * ORACLE_BODIES
 };
 
@@ -45,6 +46,8 @@ typedef enum oracle_kind {
   ORACLE_CONSTANT_VELOCITY,
   ORACLE_ROLLING_DISC,
   ORACLE_KNIFE_EDGE, /* its bodies are planar or ground */
+  ORACLE_SPATIAL_EDGE,
+  ORACLE_CURVE,      /* a point of body_b on a curve of body_a */
   ORACLE_PAIR_KINDS, /* the joints above have two bodies */
   ORACLE_DRIVER = ORACLE_PAIR_KINDS,
   ORACLE_COUPLING,
@@ -76,9 +79,22 @@ typedef struct oracle_user {
   double nu[ORACLE_USER_ROWS];
 } oracle_user;
 
+/* A curve F = G = 0. With y = turn x + shift, where x is the position relative to body_a's point in
+ * the axes of body_a, the three kinds of curves are:
+ *   helix     F = y_1 - r cos(y_3 / c),            G = y_2 - r sin(y_3 / c)
+ *   circle    F = (y_1^2 + y_2^2 - r^2) / (2 r),   G = y_3
+ *   parabola  F = y_2 - r y_1^2 / 2,               G = y_3 - c y_1 */
+typedef struct oracle_curve {
+  enum { ORACLE_HELIX, ORACLE_CIRCLE, ORACLE_PARABOLA, ORACLE_CURVES } kind;
+  double turn[9]; /* row by row */
+  double shift[3];
+  double r, c;
+} oracle_curve;
+
 /* In a rolling disc, s contains a point of the plane and the centre. The z axes are the normal of
  * the plane and the axis of the disc. In a knife edge, s[0] is the point of the blade, and the x
- * axis on body_a is along the blade. */
+ * axis on body_a is along the blade. Its y axis is across the blade. In a spatial knife edge, s[0]
+ * and this y axis have the same meaning. */
 typedef struct oracle_joint {
   baum_joint_id id;
   oracle_kind kind;
@@ -97,6 +113,7 @@ typedef struct oracle_joint {
   double period;      /* [rad or m] whole revolutions change Phi by multiples of it; 0 if none */
   double start[2];    /* of a driver: a time [s], and the value that it prescribes at this time */
   oracle_user user;
+  oracle_curve curve;
 } oracle_joint;
 
 typedef enum oracle_force_kind {
@@ -105,6 +122,7 @@ typedef enum oracle_force_kind {
   ORACLE_JOINT_SPRING,
   ORACLE_TORSION_SPRING,
   ORACLE_BUSHING,
+  ORACLE_CABLE,
   ORACLE_FORCE_KINDS
 } oracle_force_kind;
 
@@ -122,6 +140,10 @@ typedef struct oracle_force {
   oracle_joint frame;        /* bodies, points and axes of a torsion spring or a bushing */
   double stiffness_of_6[36]; /* of a bushing */
   double damping_of_6[36];
+  int path[ORACLE_PATH]; /* bodies of the points of a cable */
+  double points[ORACLE_PATH][3];
+  int point_count;
+  wide transition; /* of a cable */
 } oracle_force;
 
 typedef struct spatial_oracle {
@@ -166,6 +188,9 @@ void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3]);
 void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3]);
 void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3]);
 void oracle_axis_to_ground(const oracle_body *body, const wide s[3], wide axis[3]);
+
+/* Returns the length of a cable in the design configuration. */
+wide oracle_design_length(const spatial_oracle *o, const oracle_force *cable);
 
 /* The law of the drivers, which the library calls. `user` points to the member `start` of an
  * oracle_joint. */
