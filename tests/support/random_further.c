@@ -492,7 +492,8 @@ static void choose_path(random_spatial *r, oracle_force *f, baum_body_id bodies[
 }
 
 /* The path often visits a body twice. The default of the free length makes the cable start where
- * it becomes taut, and a transition of 0 would make its damping jump there. */
+ * it becomes taut, and a transition of 0 would make its damping jump there. The damper is often so
+ * strong that it cancels the spring of a cable that becomes shorter. */
 static void add_cable(random_spatial *r)
 {
   static const double share = 1e-4; /* the default of the transition, relative to the free length */
@@ -502,11 +503,11 @@ static void add_cable(random_spatial *r)
   baum_spatial_cable_def def = baum_spatial_cable_def_default();
   choose_path(r, &f, bodies);
   f.stiffness = def.stiffness = chance_decade(c, 1.0, 100.0);
-  f.damping = def.damping = chance_below(c, 3) == 0 ? 0.0 : chance_decade(c, 0.01, 10.0);
+  f.damping = def.damping = chance_below(c, 3) == 0 ? 0.0 : chance_decade(c, 0.1, 100.0);
   f.free_length = oracle_design_length(&r->oracle, &f);
   bool is_default = chance_below(c, 6) == 0;
   if (!is_default) {
-    def.free_length = chance_number(c, 0.2, 1.1) * (double)f.free_length;
+    def.free_length = chance_number(c, 0.2, 1.2) * (double)f.free_length;
     f.free_length = def.free_length;
   }
   f.transition = share * f.free_length;
