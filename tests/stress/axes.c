@@ -112,8 +112,9 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
 
 #define KIND(NAME)    (1U << SCENE_##NAME)
 #define NUMBER(FIELD) offsetof(cell, FIELD)
-#define ELEMENTS \
-  (KIND(SLEIGH) | KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS) | KIND(BUSHING))
+#define ELEMENTS                                                                          \
+  (KIND(SLEIGH) | KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS) | KIND(BUSHING) | \
+   KIND(BEAD))
 
 typedef struct decades {
   const char *name; /* name on the command line */

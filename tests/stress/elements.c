@@ -14,6 +14,10 @@
  * The bushing has equal stiffness k in all directions, and also damping d. Its points are at the
  * distance b from the axis of the revolute joint, and it is relaxed RELAXED before the start. If h
  * is the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ *
+ * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable runs from the bead to the
+ * point (0, 0, h), and over a length SIDE to its end. With l = sqrt(r^2 + (h - c x)^2), its torque
+ * is -(k (l - RELAXED_LENGTH) + d l') dl/dx.
  */
 #include "elements.h"
 
@@ -31,13 +35,17 @@ static const long double ALONG = 0.3L;
 static const long double ARM = 0.5L;
 static const long double BUSH = 0.4L; /* b */
 static const double RELAXED = 0.1;
+static const double RISE = 0.4; /* c [m/rad] */
+static const double TOP = 2.0;  /* h */
+static const double SIDE = 0.5;
+static const double RELAXED_LENGTH = 1.0; /* without SIDE; the cable is always taut */
 
 static const long double MASSES[2][4] = {{1, 0.04L, 0.05L, 0.06L}, {1, 0.02L, 0.03L, 0.04L}};
 static const long double DISC_MASS[4] = {1, 0.0625L, 0.0625L, 0.125L};
 
 int elements_bodies(const scene *s)
 {
-  return s->kind == SCENE_DISC || s->kind == SCENE_BUSHING ? 1 : 2;
+  return s->kind == SCENE_DISC || s->kind >= SCENE_BUSHING ? 1 : 2;
 }
 
 /* `ratio` multiplies the mass and the moments of inertia of the last of two bodies, or the moments
@@ -116,6 +124,15 @@ static carried pendulum_body(jets x)
   return c;
 }
 
+static carried bead_body(jets x)
+{
+  carried c = carried_at(0, 0, 0);
+  c.r[0] = jets_scale(RADIUS, jets_cos(x));
+  c.r[1] = jets_scale(RADIUS, jets_sin(x));
+  c.r[2] = jets_scale(RISE, x);
+  return c;
+}
+
 carried elements_body(const scene *s, int body, jets x)
 {
   switch ((int)s->kind) {
@@ -123,12 +140,24 @@ carried elements_body(const scene *s, int body, jets x)
   case SCENE_DISC: return disc_body(s, x);
   case SCENE_SCREW: return screw_body(body, x);
   case SCENE_SHAFTS: return shaft_body(body, x);
+  case SCENE_BEAD: return bead_body(x);
   default: return pendulum_body(x);
   }
 }
 
+static long double cable_torque(const scene *s, long double x, long double v)
+{
+  const long double below = TOP - RISE * x;
+  const long double length = sqrtl(RADIUS * RADIUS + below * below);
+  const long double slope = -RISE * below / length;
+  return -(s->stiffness * (length - RELAXED_LENGTH) + s->damping * slope * v) * slope;
+}
+
 long double elements_torque(const scene *s, long double x, long double v)
 {
+  if (s->kind == SCENE_BEAD) {
+    return cable_torque(s, x, v);
+  }
   long double h = x - (s->angle - RELAXED);
   long double square = BUSH * BUSH;
   return -s->stiffness * (square * sinl(h) + h) - s->damping * (square + 1) * v;
@@ -275,6 +304,49 @@ static void add_bushing(builder *b)
   ADD(bushing, def, NULL)
 }
 
+/* The axes do not vary the units of this scene, so all lengths are in m. */
+static int helix(const double xyz[3], double out[20], void *user)
+{
+  const double r = (double)RADIUS;
+  const double cosine = cos(xyz[2] / RISE);
+  const double sine = sin(xyz[2] / RISE);
+  (void)user;
+  out[0] = xyz[0] - r * cosine;
+  out[1] = 1.0;
+  out[3] = r * sine / RISE;
+  out[9] = r * cosine / (RISE * RISE);
+  out[10] = xyz[1] - r * sine;
+  out[12] = 1.0;
+  out[13] = -r * cosine / RISE;
+  out[19] = r * sine / (RISE * RISE);
+  return 0;
+}
+
+static void add_helix(builder *b)
+{
+  baum_spatial_curve_def def = baum_spatial_curve_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = b->bodies[0];
+  set_point(b, 0, 0, 0, def.point_a);
+  set_point(b, 0, 0, 0, def.point_b);
+  def.curve = helix;
+  ADD(curve, def, NULL)
+}
+
+static void add_cable(builder *b)
+{
+  const double points[3][3] = {{SIDE, 0.0, TOP}, {0.0, 0.0, TOP}, {0.0, 0.0, 0.0}};
+  const baum_body_id bodies[3] = {BAUM_GROUND, BAUM_GROUND, b->bodies[0]};
+  baum_spatial_cable_def def = baum_spatial_cable_def_default();
+  def.bodies = bodies;
+  def.points = points[0];
+  def.point_count = 3;
+  def.stiffness = b->s->stiffness;
+  def.damping = b->s->damping;
+  def.free_length = RELAXED_LENGTH + SIDE;
+  ADD(cable, def, NULL)
+}
+
 static void add_joints(builder *b)
 {
   static const double x[3] = {1.0, 0.0, 0.0};
@@ -295,6 +367,9 @@ static void add_joints(builder *b)
   } else if (s->kind == SCENE_BUSHING) {
     add_revolute(b, BAUM_GROUND, b->bodies[0], origin, y);
     add_bushing(b);
+  } else if (s->kind == SCENE_BEAD) {
+    add_helix(b);
+    add_cable(b);
   }
   for (int k = 0; k <= s->spare; k++) {
     switch ((int)s->kind) {

@@ -7,6 +7,7 @@
  *   screw    an unbalanced spindle moves a nut
  *   shafts   a constant-velocity joint connects an unbalanced shaft and an inclined shaft
  *   bushing  a pendulum on a revolute joint, with a bushing between it and the ground
+ *   bead     a bead on a helix, and a cable from the bead over a point of the ground
  */
 #ifndef BAUM_TEST_ELEMENTS_H
 #define BAUM_TEST_ELEMENTS_H
@@ -18,7 +19,7 @@ int elements_bodies(const scene *s);
 carried elements_body(const scene *s, int body, jets x);
 /* Returns the mass and the moments of inertia of a body. */
 void elements_inertia(const scene *s, int body, long double out[4]);
-/* Returns the torque of the bushing. */
+/* Returns the torque of the bushing, or that of the cable. */
 long double elements_torque(const scene *s, long double x, long double v);
 baum_status elements_build(const scene *s, baum_mechanism **out);
 

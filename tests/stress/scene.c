@@ -41,6 +41,7 @@ static const scene START[SCENE_KINDS] = {
   [SCENE_SHAFTS] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81},
   /* The pendulum starts at rest, so its angle stays far below pi. */
   [SCENE_BUSHING] = {.angle = 1.2, .rate = 0.0, .gravity = 9.81, .stiffness = 10.0},
+  [SCENE_BEAD] = {.angle = 0.3, .rate = 1.0, .gravity = 9.81, .stiffness = 10.0},
 };
 
 scene scene_of(scene_kind kind)
@@ -57,8 +58,9 @@ scene scene_of(scene_kind kind)
 const char *scene_name(const scene *s)
 {
   static const char *const NAMES[SCENE_KINDS] = {
-    "bob",  "pendulum", "crank", "four_bar", "windows", "sleigh", "chain",  "spatial crank",
-    "rssr", "bricard",  "top",   "wheel",    "disc",    "screw",  "shafts", "bushing"};
+    "bob",   "pendulum",      "crank",  "four_bar", "windows", "sleigh",
+    "chain", "spatial crank", "rssr",   "bricard",  "top",     "wheel",
+    "disc",  "screw",         "shafts", "bushing",  "bead"};
   static const char *const TILTED[SCENE_KINDS] = {
     "tilted bob",     "tilted pendulum", "tilted crank", "tilted four_bar",
     "tilted windows", "tilted sleigh",   "tilted chain"};

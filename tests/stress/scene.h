@@ -27,6 +27,7 @@ typedef enum scene_kind {
   SCENE_SCREW,
   SCENE_SHAFTS,
   SCENE_BUSHING,
+  SCENE_BEAD,
   SCENE_KINDS
 } scene_kind;
 

@@ -227,7 +227,7 @@ long double space_acceleration(const scene *s, long double x, long double v)
     }
     force -= m[0] * s->gravity * c.r[s->kind == SCENE_BRICARD ? 1 : 2].d[1];
   }
-  if (s->kind == SCENE_BUSHING) {
+  if (s->kind == SCENE_BUSHING || s->kind == SCENE_BEAD) {
     force += elements_torque(s, x, v);
   } else if (s->stiffness != 0.0 || s->damping != 0.0) {
     jets at = crank_body(2, (jets){{x, 1, 0}}).r[0];
