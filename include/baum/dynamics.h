@@ -63,6 +63,17 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
  *           mechanism */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
+/** Set the revolutions of an angle of a spatial joint. Positions determine such an angle only up to
+ *  whole revolutions. From then on, the functions of this workspace use the value that is nearest
+ *  to the given angle. Before the first such call, this angle is 0.
+ *  @param workspace   of the mechanism
+ *  @param joint       a spatial joint
+ *  @param coordinate  one of its angles; BAUM_COORDINATE_FIRST if this is an angle
+ *  @param angle       [rad] finite
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (one of its functions is running) */
+BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
+                                              baum_joint_coordinate coordinate, double angle);
+
 /** Compute the time derivative of the positions, q' = N(q) v. For bodies whose positions form a
  *  vector, such as planar bodies, q' equals v.
  *  @param      workspace  of the mechanism
@@ -259,7 +270,8 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
  *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
  *                              unchanged on failure
  *  @return  the statuses at the top of this file; also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR,
- *           BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (redundant rows contradict the other rows) */
+ *           BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (redundant rows contradict the other rows, or
+ *           axes of a joint have become opposite) */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
                                             double *v);
 

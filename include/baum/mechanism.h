@@ -310,7 +310,7 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  An angle of a planar joint grows continuously over several revolutions. An angle of a spatial
  *  joint follows from a single configuration only up to whole revolutions. A run therefore counts
  *  the revolutions. A workspace does not know the past of the motion, so its functions use angles
- *  between -pi and pi. */
+ *  between -pi and pi, unless baum_workspace_set_angle() has given other ones. */
 typedef enum baum_joint_coordinate {
   /** The first coordinate in the list above; most joints have only one. */
   BAUM_COORDINATE_FIRST = 0,

@@ -11,7 +11,8 @@
  *  this.
  *
  *  Angles: a run counts the revolutions of the angles of joints. A workspace does not know the past
- *  of the motion and uses angles between -pi and pi.
+ *  of the motion and uses angles between -pi and pi, unless baum_workspace_set_angle() has given
+ *  other ones.
  */
 #ifndef BAUM_SPATIAL_JOINTS_H
 #define BAUM_SPATIAL_JOINTS_H

@@ -322,18 +322,16 @@ static baum_status assemble_positions(assembly *s)
   return worst_displacement(s, s->w->phi) <= CONSISTENT ? BAUM_OK : fail_positions(s);
 }
 
-/* Refuse axes that have become opposite instead of parallel. The constraint equations cannot
- * distinguish the two cases. */
-static baum_status check_sides(const assembly *s)
+baum_status baum_i_check_sides(const baum_workspace *w, double t, const char *action)
 {
-  const baum_mechanism *m = s->w->mechanism;
+  const baum_mechanism *m = w->mechanism;
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_joint *joint = m->joints[k];
-    if (joint->type->is_reversed && joint->type->is_reversed(joint, &s->w->point)) {
+    if (joint->type->is_reversed && joint->type->is_reversed(joint, &w->point)) {
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: assembly leads to opposite axes in %s; give a design "
-                         "configuration in which they point the same way",
-                         s->t, baum_i_joint_label(m, k).text);
+                         "t = %.9g s: %s leads to opposite axes in %s; give a configuration in "
+                         "which they point the same way",
+                         t, action, baum_i_joint_label(m, k).text);
     }
   }
   return BAUM_OK;
@@ -444,7 +442,7 @@ static baum_status assemble(baum_workspace *workspace, double t, double *q, doub
   baum_i_normalize(workspace->mechanism, s.q);
   baum_status status = assemble_positions(&s);
   if (status == BAUM_OK) {
-    status = check_sides(&s);
+    status = baum_i_check_sides(workspace, t, "assembly");
   }
   if (status == BAUM_OK && v) {
     memcpy(velocity, v, nv * sizeof *v);

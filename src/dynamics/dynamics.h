@@ -319,6 +319,10 @@ baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double 
 baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
                                     const bool *held);
 
+/* Refuse axes that have become opposite instead of parallel at the point of the workspace. The
+ * constraint equations cannot distinguish the two cases. `action` is the subject of the message. */
+baum_status baum_i_check_sides(const baum_workspace *workspace, double t, const char *action);
+
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 
 /* Replace workspace->lambda by the multipliers of least norm, in rows scaled by M, that give the

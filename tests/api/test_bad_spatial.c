@@ -502,10 +502,9 @@ static void check_reversed(const char *kind, const double orientation[4])
   for (int i = 0; i < nc; i++) {
     assert_true(fabs(phi[i]) < 1e-15);
   }
-  ASSERT_SAYS(
-    baum_workspace_assemble(w, 0.0, q, v, NULL, 0), BAUM_ERR_INCONSISTENT,
-    "t = 0 s: assembly leads to opposite axes in |\"mount\"|; give a design configuration "
-    "in which they point the same way");
+  ASSERT_SAYS(baum_workspace_assemble(w, 0.0, q, v, NULL, 0), BAUM_ERR_INCONSISTENT,
+              "t = 0 s: assembly leads to opposite axes in |\"mount\"|; give a configuration "
+              "in which they point the same way");
   baum_workspace_destroy(w);
   baum_mechanism_destroy(mechanism);
 }

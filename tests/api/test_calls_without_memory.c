@@ -99,6 +99,7 @@ typedef struct scene {
   X(baum_workspace_reaction, (s->w, 0.0, s->q, s->lambda, s->parts.rod, s->x))                 \
   X(baum_workspace_residual, (s->w, &s->dae, 0.0, s->y, s->y, s->x))                           \
   X(baum_workspace_set_input, (s->w, s->parts.throttle, 0.5))                                  \
+  X(baum_workspace_set_angle, (s->w, s->parts.bearing, BAUM_COORDINATE_FIRST, 7.0))            \
   X(baum_simulation_step, (s->run, 3))                                                         \
   X(baum_simulation_advance_to, (s->run, 0.01))                                                \
   X(baum_simulation_sample, (s->run, &s->later, 1, &s->channel, 1, s->x, NULL))                \

@@ -201,6 +201,49 @@ static void ratios_are_exact_over_100_revolutions(void **state)
   baum_mechanism_destroy(t.mechanism);
 }
 
+/* The rows are satisfied at any number of revolutions. The energy of the spring depends on it. A
+ * workspace computes this energy after it has been given the angle of the shaft. */
+static void a_workspace_is_given_the_revolutions(void **state)
+{
+  (void)state;
+  train t = make(AMPLITUDE * frequency());
+  baum_simulation *run = start(&t, baum_rk4(), 1e-3);
+  baum_workspace *w = NULL;
+  double x[READ];
+  double phi[64];
+  double energy[2];
+  int32_t rows = 0;
+  check(baum_simulation_advance_to(run, 0.2 * BAUM_I_REVOLUTION / frequency()));
+  read(run, &t, x);
+  assert_true(fabs(x[0]) > 90.0 * BAUM_I_REVOLUTION);
+  check(baum_workspace_create(t.mechanism, &w));
+  check(baum_mechanism_sizes(t.mechanism, NULL, NULL, &rows));
+  assert_true(rows <= 64);
+  const double *q = baum_simulation_q(run);
+  const double *v = baum_simulation_v(run);
+  const double wound = 0.5 * STIFFNESS * x[0] * x[0];
+  for (int given = 0; given < 2; given++) {
+    check(baum_workspace_phi(w, 0.0, q, phi));
+    for (int i = 0; i < rows; i++) {
+      assert_true(fabs(phi[i]) <= 1e-12);
+    }
+    check(baum_workspace_energy(w, 0.0, q, v, &energy[0], &energy[1]));
+    assert_true(given ? fabs(energy[1] / wound - 1.0) <= 1e-12 : energy[1] < 1e-3 * wound);
+    check(baum_workspace_set_angle(w, t.shaft, BAUM_COORDINATE_FIRST, x[0] + 1.0));
+  }
+  assert_int_equal(baum_workspace_set_angle(NULL, t.shaft, BAUM_COORDINATE_ANGLE, 0.0),
+                   BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_workspace_set_angle(w, t.screw, BAUM_COORDINATE_DISPLACEMENT, 0.0),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "must be an angle of a spatial joint"));
+  assert_int_equal(baum_workspace_set_angle(w, t.shaft, BAUM_COORDINATE_ANGLE, (double)NAN),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "angle is nan rad, must be finite"));
+  baum_workspace_destroy(w);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(t.mechanism);
+}
+
 /* ---- all methods ---- */
 
 /* Returns the allowed error of the angle. It is at least three times the measured one. */
@@ -303,6 +346,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(ratios_are_exact_over_100_revolutions),
+    cmocka_unit_test(a_workspace_is_given_the_revolutions),
     cmocka_unit_test(every_method_keeps_the_ratios),
     cmocka_unit_test(rates_are_equal_at_any_angle),
   };

@@ -75,5 +75,22 @@ class Workspaces(unittest.TestCase):
         np.testing.assert_allclose(w.reaction(0, (1, 0), [2.0], "circle"), [-4, 0], atol=1e-8)
 
 
+class Revolutions(unittest.TestCase):
+    def test_angles_are_given(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        wheel = m.spatial_body("wheel", mass=1, inertia=(1, 1, 1))
+        pin = m.spatial_revolute("pin", m.ground, wheel, point=(0, 0, 0), axis=(0, 0, 1))
+        m.joint_spring("spiral", pin, stiffness=2.0)
+        with baum.Workspace(m.freeze()) as w:
+            q, v = w.design()[0], np.zeros(6)
+            for angle, wanted in ((0.0, 0.0), (13.0, 4 * np.pi), (-6.0, -2 * np.pi)):
+                w.set_angle("pin", angle)
+                self.assertAlmostEqual(w.energy(0, q, v)[1], wanted**2)
+            with self.assertRaisesRegex(ValueError, "coordinate"):
+                w.set_angle(pin, 1.0, "nonsense")
+            with self.assertRaisesRegex(baum.Error, "nan rad, must be finite"):
+                w.set_angle(pin, float("nan"))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1522,6 +1522,7 @@ PROTOTYPES = {
     "baum_workspace_design": (c_int, [c_void_p, c_void_p, c_void_p]),
     "baum_workspace_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
     "baum_workspace_input": (c_double, [c_void_p, baum_input_id]),
+    "baum_workspace_set_angle": (c_int, [c_void_p, baum_joint_id, c_int, c_double]),
     "baum_workspace_rate": (c_int, [c_void_p, c_void_p, c_void_p, c_void_p]),
     "baum_workspace_move": (c_int, [c_void_p, c_void_p, c_void_p]),
     "baum_workspace_difference": (c_int, [c_void_p, c_void_p, c_void_p, c_void_p]),

@@ -10,9 +10,10 @@ import numpy as np
 
 from . import _abi, _calls
 from ._lib import lib
-from ._values import address, number, vector
+from ._values import address, number, vector, word
 from .channels import Channel, width
-from .typing import Array, ArrayLike, BodyLike, InputLike, JointLike, Scalar
+from .definitions import COORDINATES
+from .typing import Array, ArrayLike, BodyLike, Coordinate, InputLike, JointLike, Scalar
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
@@ -70,6 +71,17 @@ class Workspace(_calls.Closing):
         """Set an input. Before the first such call, the input has its initial value."""
         found = self.mechanism.find("input", input)
         self._owner.call(lib.baum_workspace_set_input, found.id, number(value, found.name))
+
+    def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
+        """Set the revolutions of an angle of a spatial joint. Positions determine such an angle
+        only up to whole revolutions. From then on, this workspace uses the value that is nearest
+        to the given angle [rad]. Before the first such call, this angle is 0.
+
+        coordinate: which angle of the joint, as in Mechanism.driver().
+        """
+        found = self.mechanism.find("joint", joint)
+        which = word(COORDINATES, coordinate, "coordinate")
+        self._owner.call(lib.baum_workspace_set_angle, found.id, which, number(angle, "angle"))
 
     @property
     def inputs(self) -> dict[str, float]:

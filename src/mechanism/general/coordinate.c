@@ -156,6 +156,13 @@ double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point
   return point->angles ? expected(force_angle_of(force, point), point) : 0.0;
 }
 
+void baum_i_expect_angle(const baum_i_joint_coordinate *c, const baum_i_point *point, double angle)
+{
+  double *stored = angle_of(c, point);
+  stored[0] = angle;
+  stored[1] = 0.0;
+}
+
 static double follow(double *angle, double value, double rate, const baum_i_point *point)
 {
   double near = angle[0] + 0.5 * (angle[1] + rate) * (point->t - *time_of(point));

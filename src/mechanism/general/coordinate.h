@@ -79,6 +79,9 @@ double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_poin
 /* Return the expected angle of a force that counts revolutions. */
 double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point *point);
 
+/* Expect that a coordinate has this angle, and keeps it. */
+void baum_i_expect_angle(const baum_i_joint_coordinate *c, const baum_i_point *point, double angle);
+
 /* Expect that all angles keep their values from the time t on. */
 void baum_i_hold_angles(baum_i_point *point, double t);
 
