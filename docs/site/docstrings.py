@@ -41,7 +41,9 @@ def restructured(lines):
         if empty:
             continue
         prose, listed = split(list(group))
-        if prose and all(line.startswith("    ") for line in prose):
+        if prose and prose[0].startswith(">>> "):
+            out += [*prose, ""]
+        elif prose and all(line.startswith("    ") for line in prose):
             out += ["::", "", *prose, ""]
         elif prose:
             out += [*map(escaped, prose), ""]

@@ -78,7 +78,8 @@ class Adding:
         """Add a rigid body in the plane.
 
         mass: [kg], positive.
-        inertia: moment of inertia about the centre of mass [kg m^2], positive.
+        inertia: moment of inertia about the centre of mass [kg m^2], positive. It has no influence
+            if the body cannot rotate; otherwise always give it.
         position: x and y of the centre of mass in the design configuration [m].
         angle: angle of the body in the design configuration [rad].
         velocity: velocity of the centre of mass at the start [m/s]. None or NaN: free, assembly
@@ -424,7 +425,8 @@ class Adding:
         The driver has one row: the coordinate [rad] or [m] equals value + rate t + acceleration t^2
         / 2, or law(t).
 
-        value: value at t = 0 [rad] or [m].
+        value: value at t = 0 [rad] or [m]. If the design configuration has another value, assembly
+            moves the bodies: a crank that is drawn at an angle needs this angle as value.
         rate: first derivative at t = 0 [rad/s] or [m/s].
         acceleration: second derivative, constant [rad/s^2] or [m/s^2].
         law(t): the value, its first and its second derivative at the time t [s]. It replaces the
