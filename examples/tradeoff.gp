@@ -6,8 +6,8 @@ data = "tradeoff.dat"
 methods = "'euler baumgarte dead-beat' 'semi_implicit_euler baumgarte dead-beat' 'rk4 baumgarte auto' 'rk4 projection' \
 'dp5 projection' 'rk8 projection' 'cvode_adams baumgarte auto' 'cvode_bdf projection' 'ida ggl' 'ida index3'"
 colour(k) = word("#0b5fa5 #2b8a3e #d1700b #d1700b #862e9c #c2255c #0e7490 #85600a #495057 #000000", k)
-way(k) = word("step step step step rtol rtol rtol rtol rtol rtol", k)
-has(k, method, by) = method eq word(methods, k) && by eq way(k)
+control(k) = word("step step step step rtol rtol rtol rtol rtol rtol", k)
+has(k, method, by) = method eq word(methods, k) && by eq control(k)
 mark(k) = int(word("7 5 9 8 11 13 15 3 1 2", k))
 set datafile missing "NaN"
 set logscale xy

@@ -104,7 +104,7 @@ def python_pages(folder):
 
 def prepare(path):
     """Breathe cannot show two parameters with one description, so each gets a copy of it. Macros that a header removes
-    at its end are left out."""
+    at its end are omitted."""
     tree = ElementTree.parse(path)
     for found in tree.iterfind(".//parameterlist"):
         items = list(found)

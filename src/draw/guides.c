@@ -209,7 +209,7 @@ typedef struct path {
 } path;
 
 /* Follows the curve from the starting point in one direction, until the curve closes or ends. */
-static void follow_curve(const baum_i_symbol *s, const double start[3], int way, int most,
+static void follow_curve(const baum_i_symbol *s, const double start[3], int direction, int most,
                          path *out)
 {
   const double h = s->drawing->unit;
@@ -217,20 +217,20 @@ static void follow_curve(const baum_i_symbol *s, const double start[3], int way,
   const double *middle = out->points[CURVE_STEPS];
   double x[3] = {start[0] - origin[0], start[1] - origin[1], start[2] - origin[2]}, tangent[3];
   for (int k = 0; k < most && find_on_curve(s, x, tangent); k++) {
-    const int at = CURVE_STEPS + way * k;
+    const int at = CURVE_STEPS + direction * k;
     double *point = out->points[at];
     double away[3];
     for (int i = 0; i < 3; i++) {
       point[i] = origin[i] + x[i];
       away[i] = point[i] - middle[i];
     }
-    *(way < 0 ? &out->first : &out->last) = at;
+    *(direction < 0 ? &out->first : &out->last) = at;
     if (k > 3 && baum_i_dot3(away, away) < h * h) {
       memcpy(point, middle, sizeof *out->points);
       out->closed = true;
       return;
     }
-    baum_i_add_scaled3(way * h, tangent, x);
+    baum_i_add_scaled3(direction * h, tangent, x);
   }
 }
 

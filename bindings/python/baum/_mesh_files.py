@@ -143,7 +143,7 @@ def _obj(file: Path, data: bytes) -> tuple[Array, Triangles]:
 
 
 def _corner(word: str, count: int, where: str) -> int:
-    """Return the index, counted from 0, of the vertex that a word such as 3, -1 or 3/1/2 refers
+    """Return the index, counted from 0, of the vertex that a text such as 3, -1 or 3/1/2 refers
     to."""
     try:
         given = int(word.split("/")[0])

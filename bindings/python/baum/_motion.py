@@ -183,8 +183,8 @@ def refined(motion: Motion, run: Run, times: Array) -> tuple[Motion, list[int]]:
     """Add samples at these times to the motion of a run. Return the motion, with its times in
     rising order, and the indices of the added samples. Positions of added samples are interpolated
     by cubic polynomials with the recorded velocities, and reactions are interpolated linearly."""
-    way = slice(None, None, -1 if run.t[-1] < run.t[0] else 1)
-    t, rows, v = motion.t[way], motion.rows[way], run.v[way]
+    order = slice(None, None, -1 if run.t[-1] < run.t[0] else 1)
+    t, rows, v = motion.t[order], motion.rows[order], run.v[order]
     added = np.setdiff1d(times, t)
     if len(added):
         with Workspace(motion.mechanism) as workspace:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence
 import numpy as np
 
 from . import errors
-from .sweeps import Reduce, Sweep, sweep
+from .sweeps import Named, Reduce, Sweep, sweep
 from .typing import Array, ArrayLike, ChannelLike
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ LEAST_STEP = 1e-8  # share of the number that changes
 ROUNDING = 1e4 * float(np.finfo(float).eps)  # share of a result
 
 
-class Sensitivities:
+class Sensitivities(Named):
     """The derivatives of results with respect to p numbers.
 
     parameters: their names. A vector field has one name for each number, such as "rod.position[0]".
@@ -36,7 +36,7 @@ class Sensitivities:
     def __init__(self, parameters: Sequence[str], values: Array, runs: Sweep) -> None:
         """values: the value of each number in its four runs (p x 4)."""
         self.parameters = tuple(parameters)
-        self._values: dict[str, Array] = {}
+        self._values = {}
         self._errors: dict[str, Array] = {}
         for name in runs.keys():
             found = runs[name].reshape(*values.shape, *runs[name].shape[1:])
@@ -47,16 +47,6 @@ class Sensitivities:
 
     def __repr__(self) -> str:
         return f"<sensitivities of {', '.join(self._values)} to {', '.join(self.parameters)}>"
-
-    def keys(self) -> list[str]:
-        """The names of the results."""
-        return list(self._values)
-
-    def __getitem__(self, name: str) -> Array:
-        found = self._values.get(name)
-        if found is None:
-            raise KeyError(f"no {name!r} here; there are: {', '.join(self._values)}")
-        return found
 
     def error(self, name: str) -> Array:
         """The differences between the difference quotients of two steps."""

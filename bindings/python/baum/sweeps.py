@@ -165,7 +165,23 @@ def _workers(executor: Any) -> int:
 # ---- the results -------------------------------------------------------------------------------
 
 
-class Sweep:
+class Named:
+    """Results by name."""
+
+    _values: dict[str, Array]
+
+    def keys(self) -> list[str]:
+        """The names of the results."""
+        return list(self._values)
+
+    def __getitem__(self, name: str) -> Array:
+        found = self._values.get(name)
+        if found is None:
+            raise KeyError(f"no {name!r} in these results; there are: {', '.join(self._values)}")
+        return found
+
+
+class Sweep(Named):
     """The results of a sweep of n runs.
 
     parameters: the values of each parameter (n) or (n x size), by name.
@@ -193,16 +209,6 @@ class Sweep:
 
     def __repr__(self) -> str:
         return f"<sweep of {len(self)} runs, {len(self.messages)} failed>"
-
-    def keys(self) -> list[str]:
-        """The names of the results."""
-        return list(self._values)
-
-    def __getitem__(self, name: str) -> Array:
-        found = self._values.get(name)
-        if found is None:
-            raise KeyError(f"no {name!r} in this sweep; there are: {', '.join(self._values)}")
-        return found
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a table of the parameters, and of the results that are one number for each run.

@@ -176,13 +176,13 @@ static baum_status compare_difference(const baum_i_body *body, const baum_i_loca
 /* Displacements below this, relative to the scales, are considered rounding errors. */
 static const double ROUNDING = 1e-9;
 
-/* Fail if `normalize` changes q by more than `way`, which is the largest change of q in the
+/* Fail if `normalize` changes q by more than `path_length`, which is the largest change of q in the
  * preceding step. All changes are relative to the scales. */
-static baum_status compare_normalized(const baum_i_body *body, const double *scale, double way,
-                                      const double *moved, const double *normal)
+static baum_status compare_normalized(const baum_i_body *body, const double *scale,
+                                      double path_length, const double *moved, const double *normal)
 {
   for (int i = 0; i < body->nq; i++) {
-    if (fabs(normal[i] - moved[i]) > (way + ROUNDING) * scale[i]) {
+    if (fabs(normal[i] - moved[i]) > (path_length + ROUNDING) * scale[i]) {
       baum_i_user_function f = function(body, "normalize", body->nq);
       return baum_i_fail(
         BAUM_ERR_ARGUMENT,
@@ -204,20 +204,20 @@ static baum_status compare_walk(const baum_i_body *body, const baum_i_local *at)
   double *normal = baum_i_take(&here, body->nq);
   const double *scale = at->point->mechanism->position_scale + body->q;
   memcpy(normal, at->q, (size_t)body->nq * sizeof *normal);
-  double way = 0.0;
-  /* `way` is not finite if a user function returns numbers that are not finite. The loop then
-   * ends. */
-  for (int k = 0; k < MOVES && isfinite(way); k++) {
-    way = 0.0;
+  double path_length = 0.0;
+  /* `path_length` is not finite if a user function returns numbers that are not finite. The loop
+   * then ends. */
+  for (int k = 0; k < MOVES && isfinite(path_length); k++) {
+    path_length = 0.0;
     memcpy(moved, normal, (size_t)body->nq * sizeof *moved);
     move(body, SHORT / baum_i_local_rate(at), at->v, moved);
     for (int i = 0; i < body->nq; i++) {
       double part = fabs(moved[i] - normal[i]) / scale[i];
-      way = part <= way ? way : part;
+      path_length = part <= path_length ? path_length : part;
     }
     memcpy(normal, moved, (size_t)body->nq * sizeof *normal);
     normalize(body, normal);
-    BAUM_I_TRY(compare_normalized(body, scale, way, moved, normal));
+    BAUM_I_TRY(compare_normalized(body, scale, path_length, moved, normal));
   }
   return BAUM_OK;
 }

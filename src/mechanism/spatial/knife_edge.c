@@ -46,13 +46,7 @@ static const baum_i_def_field fields[] = {
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spatial_knife_edge_def *def = given;
-  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_a, label, "body_a"));
-  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_b, label, "body_b"));
-  if (def->body_a.index1 == def->body_b.index1) {
-    const baum_i_body *both = mechanism->bodies[baum_i_body_index(mechanism, def->body_a)];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                       both->type ? baum_i_label(&both->element).text : "ground");
-  }
+  BAUM_I_TRY(baum_i_spatial_check_pair(mechanism, def->body_a, def->body_b, label));
   bool in_ground = baum_i_spatial_is_given(def->point);
   if (in_ground != baum_i_spatial_is_given(def->point_a)) {
     return BAUM_OK;
@@ -162,7 +156,7 @@ static void arm_along(const edge *x, const motion *y, double out[3])
 }
 
 /* Returns the product x . (y x z). */
-static double triple(const double x[3], const double y[3], const double z[3])
+static double mixed_product(const double x[3], const double y[3], const double z[3])
 {
   double product[3];
   baum_i_cross(y, z, product);
@@ -176,8 +170,8 @@ static double row_along(const edge *x, const motion *z, const motion *y)
   baum_i_cross(y->w_a, x->e, e_y);
   baum_i_cross(y->w_b, z->w_b, w_y);
   arm_along(x, y, d_y);
-  return baum_i_dot3(z->u, e_y) - triple(w_y, x->d, x->e) - triple(z->w_b, d_y, x->e) -
-         triple(z->w_b, x->d, e_y);
+  return baum_i_dot3(z->u, e_y) - mixed_product(w_y, x->d, x->e) -
+         mixed_product(z->w_b, d_y, x->e) - mixed_product(z->w_b, x->d, e_y);
 }
 
 /* Returns D_y D_v (J v). */
@@ -192,9 +186,9 @@ static double bend_along(const edge *x, const motion *v, const motion *y)
   arm_along(x, v, d_v);
   arm_along(x, y, d_y);
   baum_i_cross(y->w_b, v->w_b, w_y);
-  return baum_i_dot3(v->u, e_vy) - triple(w_y, d_v, x->e) - triple(w_y, x->d, e_v) -
-         triple(v->w_b, d_vy, x->e) - triple(v->w_b, d_v, e_y) - triple(v->w_b, d_y, e_v) -
-         triple(v->w_b, x->d, e_vy);
+  return baum_i_dot3(v->u, e_vy) - mixed_product(w_y, d_v, x->e) - mixed_product(w_y, x->d, e_v) -
+         mixed_product(v->w_b, d_vy, x->e) - mixed_product(v->w_b, d_v, e_y) -
+         mixed_product(v->w_b, d_y, e_v) - mixed_product(v->w_b, x->d, e_vy);
 }
 
 static void row_of(const edge *x, double twelve[COLUMNS])

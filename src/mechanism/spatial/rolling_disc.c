@@ -61,13 +61,7 @@ static const baum_i_def_field fields[] = {
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spatial_rolling_disc_def *def = given;
-  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_a, label, "body_a"));
-  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, def->body_b, label, "body_b"));
-  if (def->body_a.index1 == def->body_b.index1) {
-    const baum_i_body *both = mechanism->bodies[baum_i_body_index(mechanism, def->body_a)];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                       baum_i_label(&both->element).text);
-  }
+  BAUM_I_TRY(baum_i_spatial_check_pair(mechanism, def->body_a, def->body_b, label));
   if (def->rim_radius > def->radius) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: rim_radius is %g m, must be at most radius, %g m, which is a sphere",

@@ -52,17 +52,31 @@ baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_b
   return has_axes(body) ? BAUM_OK : fail_body(body, label, field, "orientation");
 }
 
+static baum_status check_different(const baum_mechanism *mechanism, baum_body_id a, baum_body_id b,
+                                   const char *label)
+{
+  if (a.index1 != b.index1) {
+    return BAUM_OK;
+  }
+  const baum_i_body *body = body_of(mechanism, a);
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
+                     body->type ? baum_i_label(&body->element).text : "ground");
+}
+
 static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_spatial_head *head,
                                 const char *label)
 {
   BAUM_I_TRY(baum_i_spatial_check_body(mechanism, head->body_a, label, "body_a"));
   BAUM_I_TRY(baum_i_spatial_check_body(mechanism, head->body_b, label, "body_b"));
-  if (head->body_a.index1 != head->body_b.index1) {
-    return BAUM_OK;
-  }
-  const baum_i_body *body = body_of(mechanism, head->body_a);
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                     body->type ? baum_i_label(&body->element).text : "ground");
+  return check_different(mechanism, head->body_a, head->body_b, label);
+}
+
+baum_status baum_i_spatial_check_pair(const baum_mechanism *mechanism, baum_body_id a,
+                                      baum_body_id b, const char *label)
+{
+  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, a, label, "body_a"));
+  BAUM_I_TRY(baum_i_spatial_check_turning(mechanism, b, label, "body_b"));
+  return check_different(mechanism, a, b, label);
 }
 
 /* ---- points ---- */

@@ -39,6 +39,10 @@ baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
                                          const char *label, const char *field);
 
+/* Checks that two bodies have orientations and differ. */
+baum_status baum_i_spatial_check_pair(const baum_mechanism *mechanism, baum_body_id a,
+                                      baum_body_id b, const char *label);
+
 /* Checks that the vector s is zero, or not given, if the body is a particle. */
 baum_status baum_i_spatial_check_zero_on_particle(const baum_mechanism *mechanism, baum_body_id id,
                                                   const char *label, const char *field,
