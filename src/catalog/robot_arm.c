@@ -32,19 +32,7 @@ static int drive(int k, double t, double s[3])
   return 0;
 }
 
-#define LAW(k)                                          \
-  static int law_##k(double t, double s[3], void *user) \
-  {                                                     \
-    (void)user;                                         \
-    return drive(k, t, s);                              \
-  }
-LAW(0)
-LAW(1)
-LAW(2)
-LAW(3)
-LAW(4)
-LAW(5)
-static baum_law_fn *const LAWS[JOINTS] = {law_0, law_1, law_2, law_3, law_4, law_5};
+BAUM_I_SIX_LAWS(drive)
 
 static double solution(const double *p, double t, double *q, double *v)
 {
@@ -95,7 +83,7 @@ static void build(baum_i_parts *parts, const double *p)
     baum_body_id next = baum_i_parts_spatial_body(parts, NULL, mass, inertia, state(p, q, v, k));
     baum_joint_id hinge =
       baum_i_parts_spatial_revolute(parts, NULL, (baum_i_place){last, next, at.r, axis});
-    baum_i_parts_law(parts, NULL, hinge, LAWS[k]);
+    baum_i_parts_law(parts, NULL, hinge, six_laws[k]);
     go(p, &at, k, 1.0);
     last = next;
   }

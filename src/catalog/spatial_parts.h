@@ -40,6 +40,23 @@ typedef struct baum_i_place {
   const double *axis; /* NULL if the joint has no axis */
 } baum_i_place;
 
+/* Defines `six_laws`, the laws of six drivers. The first argument of DRIVE is the number of the
+ * driver, because entries of the catalogue have no data for the argument `user` of a law. */
+#define BAUM_I_SIX_LAW(DRIVE, K)                        \
+  static int law_##K(double t, double s[3], void *user) \
+  {                                                     \
+    (void)user;                                         \
+    return DRIVE(K, t, s);                              \
+  }
+#define BAUM_I_SIX_LAWS(DRIVE) \
+  BAUM_I_SIX_LAW(DRIVE, 0)     \
+  BAUM_I_SIX_LAW(DRIVE, 1)     \
+  BAUM_I_SIX_LAW(DRIVE, 2)     \
+  BAUM_I_SIX_LAW(DRIVE, 3)     \
+  BAUM_I_SIX_LAW(DRIVE, 4)     \
+  BAUM_I_SIX_LAW(DRIVE, 5)     \
+  static baum_law_fn *const six_laws[6] = {law_0, law_1, law_2, law_3, law_4, law_5};
+
 /* Sets gravity in the direction of -z. */
 void baum_i_parts_gravity_z(baum_i_parts *parts, double downwards);
 /* Adds a body that has these principal moments of inertia and starts in this state. */

@@ -102,19 +102,7 @@ static int drive(int leg, double t, double s[3])
   return 0;
 }
 
-#define LAW(k)                                          \
-  static int law_##k(double t, double s[3], void *user) \
-  {                                                     \
-    (void)user;                                         \
-    return drive(k, t, s);                              \
-  }
-LAW(0)
-LAW(1)
-LAW(2)
-LAW(3)
-LAW(4)
-LAW(5)
-static baum_law_fn *const LAWS[LEGS] = {law_0, law_1, law_2, law_3, law_4, law_5};
+BAUM_I_SIX_LAWS(drive)
 
 /* ---- bodies ---- */
 
@@ -206,7 +194,7 @@ void baum_i_stewart_parts(baum_i_parts *parts, const double *p, bool driven)
   for (int leg = 0; leg < LEGS; leg++) {
     baum_joint_id slide = add_leg(parts, p, platform, leg);
     if (driven) {
-      baum_i_parts_law(parts, NULL, slide, LAWS[leg]);
+      baum_i_parts_law(parts, NULL, slide, six_laws[leg]);
     }
   }
 }

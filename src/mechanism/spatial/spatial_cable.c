@@ -13,7 +13,6 @@
  * with l_k = 0 has no direction and is omitted. Points of one body that follow each other are a
  * part of constant length, whose derivatives cancel.
  */
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -91,9 +90,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct part {
   ends at;
   baum_i_spatial_pair pair;
-  double length; /* l_k, or 0 if it is too short to have a direction */
-  double rate;
-  double h[COLUMNS];
+  baum_i_spatial_length l;
 } part;
 
 static part part_at(const baum_i_force *force, const baum_i_point *point, int k)
@@ -102,16 +99,7 @@ static part part_at(const baum_i_force *force, const baum_i_point *point, int k)
   part p = {.at = ends_of(point->mechanism, def, k)};
   const baum_i_span span = {.body_count = 2, .bodies = p.at.bodies};
   p.pair = baum_i_spatial_pair_at(&span, def->points + 3 * (ptrdiff_t)k, false, point);
-  baum_i_coordinate square;
-  baum_i_spatial_row_at(&p.pair, SQUARE, &square);
-  double length = sqrt(square.value);
-  if (length >= DBL_MIN) {
-    p.length = length;
-    p.rate = 0.5 * square.rate / length;
-    for (int i = 0; i < COLUMNS; i++) {
-      p.h[i] = 0.5 * square.gradient[i] / length;
-    }
-  }
+  p.l = baum_i_spatial_length_of(&p.pair);
   return p;
 }
 
@@ -121,8 +109,8 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
   baum_i_stretch sum = {.scale = point->mechanism->length};
   for (int k = 0; k + 1 < def->point_count; k++) {
     const part p = part_at(force, point, k);
-    sum.length += p.length;
-    sum.rate += p.rate;
+    sum.length += p.l.length;
+    sum.rate += p.l.rate;
   }
   sum.no_direction = sum.length == 0.0;
   return sum;
@@ -203,7 +191,7 @@ static void add_part(const baum_i_force *force, const baum_i_point *point, int k
   for (int side = 0; side < 2; side++) {
     double six[BAUM_I_SPACE];
     for (int i = 0; i < BAUM_I_SPACE; i++) {
-      six[i] = -tension * p.h[BAUM_I_SPACE * side + i];
+      six[i] = -tension * p.l.h[BAUM_I_SPACE * side + i];
     }
     const baum_i_body *body = point->mechanism->bodies[p.at.bodies[side]];
     baum_i_columns_scatter_any(point->mechanism, &body->span, BAUM_I_SPACE, six, out);
@@ -250,11 +238,12 @@ static void add_second(const baum_i_span *span, const part *p, const int at[COLU
     if (at[i] < 0) {
       continue;
     }
-    h[at[i]] += p->h[i];
-    rate_q[at[i]] += (0.5 * second.rate_q[i] - p->rate * p->h[i]) / p->length;
+    h[at[i]] += p->l.h[i];
+    rate_q[at[i]] += (0.5 * second.rate_q[i] - p->l.rate * p->l.h[i]) / p->l.length;
     for (int k = 0; force_q && k < COLUMNS; k++) {
       if (at[k] >= 0) {
-        double h_q = (0.5 * second.columns_q[COLUMNS * i + k] - p->h[i] * p->h[k]) / p->length;
+        double h_q =
+          (0.5 * second.columns_q[COLUMNS * i + k] - p->l.h[i] * p->l.h[k]) / p->l.length;
         force_q[(ptrdiff_t)span->nl * at[i] + at[k]] -= tension * h_q;
       }
     }
@@ -277,7 +266,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   for (int k = 0; k + 1 < def->point_count; k++) {
     const part p = part_at(element, point, k);
     int at[COLUMNS];
-    if (p.length > 0.0) {
+    if (p.l.length > 0.0) {
       find_columns(point->mechanism, span, &p, at);
       add_second(span, &p, at, t.value, h, rate_q, force_q);
     }

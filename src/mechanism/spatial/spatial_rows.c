@@ -2,6 +2,8 @@
 /* Products of vectors on two bodies, and their derivatives. The equations are in spatial_rows.h. */
 #include "mechanism/spatial/spatial_rows.h"
 
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
@@ -152,6 +154,22 @@ void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row r
                                       2.0 * baum_i_dot3(p.x[1].value, p.y[1].value) -
                                       baum_i_dot3(p.x[0].value, p.y[2].value)};
   add_gradient(pair, 1.0, &p.x[0], &p.y[0], out->gradient);
+}
+
+baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
+{
+  baum_i_spatial_length out = {.length = 0.0};
+  baum_i_coordinate square;
+  baum_i_spatial_row_at(pair, (baum_i_spatial_row){BAUM_I_APART, BAUM_I_APART}, &square);
+  const double length = sqrt(square.value);
+  if (length >= DBL_MIN) {
+    out.length = length;
+    out.rate = 0.5 * square.rate / length;
+    for (int i = 0; i < BAUM_I_PAIR_COLUMNS; i++) {
+      out.h[i] = 0.5 * square.gradient[i] / length;
+    }
+  }
+  return out;
 }
 
 void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,

@@ -76,6 +76,16 @@ double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_ro
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out);
 
+/* Computes the distance l of the two points, its rate l' and its gradient h over the twelve columns
+ * of both bodies. If l is too short to have a direction, all three are 0. */
+typedef struct baum_i_spatial_length {
+  double length;
+  double rate;
+  double h[BAUM_I_PAIR_COLUMNS];
+} baum_i_spatial_length;
+
+baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair);
+
 /* Second derivatives of a product over the twelve columns of both bodies. */
 typedef struct baum_i_spatial_second {
   double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */

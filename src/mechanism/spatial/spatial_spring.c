@@ -10,9 +10,6 @@
  * where h = (e . e)_q / (2 l) and h_q = ((e . e)_qq / 2 - h h^T) / l. At l = 0 the direction is
  * undefined; force and derivatives are set to zero there.
  */
-#include <float.h>
-#include <math.h>
-
 #include "mechanism/definition.h"
 #include "mechanism/general/spring_law.h"
 #include "mechanism/spatial/spatial_rows.h"
@@ -54,9 +51,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct spring {
   baum_i_spatial_pair pair;
   baum_i_spring_law law;
-  double length; /* l, or 0 if it is too short to have a direction */
-  double rate;
-  double h[COLUMNS];
+  baum_i_spatial_length l;
 } spring;
 
 static spring spring_at(const baum_i_force *force, const baum_i_point *point)
@@ -65,23 +60,14 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   const double *numbers = point->parameters + force->element.parameter;
   spring s = {.pair = baum_i_spatial_pair_at(&force->span, numbers, false, point),
               .law = baum_i_spring_law_of(force, (const void *)&def->stiffness, numbers + LAW)};
-  baum_i_coordinate square;
-  baum_i_spatial_row_at(&s.pair, SQUARE, &square);
-  double length = sqrt(square.value);
-  if (length >= DBL_MIN) {
-    s.length = length;
-    s.rate = 0.5 * square.rate / length;
-    for (int i = 0; i < COLUMNS; i++) {
-      s.h[i] = 0.5 * square.gradient[i] / length;
-    }
-  }
+  s.l = baum_i_spatial_length_of(&s.pair);
   return s;
 }
 
 static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
 {
   const spring s = spring_at(force, point);
-  return (baum_i_stretch){s.length, s.rate, point->mechanism->length, s.length == 0.0};
+  return (baum_i_stretch){s.l.length, s.l.rate, point->mechanism->length, s.l.length == 0.0};
 }
 
 /* ---- type ---- */
@@ -90,14 +76,14 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
 {
   for (int i = 0; i < group->count; i++) {
     const spring s = spring_at(group->forces[i], point);
-    if (s.length == 0.0) {
+    if (s.l.length == 0.0) {
       continue;
     }
     baum_i_tension t;
-    BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.length, s.rate, &t));
+    BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.l.length, s.l.rate, &t));
     double wide[COLUMNS];
     for (int k = 0; k < COLUMNS; k++) {
-      wide[k] = -t.value * s.h[k];
+      wide[k] = -t.value * s.l.h[k];
     }
     baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, BAUM_I_SPACE, wide, out);
   }
@@ -108,22 +94,22 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
   const spring s = spring_at(element, point);
-  if (s.length == 0.0) {
+  if (s.l.length == 0.0) {
     return BAUM_OK;
   }
   baum_i_tension t;
-  BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.length, s.rate, &t));
+  BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.l.length, s.l.rate, &t));
   baum_i_spatial_second second;
   baum_i_spatial_second_of(&s.pair, SQUARE, &second);
   double force_q[COLUMNS * COLUMNS];
   double force_v[COLUMNS * COLUMNS];
   for (int k = 0; k < COLUMNS; k++) {
-    double rate_q = (0.5 * second.rate_q[k] - s.rate * s.h[k]) / s.length;
-    double tension_q = t.by_length * s.h[k] + t.by_rate * rate_q;
+    double rate_q = (0.5 * second.rate_q[k] - s.l.rate * s.l.h[k]) / s.l.length;
+    double tension_q = t.by_length * s.l.h[k] + t.by_rate * rate_q;
     for (int i = 0; i < COLUMNS; i++) {
-      double h_q = (0.5 * second.columns_q[COLUMNS * i + k] - s.h[i] * s.h[k]) / s.length;
-      force_q[COLUMNS * i + k] = -s.h[i] * tension_q - t.value * h_q;
-      force_v[COLUMNS * i + k] = -t.by_rate * s.h[i] * s.h[k];
+      double h_q = (0.5 * second.columns_q[COLUMNS * i + k] - s.l.h[i] * s.l.h[k]) / s.l.length;
+      force_q[COLUMNS * i + k] = -s.l.h[i] * tension_q - t.value * h_q;
+      force_v[COLUMNS * i + k] = -t.by_rate * s.l.h[i] * s.l.h[k];
     }
   }
   const baum_mechanism *m = point->mechanism;
