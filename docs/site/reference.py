@@ -31,7 +31,7 @@ def about(header):
     text = (ROOT / "include" / "baum" / f"{header}.h").read_text(encoding="utf-8")
     found = re.search(r"@file\s*\n \*\s+(.*?)(?:\n \*\s*\n|\*/)", text, flags=re.S)
     first = re.sub(r"\s*\n \*\s*", " ", found[1]).strip() if found else ""
-    return re.split(r"(?<=\.) ", first)[0]
+    return re.split(r"(?<=\.) (?=[A-Z]|\w+\.h)", first)[0]
 
 
 def found_headers():

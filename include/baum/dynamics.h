@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Workspaces. A workspace evaluates a frozen mechanism at one state, without a run. It computes
+ *  Workspaces: evaluation of a frozen mechanism at one state, without a run. They compute
  *  the constraints Phi, the Jacobian J, nu, gamma, the mass matrix M, the forces g, accelerations
  *  and residuals. It can also assemble a mechanism and project a state onto the constraints.
  *  docs/notation.md explains the symbols; the numbers in parentheses are its equations.

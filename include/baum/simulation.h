@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Runs. A run (baum_simulation) computes one motion of a frozen mechanism. This header declares
- *  the integrators, the options of a run, the functions that advance it, and its results.
+ *  Runs: motions of frozen mechanisms. This header declares baum_simulation (one run), the
+ *  integrators, the options of a run, the functions that advance it, and its results.
  *
  *  Failure: a run that fails stays at the end of its last successful step. You can still read time,
  *  q and v.

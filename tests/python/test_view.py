@@ -294,6 +294,9 @@ class Views(unittest.TestCase):
         self.assertEqual(self.s.time, 0.01)
 
     def test_ctrl_c_ends_the_waiting(self):
+        # A shell starts background programs, and thus this test, so that they ignore SIGINT.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         self.view(paused=True)
         for work in (lambda: self.s.advance_to(1), lambda: self.s.step(3)):
             timer = threading.Timer(0.3, signal.pthread_kill, [threading.get_ident(), signal.SIGINT])
