@@ -12,9 +12,10 @@ sys.path.insert(0, str(ROOT / "docs" / "site"))
 project = "baum"
 author = "the authors of baum"
 version = release = baum.library_version
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "docstrings"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "docstrings", "equations"]
 exclude_patterns = ["examples", "include", "docs/site"]
 highlight_language = "none"
+smartquotes = False  # Phi'' is a second derivative
 
 myst_heading_anchors = 4
 myst_enable_extensions = ["html_image"]

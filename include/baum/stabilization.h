@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and their stability
- *  with each integrator.
+ *  Baumgarte's gains, and their stability with each integrator. The equations are those of
+ *  Baumgarte (1972) and Flores et al. (2008, numbers 6 to 19).
  *
  *  With the gains alpha and beta, the constraint violation Phi follows the equation Phi'' + 2 alpha
  *  Phi' + beta^2 Phi = 0 (6). The integrator solves this equation together with the motion. A

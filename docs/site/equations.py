@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Typesets the plain notation of docs/notation.md on the pages of the site: lambda becomes a Greek letter, J^T gets a
+superscript, Phi_tq a subscript. The name of the file of a page becomes its title, as a link. Code stays as it is, and so
+does the text that the search finds."""
+
+import re
+import unicodedata
+
+from docutils import nodes
+from sphinx.writers.html5 import HTML5Translator
+
+GREEK = "alpha beta gamma delta epsilon zeta theta kappa lambda mu nu pi rho sigma tau phi psi omega Phi"
+NAME = re.compile(rf"(?<!\w)(?<![a-z]-)({GREEK.replace(' ', '|')})(?![a-zA-Z0-9]|_\w{{4}}| function)")
+RAISED = re.compile(r"(?<=[\w)\]|'])\^(-?(?:[A-Z]|\d+(?:[/.]\d+)?)|[a-z]+|\*|\([^() ]+\))(?!\w)")
+LOWERED = re.compile(r"(?<!\w)([A-Za-z\u0370-\u03ff]|(?<=\)))_([a-zA-Z0-9]{1,3})(?!\w)")
+PAGE = re.compile(r"(?<![\w/-])(?:\.\./)*((?:[\w-]+/)*[\w-]+)\.md(?!\w)")
+SUPERSCRIPTS = str.maketrans("0123456789-T", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵀ")
+# These pages quote messages of the library.
+QUOTING = {"docs/messages", "docs/cookbook/warnings"}
+
+
+def letter(found):
+    case = "CAPITAL" if found[1][0].isupper() else "SMALL"
+    return unicodedata.lookup(f"GREEK {case} LETTER {found[1].upper().replace('LAMBDA', 'LAMDA')}")
+
+
+def typeset(html):
+    """Return HTML with Greek letters, superscripts and subscripts."""
+    html = RAISED.sub(r"<sup>\1</sup>", NAME.sub(letter, html))
+    return LOWERED.sub(r"\1<sub>\2</sub>", html)
+
+
+def typeset_line(line, wide):
+    """Return a line of an equation in Unicode. wide: keep the columns of matrices aligned."""
+    new = NAME.sub(lambda m: letter(m).ljust(len(m[1]) if wide else 1), line)
+    new = re.sub(
+        r"\^(-?\d|T)(?![\w/])",
+        lambda m: m[1].translate(SUPERSCRIPTS).ljust(len(m[0]) if wide else 1),
+        new,
+    )
+    return re.sub(r" {3,}(?=\(\d+\)$)", lambda m: m[0] + " " * (len(line) - len(new)), new)
+
+
+class Translator(HTML5Translator):
+    def visit_Text(self, node):
+        before = len(self.body)
+        super().visit_Text(node)
+        if self.protect_literal_text:
+            return
+        linked = any(isinstance(x, nodes.reference) for x in (node.parent, node.parent.parent))
+        html = PAGE.sub(lambda found: self.link(found, linked), "".join(self.body[before:]))
+        self.body[before:] = [html if self.builder.current_docname in QUOTING else typeset(html)]
+
+    def link(self, found, linked):
+        """Return the title of a page that a text names by its file, as a link if it is not part of one."""
+        titles = self.builder.env.titles
+        names = [name for name in titles if name.startswith("docs/") and f"/{name}".endswith(f"/{found[1]}")]
+        if len(names) != 1:
+            return found[0]
+        title = re.split("[:,]", titles[names[0]].astext())[0]
+        path = self.builder.get_relative_uri(self.builder.current_docname, names[0])
+        return title if linked else f'<a class="reference internal" href="{path}">{title}</a>'
+
+    def visit_literal_block(self, node):
+        name = self.builder.current_docname
+        plain = node.get("language", "none") == "none"
+        if plain and name.startswith(("docs/theory/", "docs/notation", "docs/space")):
+            lines = node.astext().split("\n")
+            wide = len(lines) > 1 and "[" in lines[0]
+            node.rawsource = "\n".join(typeset_line(line, wide) for line in lines)
+            node.children = [nodes.Text(node.rawsource)]
+        super().visit_literal_block(node)
+
+
+def setup(app):
+    app.set_translator("html", Translator)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
