@@ -54,7 +54,7 @@ static void emit(sink *s, int row, int col, double value)
   }
 }
 
-/* What a walk needs to compute the entries. */
+/* The arguments from which the functions of a walk compute entries. */
 typedef struct factors {
   const baum_workspace *w;
   const baum_dae *dae;

@@ -28,9 +28,9 @@ typedef struct widening {
   double c;
   int widest;      /* largest number of positions nq of a body */
   double *memory;  /* one block of memory that contains all arrays below */
-  double *rate;    /* (nv x widest) column j of N, only the entries of its body */
-  double *inverse; /* (nv x widest) row j of N^+, only the entries of its body */
-  double *bend;    /* (nq x widest) rows of (N u)_q, only the entries of the row's body */
+  double *rate;    /* (nv x widest) row j: entries of column j of N in the rows of its body */
+  double *inverse; /* (nv x widest) row j: entries of row j of N^+ in the columns of its body */
+  double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q in the columns of its body */
   double *unit;    /* (nq) scratch memory for one vector */
   double *room;    /* (4 nq) scratch memory for results */
   /* Where the positions of entries are collected while the pattern is found; otherwise NULL. */

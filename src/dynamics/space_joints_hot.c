@@ -140,7 +140,7 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
-/* Lifts the frame of a planar body. Only the last column of its L^-T is not 0. */
+/* Makes the frame in space of a planar body. In its L^-T only the last column is not zero. */
 BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];

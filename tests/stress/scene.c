@@ -27,7 +27,8 @@ static const scene START[SCENE_KINDS] = {
   [SCENE_PENDULUM] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_CRANK] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 9.81},
   [SCENE_FOUR_BAR] = {.count = 2, .angle = 1.0, .rate = 1.0, .gravity = 9.81},
-  /* The windows start hanging. They do not reach flat configurations, which are singular. */
+  /* The cranks of the N-four-bar hang down at the start. They do not reach flat configurations,
+   * which are singular. */
   [SCENE_WINDOWS] = {.count = 2, .angle = -1.0, .rate = 1.0, .gravity = 9.81},
   [SCENE_SLEIGH] = {.count = 2, .angle = 0.3, .rate = 1.0, .gravity = 1.0},
   [SCENE_CHAIN] = {.count = 3, .angle = 0.3, .rate = 3.0, .gravity = 0.0},
