@@ -4,6 +4,7 @@ times of the bounces. In the second part a torque acts on a pendulum during shor
 times are known in advance."""
 
 import sys
+from pathlib import Path
 
 import baum
 import numpy as np
@@ -48,22 +49,24 @@ def exact_times() -> Array:
     return times
 
 
-def bounces(m: baum.Mechanism) -> Array:
-    """Simulate the pendulum. Return the times of the bounces [s] and the angular velocities before
-    them [rad/s]."""
+def bounces(m: baum.Mechanism) -> tuple[Array, list[baum.Run]]:
+    """Simulate the pendulum. Return the times of the bounces [s] with the angular velocities before
+    them [rad/s], and the samples until each bounce."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")
     rows: list[tuple[float, float]] = []
-    while len(rows) < BOUNCES and s.advance_to(100) == baum.Status.STOP_EVENT:
+    runs = []
+    while len(rows) < BOUNCES:
+        runs.append(s.sample(np.arange(s.time, s.time + 10, 0.02)))
         rows.append((s.time, s.v[2]))
         s.set_state(s.time, s.q, -RESTITUTION * s.v)
-    return np.array(rows).T
+    return np.array(rows).T, runs
 
 
 def main() -> int:
-    report = Report("events")
+    report = Report("events", folder="write the page into this folder")
     m = pendulum()
-    times, rates = bounces(m)
+    (times, rates), runs = bounces(m)
     error = times - exact_times()
     columns = {
         "t": ("t [s]", "12.9f"),
@@ -71,6 +74,16 @@ def main() -> int:
         "error": ("error of t [s]", "9.1e"),
     }
     report.table("bounces", columns, np.stack([times, rates, error], axis=1).tolist())
+
+    t, q, v = (np.concatenate([getattr(run, key) for run in runs]) for key in ("t", "q", "v"))
+    m.page(
+        t,
+        q,
+        Path(report.options.folder or ".") / "events.html",
+        title="Pendulum at a stop",
+        plots={"angle [rad]": q[:, 2], "angular velocity [rad/s]": v[:, 2]},
+        marks=[(time, "bounce") for time in times],
+    )
 
     s = m.simulation("rk8", rtol=1e-10, energy_account=True)
     s.schedule_input("kick", *np.transpose(KICKS))

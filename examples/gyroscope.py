@@ -59,7 +59,8 @@ def top(spin: float) -> baum.Mechanism:
 
 def simulate(spin: float, times: Array) -> tuple[baum.Run, Array]:
     """Simulate the top. Return the run, and the azimuth and the tilt [rad] of the axle (2 x n)."""
-    run = top(spin).simulate(times, "rk8", rtol=1e-10, record=["foot.reaction", "energy"])
+    record = ["foot.reaction", "top.velocity", "energy"]
+    run = top(spin).simulate(times, "rk8", rtol=1e-10, record=record)
     x, y, z = run["top.pose"][:, :3].T
     return run, np.stack([np.unwrap(np.arctan2(y, x)), np.arctan2(np.hypot(x, y), z)])
 

@@ -53,7 +53,7 @@ def shafts(joint: str) -> baum.Mechanism:
 def ratio(m: baum.Mechanism, times: Array) -> tuple[baum.Run, Array]:
     """Simulate the shafts. Return the run, and the speed of the second shaft / that of the
     first."""
-    run = m.simulate(times, "kinematics", record=["motor.effort"])
+    run = m.simulate(times, "kinematics")
     speed: Array = run["second.velocity"][:, 3:] @ OUT / RATE
     return run, speed
 
@@ -65,7 +65,8 @@ def main() -> int:
     run, universal = ratio(m, times)
     _, constant = ratio(shafts("constant velocity"), times)
     page = Path(report.options.folder or ".") / "hookes_joint.html"
-    run.page(page, title="Hooke's joint", plots=["second.velocity"])
+    plots = {"Hooke's joint [-]": universal, "constant velocity [-]": constant}
+    m.page(times, run.q, page, title="Hooke's joint", plots=plots)
     m.draw(run.q[0]).save(page.with_suffix(".svg"))
 
     angle = RATE * times

@@ -10,7 +10,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank rolling_disc stewart animation eight_gains jansen_leg peaucellier hookes_joint trebuchet suspension mistakes}
+names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire gyroscope rssr spatial_slider_crank rolling_disc stewart animation eight_gains jansen_leg peaucellier hookes_joint trebuchet suspension planetary_gear cart_pole mistakes}
 out=$PWD/out
 
 # shellcheck disable=SC2086

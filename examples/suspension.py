@@ -25,6 +25,7 @@ MASSES = {
     "wheel": 35,
     "plate": 20,
 }  # [kg]
+TYRE = 2e5  # [N/m] its stiffness
 BUMP, BEGIN, DURATION = 0.06, 0.5, 0.25  # [m], [s]
 
 
@@ -79,7 +80,7 @@ def mechanism() -> baum.Mechanism:
         wheel,
         point_a=(0, 0),
         point_b=(0, 0),
-        stiffness=2e5,
+        stiffness=TYRE,
         damping=500,
         free_length=RADIUS + 0.02,
     )
@@ -119,6 +120,13 @@ def main() -> int:
     report.expect(
         "force of the road, off by [N]", abs(run["road.effort"][:, 0] - force).max(), 1e-8
     )
+    # At rest the tyre carries the weight of all bodies above the plate. An error of 1e-9 m changes
+    # its force by 2e-4 N.
+    rest = m.simulate([20], "rk8", rtol=1e-8)
+    across, up = (rest["wheel.pose"] - rest["plate.pose"])[0, :2]
+    tyre = TYRE * ((RADIUS + 0.02) / np.hypot(across, up) - 1) * up
+    weight = 9.81 * (sum(MASSES.values()) - MASSES["plate"])
+    report.expect("tyre at rest, off the weight [N]", abs(tyre - weight), 1e-3)
     return report.end()
 
 

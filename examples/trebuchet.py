@@ -35,6 +35,7 @@ def bodies() -> baum.Mechanism:
         angle=START,
         angular_velocity=0,
     )
+    beam.outline = baum.Box((SHORT + LONG, 0.06, 0))
     hanging = pivot + SHORT * along - (0, HANGER)
     weight = m.planar_particle("weight", mass=WEIGHT, position=hanging, velocity=(0, 0))
     weight.outline = baum.Circle(0.14)
@@ -91,8 +92,14 @@ def main() -> int:
     at = m["stone"].columns[0]
     times, q = np.concatenate([run.t for run in runs]), np.concatenate([run.q for run in runs])
     page = Path(report.options.folder or ".") / "trebuchet.html"
-    shown = times < release.time + 0.4
-    m.page(times[shown], q[shown], page, title="Trebuchet", traces=["stone"])
+    shown = times < release.time + 0.15
+    sling = [run["sling.multipliers"][:, 0] for run in runs[:2]]
+    tension = np.concatenate([*sling, np.zeros(len(runs[2].t))])
+    plots = {
+        "height of the stone [m]": q[shown][:, at][:, 1],
+        "tension of the sling [N]": tension[shown],
+    }
+    m.page(times[shown], q[shown], page, title="Trebuchet", traces=["stone"], plots=plots)
     m.draw(q[0]).save(page.with_suffix(".svg"))
 
     x, y = release.q[at]
@@ -112,8 +119,7 @@ def main() -> int:
         WEIGHT * GRAVITY * (q[0][m["weight"].columns[0]][1] - release.q[m["weight"].columns[0]][1])
     )
     kinetic = STONE * (vx**2 + vy**2) / 2
-    tension = np.concatenate([run["sling.multipliers"][:, 0] for run in runs[:2]])
-    report.expect("sling: largest pressure [N]", -tension.min(), 0)
+    report.expect("sling: largest pressure [N]", -np.concatenate(sling).min(), 0)
     report.expect("energy of the stone / that of the weight", kinetic / drop, 1.0)
     return report.end()
 

@@ -6,7 +6,7 @@
 # Installs missing packages and runs the named stages, one after the other, until one fails. Without an argument, it
 # runs the stages in the first row. The stages in the second row run only if they are named.
 #   format types docs build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser site debs packages readme fresh trixie wheels
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser site links debs packages readme fresh trixie wheels
 # BAUM_COVERAGE is the smallest line coverage of src that stage coverage accepts, in percent (default: 95). Five folders
 # of src must always have 100 %.
 # BAUM_FUZZ_SECONDS is the time for which stage fuzz runs each target (default: 600).
@@ -16,7 +16,7 @@ cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format types docs build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser site debs packages readme fresh trixie wheels"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser site links debs packages readme fresh trixie wheels"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -191,6 +191,17 @@ stage_site() {
   build/site-venv/bin/python tests/browser/check_site.py build/site
 }
 
+# Checks the links of the site to other sites: those of the pages, of the headers and of the docstrings. This is the
+# only check of the documents that needs a network. The exit code 77 means that there is none.
+stage_links() {
+  getent hosts www.sphinx-doc.org >/dev/null || { echo "skipped: there is no network"; return 77; }
+  build_dev
+  export BAUM_LIBRARY="$PWD/build/dev/libbaum.so" PYTHONPATH="$PWD/bindings/python" PYTHONDONTWRITEBYTECODE=1
+  sh docs/build.sh
+  build/site-venv/bin/python -m sphinx -b linkcheck -c docs/site -d build/site-doctrees --quiet \
+    build/site-source build/site-links
+}
+
 # If an input makes a target fail, it remains in build/fuzz as crash-*. Correct the error, and add the input to
 # tests/fuzz/corpus.
 stage_fuzz() {
@@ -307,9 +318,9 @@ for stage in "$@"; do
   set -e
   seconds=$(($(date +%s) - begun))
   verdict=ok
-  [ "$code" -eq 0 ] || verdict=FAILED
+  case $code in 0) ;; 77) verdict=skipped code=0 ;; *) verdict=FAILED ;; esac
   echo "---- $stage: $verdict, $seconds s"
-  summary="$summary$(printf '%-10s %-6s %5d s' "$stage" "$verdict" "$seconds")
+  summary="$summary$(printf '%-10s %-7s %5d s' "$stage" "$verdict" "$seconds")
 "
   [ "$code" -eq 0 ] || break
 done

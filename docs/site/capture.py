@@ -3,7 +3,8 @@
 
 Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this
 title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes
-FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism."""
+FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism. Writes the curves of the first
+page that has curves, or the run if its mechanism has no drawing, into the figure FOLDER/NAME_figure.svg."""
 
 import runpy
 import sys
@@ -11,6 +12,8 @@ import warnings
 from pathlib import Path
 
 import baum
+import matplotlib.pyplot as plt
+from baum import drawings
 
 SHOWN = 400  # samples that are enough for a page
 KEPT = 4  # runs that are considered
@@ -27,9 +30,41 @@ def remember(cls, name, found, choose):
     setattr(cls, name, call)
 
 
+def remember_motions(found):
+    page = drawings.page
+
+    def call(motion):
+        found.append(motion)
+        return page(motion)
+
+    drawings.page = call
+
+
+def write_figure(motion, path):
+    """Plot the curves of a page over time, curves of the same unit in the same frame."""
+    groups = {}
+    for label, values in motion.plots:
+        name, _, unit = label.partition(" [")
+        groups.setdefault(unit and f"[{unit}", []).append((name, values))
+    count = len(groups)
+    plt.rcParams["svg.hashsalt"] = path.stem  # the same file in each build
+    figure, frames = plt.subplots(
+        count, sharex=True, squeeze=False, figsize=(6.4, 1 + 1.6 * count), layout="constrained"
+    )
+    for frame, (unit, curves) in zip(frames.flat, groups.items()):
+        for name, values in curves:
+            frame.plot(motion.t, values, label=name)
+        frame.set_ylabel(unit)
+        frame.grid(alpha=0.3)
+        frame.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), ncols=3)
+    frames[-1, 0].set_xlabel("t [s]")
+    figure.savefig(path, metadata={"Date": None})
+
+
 def main():
     folder, name, title, program, *arguments = sys.argv[1:]
-    runs, mechanisms = [], []
+    runs, mechanisms, motions = [], [], []
+    remember_motions(motions)
     remember(baum.Mechanism, "simulate", runs, lambda m, run: run)
     remember(baum.Mechanism, "freeze", mechanisms, lambda m, same: m)
     sys.argv = [program, *arguments]
@@ -51,6 +86,10 @@ def main():
             run.page(folder / f"{name}.html", title=title)
         if drawable and not list(folder.glob("*.svg")):
             m.draw(*([] if run is None else [run.q[0]])).save(folder / f"{name}.svg")
+    for motion in [motion for motion in motions if motion.plots][:1]:
+        write_figure(motion, folder / f"{name}_figure.svg")
+    if run is not None and not drawable:
+        run.plot()[0].figure.savefig(folder / f"{name}_figure.svg", metadata={"Date": None})
     return 0
 
 

@@ -3,7 +3,8 @@
 
 Runs the Python examples, the mechanisms of the catalogue and the programs of the cookbook. Writes the pages of the
 gallery into SOURCE/gallery and replaces the marks <!-- motion --> in the cookbook by pages that show the motion of the
-program above. The pages themselves go into EXTRA/motion. Fails if a program fails."""
+program above. The pages themselves go into EXTRA/motion. Fails if a program or one of its checks fails, if two pages
+have the same title, and if the page of a moving mechanism has no figure or no check."""
 
 import ast
 import os
@@ -26,36 +27,88 @@ MOTION = "<!-- motion -->\n"
 OMITTED = {"pendulum_sundials", "pendulum_mebdf", "slider_crank_simeon", "slider_crank_sundials"}
 OMITTED |= {"andrews_angles", "andrews_a03", "car_axis", "flyball_stiff"}
 TITLES = {
-    "eight_gains": "Slider-crank with eight sets of gains",
+    "cart_pole": "Cart and pole: swing-up and balance by control",
+    "eight_gains": "Slider-crank with eight sets of gains, in motion",
     "events": "Pendulum at a stop, and with a torque in intervals",
-    "gyroscope": "Heavy top with steady precession",
+    "gyroscope": "Heavy top in steady precession",
     "hookes_joint": "Hooke's joint between two shafts",
     "jansen_leg": "Jansen's leg",
     "kinematics": "Quick-return mechanism of a shaper",
     "mistakes": "Three mistakes, drawn",
     "peaucellier": "Peaucellier's linkage",
     "pendulum": "Pendulum by a constraint function",
-    "rssr": "Spatial four-bar with a motor",
-    "slider_crank": "Slider-crank from lengths",
-    "stewart": "Stewart platform",
-    "suspension": "Double wishbone suspension",
+    "planetary_gear": "Planetary gear with two inputs",
+    "rssr": "Spatial four-bar (RSSR) with a coupler or a massless rod",
+    "slider_crank": "Slider-crank with eight sets of gains, as a table",
+    "stewart": "Stewart platform: inverse and forward kinematics",
+    "suspension": "Quarter car with double wishbones",
     "tradeoff": "Error against cost of a slider-crank",
     "trebuchet": "Trebuchet in three phases",
     "wire": "Bead on a wire, as a study of Python functions",
 }
 NOT_SHOWN = {"animation"}  # examples that only show mechanisms of the catalogue
+STUDIES = {"mistakes", "tradeoff", "wire"}  # examples about methods rather than about a mechanism
+SECTIONS = {
+    "plane": ("In the plane", ""),
+    "space": ("In space", ""),
+    "studies": ("Studies and mistakes", ""),
+    "cookbook": (
+        "Cookbook",
+        "Pages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n",
+    ),
+}
+# C programs, by the page that shows them. A program with the name of a Python example does the same.
+IN_C = {
+    "cart_pole": {
+        "control_loop": "A controller in C keeps a crank at constant speed, and measures the time of its intervals",
+        "predictive_control": "A controller in C tries torques on the run, and then restores its saved state",
+    },
+    "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
+    "known_rolling_disc": {"rolling_disc": "Two discs in C, one of which rolls steadily"},
+    "known_spatial_slider_crank": {"spatial_slider_crank": "A slider-crank with other data, in C"},
+}
+# Channels that the figures show, in addition to the efforts of drivers, or to the energy if there is no driver.
+MEASURED = {
+    "andrews_bodies": ["O.coordinate"],
+    "bricard": ["joint1.coordinate"],
+    "chain_3": ["body3.pose"],
+    "chaplygin_sleigh": ["sleigh.velocity"],
+    "differential": ["left shaft.coordinate", "right shaft.coordinate"],
+    "double_wishbone": ["lower pivots.coordinate"],
+    "flyball": ["guide.coordinate"],
+    "four_bar": ["D.coordinate"],
+    "gimbals": ["post.coordinate", "trunnion.coordinate"],
+    "heavy_top": ["top.velocity"],
+    "n_four_bar": ["joint1.coordinate"],
+    "pendulum": ["bob.pose"],
+    "rolling_disc": ["disc.velocity"],
+    "rssr": ["pivot.coordinate"],
+    "slider_crank": ["guide.coordinate"],
+    "slider_crank_driven": ["guide.coordinate"],
+    "slider_crank_eccentric": ["guide.coordinate"],
+    "spatial_slider_crank": ["guide.coordinate"],
+}
 
 CATALOGUE_PROGRAM = """import baum
 import numpy as np
 from baum import catalog
 
 m = catalog.build("{name}")
-times = np.linspace(0, catalog.entry("{name}").end_time, {samples})
-run = m.simulate(times, "rk8", rtol=1e-9{record})
+times = np.linspace(0, catalog.entry("{name}").end_time, 401)
+reactions = [element.reaction for element in m if isinstance(element, baum.Joint)][:12]
+measured = [{channels}]
+run = m.simulate(times, "rk8", rtol=1e-9, record=[*reactions, *measured])
+
 known = catalog.times("{name}")
-error = catalog.compare(m.simulate(known, "rk8", rtol=1e-9), "{name}")
-print(f"largest error of positions at {{len(known)}} samples: {{error.q:.0e}}")
-print(f"largest constraint violation: {{run.counters.max_phi:.0e}}")
+errors = []
+for rtol in (1e-9, 1e-11):
+    error = catalog.compare(m.simulate(known, "rk8", rtol=rtol), "{name}")
+    print(f"rtol {{rtol:.0e}}: positions at {{len(known)}} samples, off by {{error.q:.1e}}")
+    errors.append(error.q)
+# The error must follow the tolerance, down to the uncertainty of the reference.
+limit = max(error.q_floor, errors[0] / 10)
+print(f"check  error at rtol {{rtol:.0e}}  {{error.q:.1e}} <= {{limit:.1e}}")
+assert error.q <= limit
 """
 
 
@@ -86,58 +139,104 @@ def motion(page, up):
     )
 
 
+def c_program(path, text, folded=False):
+    """Return the section of a page that shows a C program."""
+    name = path.relative_to(ROOT)
+    code = f"```c\n{path.read_text(encoding='utf-8')}```\n"
+    if not folded:
+        return f"\n## In C\n\n{text}: `{name}`.\n\n{code}"
+    summary = f"<details><summary>{text}: <code>{name}</code></summary>"
+    return f"\n```{{raw}} html\n{summary}\n```\n\n{code}\n```{{raw}} html\n</details>\n```\n"
+
+
+def c_programs(name):
+    shown = IN_C.get(name, {})
+    if not shown and (ROOT / "examples" / f"{name}.c").exists():
+        shown = {name: "The same in C"}
+    paths = [(ROOT / "examples" / f"{program}.c", text) for program, text in shown.items()]
+    return "".join(c_program(path, text) for path, text in paths)
+
+
+def source_of(entry):
+    """Return the C file that builds a mechanism of the catalogue."""
+    files = sorted((ROOT / "src" / "catalog").glob("*.c"))
+    mark = f'.name = "{entry.name}"'
+    return next(path for path in files if mark in path.read_text(encoding="utf-8"))
+
+
+def about(path):
+    """Return the comment at the head of a C file, with its equations as blocks of code."""
+    comment = re.search(r"\*/\n/\* (.*?)\n? \*/", path.read_text(encoding="utf-8"), flags=re.S)[1]
+    lines = [re.sub(r"^ \* ?", "", line) for line in comment.split("\n")]
+    return "\n".join(f"  {line}" if line.startswith("  ") else line for line in lines) + "\n\n"
+
+
+def measured(entry, m):
+    """Return the channels that a figure shows."""
+    kinds = {element.name: element.kind.name for element in m}
+    efforts = [f"{name}.effort" for name, kind in kinds.items() if kind == "driver"]
+    return [*MEASURED.get(entry.name, []), *(efforts or ["energy"])]
+
+
 class Gallery:
     def __init__(self, source, extra):
         self.pages, self.motion = source / "gallery", extra / "motion"
         for folder in (self.pages, self.motion):
             folder.mkdir(parents=True, exist_ok=True)
-        self.source, self.cards = source, {"examples": [], "catalogue": [], "cookbook": []}
-        self.times = {}
+        self.source, self.cards = source, {section: [] for section in SECTIONS}
 
     def take(self, folder, prefix):
-        """Move the pages and drawings of a program. Return them."""
-        pages, drawings = [], []
+        """Move the pages, figures and drawings of a program. Return them."""
+        pages, figures, drawings = [], [], []
         for path in sorted(folder.glob("*.html")):
             pages.append(Path(shutil.move(path, self.motion / f"{prefix}{path.name}")))
         for path in sorted(folder.glob("*.svg")):
-            drawings.append(Path(shutil.move(path, self.pages / f"{prefix}{path.name}")))
+            kind = figures if path.stem.endswith("_figure") else drawings
+            kind.append(Path(shutil.move(path, self.pages / f"{prefix}{path.name}")))
         shutil.rmtree(folder)
-        return pages, drawings
+        return pages, figures, drawings
 
-    def write(self, kind, name, title, body, drawings):
-        text = f"# {title}\n\n{body}"
+    def write(self, section, name, title, printed, body, taken):
+        """Write a page. body: its text after the motion and the figure."""
+        pages, figures, drawings = taken
+        if section != "studies" and pages and not (figures and "check" in printed):
+            sys.exit(f"gallery page {name}: no figure or no check")
+        text = f"# {title}\n\n" + body[0] + "".join(motion(page, "../") for page in pages)
+        pictures = [(title, path) for path in drawings if not pages]
+        pictures += [(f"{title}: measured quantities over time", path) for path in figures]
+        text += "".join(f"![{label}]({path.name})\n\n" for label, path in pictures) + body[1]
         (self.pages / f"{name}.md").write_text(text, encoding="utf-8")
-        picture = drawings[0].name if drawings else None
-        self.cards[kind].append((name, title, picture))
+        picture = [*drawings, *figures, None][0]
+        self.cards[section].append((title, name, picture))
 
     def example(self, path):
         name, text = path.stem, path.read_text(encoding="utf-8")
         arguments = ["--folder", "."] if "options.folder" in text else []
         title = TITLES.get(name, name.replace("_", " ").capitalize())
         folder, printed, seconds = run(path, name, title, arguments)
-        pages, drawings = self.take(folder, f"example_{name}_" if arguments else "example_")
-        about = ast.get_docstring(ast.parse(text))
-        body = f"{about}\n\n" + "".join(
-            motion(page, "../") for page in pages if "study" not in page.name
-        )
-        body += "".join(f"![{title}]({drawing.name})\n\n" for drawing in drawings if not pages)
-        body += f"## Results\n\n```text\n{printed}```\n\n## Program\n\n`examples/{path.name}`:\n\n```python\n{text}```\n"
-        twin = path.with_suffix(".c")
-        if twin.exists():
-            body += f"\n## The same in C\n\n`examples/{twin.name}`:\n\n```c\n{twin.read_text(encoding='utf-8')}```\n"
-        self.write("examples", name, title, body, drawings)
+        taken = self.take(folder, f"example_{name}_" if arguments else "example_")
+        pages = [page for page in taken[0] if "study" not in page.name]
+        section = "studies" if name in STUDIES else "space" if "spatial_body(" in text else "plane"
+        body = f"## Results\n\n```text\n{printed}```\n\n"
+        body += f"## Program\n\n`examples/{path.name}`:\n\n```python\n{text}```\n"
+        head = f"{ast.get_docstring(ast.parse(text))}\n\n"
+        body += c_programs(name)
+        self.write(section, name, title, printed, (head, body), (pages, *taken[1:]))
         return f"example {name}", seconds
 
     def known(self, entry):
         m = catalog.build(entry.name)
-        joints = [element.name for element in m if type(element).__name__ == "Joint"]
-        record = f", record={[f'{joint}.reaction' for joint in joints[:12]]!r}".replace("'", '"')
-        text = CATALOGUE_PROGRAM.format(name=entry.name, samples=401, record=record)
-        title = re.split("[;,]", entry.title[0].upper() + entry.title[1:])[0]
+        channels = [f'"{channel}"' for channel in measured(entry, m)]
+        channels = (
+            ", ".join(channels)
+            if len(channels) < 4
+            else "\n    " + ",\n    ".join(channels) + ",\n"
+        )
+        text = CATALOGUE_PROGRAM.format(name=entry.name, channels=channels)
+        title = entry.title[0].upper() + entry.title[1:].replace(";", ":")
         folder, printed, seconds = run_text(text, entry.name, title)
-        pages, drawings = self.take(folder, "")
-        body = "".join(motion(page, "../") for page in pages)
-        body += f"```python\n{text}```\n\n```text\n{printed}```\n\n"
+        taken = self.take(folder, "")
+        body = f"## Program\n\n```python\n{text}```\n\n## Results\n\n```text\n{printed}```\n\n"
         body += f"Source of the data: {entry.source}.\n\n"
         body += f"Reference motion: {entry.provenance}.\n\n"
         body += f"Note: {entry.note}.\n\n" if entry.note else ""
@@ -147,7 +246,12 @@ class Gallery:
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
         body += f'\nBuild variants with `catalog.build("{entry.name}", name=value)`. [The table of all mechanisms]'
         body += "(../docs/mechanisms.md) has the sources of the data.\n"
-        self.write("catalogue", f"known_{entry.name}", title, body, drawings)
+        source = source_of(entry)
+        body += c_program(source, "How the catalogue builds it, in C", folded=True)
+        name = f"known_{entry.name}"
+        spatial = any(element.kind.name.startswith("spatial") for element in m)
+        section = "space" if spatial else "plane"
+        self.write(section, name, title, printed, (about(source), body + c_programs(name)), taken)
         return f"catalogue {entry.name}", seconds
 
     def cookbook(self, path):
@@ -160,42 +264,36 @@ class Gallery:
             heading = [title, *re.findall(r"^## (.*)", shown + above, flags=re.M)][-1]
             folder, _, spent = run_text(PROGRAM.findall(above)[-1], f"{path.stem}_{count}", heading)
             seconds += spent
-            pages, drawings = self.take(folder, "cookbook_")
+            pages, _, drawings = self.take(folder, "cookbook_")
             shown += above + "".join(motion(page, "../../") for page in pages[:1])
             if drawings and count == 1:
-                self.cards["cookbook"].append(
-                    (f"../docs/cookbook/{path.stem}", title, drawings[0].name)
-                )
+                self.cards["cookbook"].append((title, f"../docs/cookbook/{path.stem}", drawings[0]))
         path.write_text(shown + text, encoding="utf-8")
         return f"cookbook {path.stem}", seconds
 
-    def cards_of(self, kind):
+    def cards_of(self, section):
         text = '```{raw} html\n<div class="cards">\n'
-        for name, title, picture in sorted(self.cards[kind]):
-            image = f'<img src="../motion/{picture}" alt="">' if picture else ""
+        for title, name, picture in sorted(self.cards[section]):
+            image = f'<img src="../motion/{picture.name}" alt="">' if picture else ""
             if picture:
-                shutil.copy(self.pages / picture, self.motion / picture)
+                shutil.copy(picture, self.motion)
             text += f'<a href="{name}.html">{image}{title}</a>\n'
         return text + "</div>\n```\n\n"
 
     def index(self):
-        names = [
-            name for kind in ("examples", "catalogue") for name, _, _ in sorted(self.cards[kind])
-        ]
-        text = "# Gallery\n\nEvery page shows a motion, the program that computed it, and its check against a known "
-        text += (
-            "value. The programs run when this site is built; the build fails if a check fails.\n\n"
-        )
-        text += "## Examples\n\nThese programs are in `examples/`. The tests of the project run them.\n\n"
-        text += self.cards_of("examples")
-        text += "## Mechanisms whose motion is known\n\nThe library `baum_catalog` builds these mechanisms "
-        text += "([Catalogue of reference mechanisms](../docs/mechanisms.md)).\n\n" + self.cards_of(
-            "catalogue"
-        )
-        text += (
-            "## Cookbook\n\nPages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n"
-        )
-        text += self.cards_of("cookbook")
+        cards = [card for section in SECTIONS for card in sorted(self.cards[section])]
+        titles = [title for title, _, _ in cards]
+        for title in titles:
+            if titles.count(title) > 1:
+                sys.exit(f"gallery: two pages have the title {title}")
+        text = "# Gallery\n\nEvery page about a mechanism shows its motion, measured quantities, the program that "
+        text += "computed them, and a check against a known value. The programs run when this site is built; the "
+        text += "build fails if a check fails. They are in `examples/`, where the tests of the project run them, or "
+        text += "use mechanisms of the library `baum_catalog` "
+        text += "([Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
+        for section, (heading, about) in SECTIONS.items():
+            text += f"## {heading}\n\n{about}{self.cards_of(section)}"
+        names = [name for _, name, _ in cards if "/" not in name]
         text += "```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n"
         (self.pages / "index.md").write_text(text, encoding="utf-8")
 

@@ -78,7 +78,7 @@ static const baum_i_catalog_parameter PARAMETERS_3[1] = {
 const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .name = "chain_3",
   .title = "chain of three different uniform rods, from rest",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; two tolerances agree to 19 digits; another model in "
     "double precision agrees to 14.1 digits",
@@ -115,7 +115,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
 const baum_i_catalog_mechanism baum_i_chain_of_n = {
   .name = "chain",
   .title = "open chain of N equal uniform rods, level and at rest",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "",
   .note = "chaotic: errors grow with time",
   .parameter_count = COUNT,

@@ -153,7 +153,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_differential = {
   .name = "differential",
   .title = "gear differential that drives two wheels with different loads",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES),
   .defaults =

@@ -317,7 +317,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_double_wishbone = {
   .name = "double_wishbone",
   .title = "wheel on two wishbones, with steering and a road",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form, with Newton's method for the height of the wheel",
   .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES),

@@ -79,7 +79,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_four_bar = {
   .name = "four_bar",
   .title = "four-bar, a crank-rocker of uniform rods under gravity (Grashof)",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; two tolerances agree to 17 digits; another model in "
     "double precision agrees to 12.4 digits",

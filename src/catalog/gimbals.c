@@ -94,7 +94,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_gimbals = {
   .name = "gimbals",
   .title = "gyroscope in two gimbals, in steady precession",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){1.5, 2e-3, 1.2e-3, 3e-3, 8e-4, 0.3, 0.05, 9.81, 0.4, 2.0},

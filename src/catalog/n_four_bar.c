@@ -87,7 +87,7 @@ static void build(baum_i_parts *parts, const double *p)
 
 const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .name = "n_four_bar",
-  .title = "N-four-bar of uniform rods; it passes flat configurations, where motions branch",
+  .title = "N-four-bar of uniform rods, through flat and singular configurations",
   .source = "IFToMM and A Coruna library of benchmarks, A02; the published table is for N = 40",
   .provenance = "Taylor series of the equation of parallel cranks, which is that of a pendulum; "
                 "agrees to 13 digits with extrapolation in 160-bit arithmetic for N = 1, 2, 40",

@@ -81,7 +81,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_quadruped = {
   .name = "quadruped",
   .title = "quadruped of 14 bodies and 13 revolute joints in free fall",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "",
   .note = "the centre of mass moves on a parabola; the angular momentum about it and the energy "
           "are constant",

@@ -92,7 +92,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_robot_arm = {
   .name = "robot_arm",
   .title = "robot arm of six revolute joints, all driven",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form",
   .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", JOINTS),

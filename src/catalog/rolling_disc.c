@@ -86,7 +86,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_rolling_disc = {
   .name = "rolling_disc",
   .title = "thin disc that rolls steadily on a circle",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form",
   .note = "two rows of velocity level",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 1),

@@ -141,7 +141,7 @@ const baum_i_catalog_mechanism baum_i_slider_crank = {
   FREE,
   BAUM_I_CATALOG_SERIES(SLIDER_CRANK, 15, 14),
   .name = "slider_crank",
-  .title = "centric slider-crank; the crank starts at 150 rad/s and is not driven",
+  .title = "centric slider-crank, the crank released at 150 rad/s",
   .source = FLORES,
   .provenance =
     "extrapolation in 160-bit arithmetic; two tolerances agree to 18 digits; another model "
@@ -153,8 +153,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
   FREE,
   BAUM_I_CATALOG_SERIES(SLIDER_CRANK_ECCENTRIC, 15, 14),
   .name = "slider_crank_eccentric",
-  .title = "eccentric slider-crank; the crank starts at 150 rad/s and is not driven",
-  .source = FLORES "; the eccentricity is our choice",
+  .title = "eccentric slider-crank, the crank released at 150 rad/s",
+  .source = FLORES "; the eccentricity was chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; two tolerances agree to 17 digits; another model "
     "in double precision agrees to 12.8 digits",
@@ -164,8 +164,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
 const baum_i_catalog_mechanism baum_i_slider_crank_driven = {
   DRIVEN,
   .name = "slider_crank_driven",
-  .title = "eccentric slider-crank; the crank is driven at 150 rad/s",
-  .source = FLORES "; the eccentricity is our choice",
+  .title = "eccentric slider-crank, the crank driven at 150 rad/s",
+  .source = FLORES "; the eccentricity was chosen for this catalogue",
   .defaults = baum_i_slider_crank_data,
   .end = 0.2,
 };

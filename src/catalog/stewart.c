@@ -207,7 +207,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_stewart = {
   .name = "stewart",
   .title = "Stewart platform, its six legs driven",
-  .source = "ours",
+  .source = "chosen for this catalogue",
   .provenance = "closed form",
   .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES),
