@@ -293,7 +293,7 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
-    baum_i_companion_end_call(run);
+    baum_i_companion_output(run, state);
   }
   atomic_store(&run->cancelled, 0); /* including requests from user functions in this call */
   run->counters.wall += baum_i_wall_seconds() - c->start;
@@ -437,6 +437,7 @@ static baum_status sample_all(baum_simulation *run, const double *times, int64_t
     BAUM_I_TRY(*done > 0 ? baum_i_run_has_time(run) : BAUM_OK);
     BAUM_I_TRY(sample_one(run, times[*done], *done == n - 1, taken, &at));
     BAUM_I_TRY(baum_i_output(run, at, channels, count, rows + *done * width));
+    baum_i_companion_output(run, at);
   }
   return BAUM_OK;
 }

@@ -51,7 +51,8 @@ static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-static const double LEAST_RTOL = 1e-13; /* with smaller tolerances, rounding errors dominate */
+static const double LARGEST_PART_OF_CHECK = 0.5; /* the difference of both motions is the error */
+static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
 /* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST is for a
  * companion that the user has not requested, so that it does not slow the run down much. FREE
  * further evaluations are always allowed, because short runs with long steps take only few
@@ -105,8 +106,17 @@ static baum_status make_memory(baum_i_companion *c)
   return BAUM_OK;
 }
 
+static double rtol_of_check(const baum_simulation *run)
+{
+  return fmax(TIGHTER_OF_CHECK * run->problem.rtol, LEAST_RTOL);
+}
+
 bool baum_i_companion_is_wanted(const baum_simulation *run)
 {
+  if (run->options.error_check && !baum_i_run_has_fixed_step(run) &&
+      rtol_of_check(run) > LARGEST_PART_OF_CHECK * run->problem.rtol) {
+    return false;
+  }
   bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
   bool wanted = run->options.error_check || baum_i_run_has_fixed_step(run) || loose;
   return wanted && !run->integrator->without_freedom;
@@ -119,8 +129,7 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
   c->problem.distrusts_projection = true;
   if (run->options.error_check && !baum_i_run_has_fixed_step(run)) {
     c->method = run->integrator;
-    c->problem.rtol =
-      fmax(TIGHTER_OF_CHECK * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
+    c->problem.rtol = rtol_of_check(run);
     c->problem.atol = TIGHTER_OF_CHECK * run->problem.atol;
     return;
   }
@@ -190,13 +199,13 @@ static void compare_positions(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-/* Warn if run and companion have differed for long enough. At the end of a call, warn even if they
- * have differed for a short time only, because the user receives this state. */
-static void warn_if_apart(baum_simulation *run, double t, bool ends)
+/* Warn if run and companion have differed for long enough. At an output, warn even if they have
+ * differed for a short time only, because the user receives this state. */
+static void warn_if_apart(baum_simulation *run, double t, bool output)
 {
   const baum_i_companion *c = run->companion;
   bool lasts = fabs(t - c->apart) * run->problem.rate > LASTING;
-  if ((lasts || (ends && !isnan(c->apart))) && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
+  if ((lasts || (output && !isnan(c->apart))) && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
     warn_of_error(run, t);
   }
 }
@@ -346,10 +355,10 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
   }
 }
 
-void baum_i_companion_end_call(baum_simulation *run)
+void baum_i_companion_output(baum_simulation *run, const baum_i_state *state)
 {
-  if (goes_along(run) && reach(run, &run->state)) {
-    warn_if_apart(run, run->state.t, true);
+  if (goes_along(run) && reach(run, state)) {
+    warn_if_apart(run, state->t, true);
   }
 }
 

@@ -23,8 +23,8 @@ void baum_i_companion_begin(baum_simulation *run);
  * warn if run and companion differ. */
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 
-/* A call that advances the run ends at the present state. Compare run and companion there. */
-void baum_i_companion_end_call(baum_simulation *run);
+/* The user receives `state`, which may be inside the last step. Compare run and companion there. */
+void baum_i_companion_output(baum_simulation *run, const baum_i_state *state);
 
 /* Call these functions when the equations change at the present state, for example because an input
  * changes. Call settle() before the change: the companion follows the run to this state. Call

@@ -153,6 +153,54 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
+/* Samples inside a step are interpolated, which adds an error. One call that returns all samples
+ * estimates the error as many calls do that return one sample each. */
+static void estimates_include_samples_inside_steps(void **state)
+{
+  (void)state;
+  enum { TIMES = 40 };
+  double times[TIMES];
+  double rows[TIMES][2];
+  int64_t done = 0;
+  model m;
+  baum_simulation *run = NULL;
+  baum_counters c;
+  baum_simulation_options o = baum_simulation_options_default();
+  const baum_channel channel = baum_channel_of(BAUM_Q);
+  double error = 0.0;
+  o.integrator = baum_rk8();
+  o.rtol = 1e-9;
+  o.error_check = true;
+  const baum_counters one_by_one = run_pendulum(o, &error);
+  assert_in_range(one_by_one.steps, 10, TIMES); /* samples are inside steps */
+  for (int k = 0; k < TIMES; k++) {
+    times[k] = (k + 1) * SPAN / TIMES;
+  }
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_sample(run, times, TIMES, &channel, 1, rows[0], &done), BAUM_OK);
+  assert_int_equal(done, TIMES);
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  ASSERT_NEAR(c.error_estimate, one_by_one.error_estimate, 0.0, 0.0);
+  ASSERT_NEAR(c.error_estimate, error, 0.2, 0.0);
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+/* A companion with nearly the tolerance of the run would have the same error. */
+static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
+{
+  (void)state;
+  baum_simulation_options o = baum_simulation_options_default();
+  double error = 0.0;
+  o.integrator = baum_rk8();
+  o.error_check = true;
+  o.rtol = 1e-13;
+  assert_true(run_pendulum(o, &error).error_estimate > 1e-14);
+  o.rtol = 1e-14;
+  assert_true(isnan(run_pendulum(o, &error).error_estimate));
+}
+
 /* The run reverses the direction of time inside a step. It restarts at this point, and so does its
  * companion. */
 static void estimates_continue_after_a_restart_inside_a_step(void **state)
@@ -358,6 +406,8 @@ int main(void)
     cmocka_unit_test(estimates_are_the_error),
     cmocka_unit_test(accurate_runs_have_no_companion),
     cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
+    cmocka_unit_test(estimates_include_samples_inside_steps),
+    cmocka_unit_test(estimates_at_the_smallest_tolerances_are_unknown),
     cmocka_unit_test(estimates_continue_after_a_restart_inside_a_step),
     cmocka_unit_test(runs_that_miss_a_short_event_warn),
     cmocka_unit_test(corners_of_drivers_are_no_error),
