@@ -205,7 +205,8 @@ static void warn_if_apart(baum_simulation *run, double t, bool output)
 {
   const baum_i_companion *c = run->companion;
   bool lasts = fabs(t - c->apart) * run->problem.rate > LASTING;
-  if ((lasts || (output && !isnan(c->apart))) && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
+  bool is_apart = lasts || (output && !isnan(c->apart));
+  if (is_apart && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
     warn_of_error(run, t);
   }
 }
