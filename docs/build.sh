@@ -42,7 +42,7 @@ heading "C reference"
 
 heading "pictures and pages of mechanisms"
 "$python" docs/site/gallery.py "$source" build/site-extra
-"$python" docs/site/modelling.py "$source/modelling"
+"$python" docs/site/modelling.py build/site-doxygen/xml "$source/modelling" build/site-extra/modelling/pictures
 "$python" docs/site/reference.py build/site-doxygen/xml "$source/reference"
 
 heading "site"

@@ -1,46 +1,38 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: modelling.py FOLDER
+"""usage: modelling.py XML FOLDER
 
-Writes the pages of the part Modelling: every kind of element with its picture, its equation, and code in Python and C.
-The pictures and the Python code are those of tests/browser/scenes.py, the equations those of docs/catalogue.md. The C
-code sets the fields in which the definition of the scene differs from the default; a compiler checks it."""
+Writes the pages of the part Modelling into FOLDER, one for each kind of element. Pictures and Python code are those of
+tests/browser/scenes.py, equations those of docs/catalogue.md, fields those of the headers (XML is the output of Doxygen), and
+warnings of mistakes those of elements.md."""
 
 import ast
-import ctypes
 import inspect
-import math
 import re
-import subprocess
 import sys
-import textwrap
+import warnings
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import baum
-from baum import adding, adding_space
+import numpy as np
 from baum.definitions import KINDS
+from element_code import as_function, c_code, check_c, methods, python_code
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "browser"))
 import scenes  # noqa: E402
 
-PAGES = {
-    "bodies": (
-        "Bodies",
-        [name for name, kind in KINDS.items() if kind.family == "body" and name != "coordinates"],
-    ),
-    "planar": (
-        "Joints in the plane",
-        [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("planar")],
-    ),
-    "spatial": (
-        "Joints in space",
-        [n for n, k in KINDS.items() if k.family == "joint" and n.startswith("spatial")],
-    ),
-    "general": (
-        "Couplings, drivers and constraints of your own",
-        "coupling driver spline_driver user_constraint".split(),
-    ),
-    "forces": ("Forces", [name for name, kind in KINDS.items() if kind.family == "force"]),
+
+def kinds(family, start=""):
+    return [n for n, k in KINDS.items() if k.family == family and n.startswith(start)]
+
+
+GROUPS = {
+    "Bodies": kinds("body"),
+    "Joints in the plane": kinds("joint", "planar"),
+    "Joints in space": kinds("joint", "spatial"),
+    "Couplings, drivers and constraints of your own": "coupling driver spline_driver user_constraint".split(),
+    "Forces": kinds("force"),
 }
 # The beginning of the row in docs/catalogue.md, for kinds whose name does not give it.
 ROWS = {
@@ -62,53 +54,10 @@ ROWS = {
     "spatial_load": "load, spatial.h",
     "joint_spring": "joint spring-damper",
 }
-MISTAKES = {
-    "planar_body": "The origin of a body is its centre of mass. Points of joints on the body count from there. A body whose joints "
-    "are given by `point_a` and `point_b` needs a design position and an angle near the assembled ones.",
-    "planar_particle": "A particle does not rotate, so it has no points besides itself: `point_b` must be (0, 0).",
-    "spatial_body": "`inertia` is about the centre of mass and in body axes; [Space](../docs/space.md#conventions) lists all "
-    "conventions. Three equal placeholders such as (1, 1, 1) make a small body far too hard to rotate.",
-    "planar_revolute": "A joint that is given by `point_a` and `point_b` is open in the design configuration if the positions of the "
-    "bodies do not fit. [Drawings](../docs/drawings.md#find-a-mistake) show this by a red line.",
-    "planar_translational": "The coordinate is the displacement from body_a's point to body_b's point. It is not 0 in the design "
-    "configuration unless both points coincide there.",
-    "planar_distance": "The length must not be 0. Two points that coincide are a revolute joint. A distance is a rod: it also "
-    "pushes. A rope that can hang loose is a spring with a law.",
-    "planar_fixed": "A weld of two moving bodies costs six rows and three coordinates. One body with the combined mass is cheaper.",
-    "planar_pin_in_slot": "The slot has no ends. For ends, see [One-sided stop](../docs/cookbook/stop.md).",
-    "planar_gear": "Gears do not hold their centres; revolute joints must do this. With a moving carrier, name it.",
-    "planar_rack_and_pinion": "The sign of the radius determines the side on which the rack touches the pinion.",
-    "planar_curve": "The gradient of F should have a length of about 1 near the curve, because tolerances treat F as a distance.",
-    "spatial_revolute": "Two hinges on one door are redundant ([Warnings](../docs/cookbook/warnings.md#1-redundant_rows)).",
-    "spatial_universal": "`axis_b` has no default, and must be perpendicular to `axis`. The joint has no constant transmission ratio; "
-    "a constant-velocity joint has.",
-    "spatial_spherical": "A spherical joint has no coordinates, so it takes neither drivers nor joint springs. Use a universal joint "
-    "and a revolute joint in series.",
-    "spatial_fixed": "As in the plane, one body with the combined mass is cheaper than a weld.",
-    "spatial_rolling_disc": "The contact never slips or lifts off. Look at the sign of the normal force.",
-    "coupling": "`offset` is by default the value in the design configuration. A law must give its exact derivatives.",
-    "driver": "A driver and initial velocities that contradict each other are refused. Leave the velocities free.",
-    "planar_spring": "`free_length` is by default the length in the design configuration, so the spring has no force there.",
-    "planar_load": "`force` keeps its direction in ground axes, unless `follows_body` is true. `point` is in body axes in any case.",
-    "joint_spring": "`free_value` is by default the value in the design configuration. Hard dampers and stops are stiff: use "
-    "`cvode_bdf` ([Friction](../docs/cookbook/friction.md)).",
-    "user_force": "A function that returns a force in another order than the velocities of its bodies gives a wrong motion without "
-    "any warning.",
-}
-
-
-def methods():
-    """Return the name of the method of Mechanism that adds each kind."""
-    found = {}
-    for module in (adding, adding_space):
-        for node in ast.walk(ast.parse(inspect.getsource(module))):
-            if isinstance(node, ast.FunctionDef):
-                for kind in re.findall(
-                    r'self\._add\w*\([^"]*"(\w+)"', ast.unparse(node).replace("'", '"')
-                ):
-                    if kind in KINDS:
-                        found[kind] = node.name
-    return found
+PAIRS = "revolute translational fixed spherical universal cylindrical prismatic planar screw constant_velocity distance"
+NAMED_JOINT = {f"{where}_{pair}" for where in ("planar", "spatial") for pair in PAIRS.split()}
+CHANNELS = """pose velocity acceleration coordinate displacement angle angle_b x y reaction effort multipliers phi
+ phi_rate""".split()
 
 
 def equations():
@@ -122,6 +71,16 @@ def equations():
     return {cells[0]: cells[1:] for cells in rows}
 
 
+def symbols(name):
+    """Return the paragraph of the catalogue that explains the symbols of an equation."""
+    text = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
+    start = r"A joint in space" if name in kinds("joint", "spatial") else r"In the equations, the indices"
+    found = re.search(rf"^{start}.*?\n\n", text, flags=re.M | re.S)[0]
+    return re.sub(r" The last column .*?\n\n", "\n\n", found, flags=re.S).replace("](space.md", "](../docs/space.md").replace(
+        "In the table, ", ""
+    )
+
+
 def row_of(name, rows):
     plain = re.sub("^(spatial|planar)_", "", name).replace("_", " ")
     start = f"`baum_{name}_def`" if KINDS[name].family == "body" else ROWS.get(name, plain)
@@ -131,139 +90,150 @@ def row_of(name, rows):
     return found[-1 if name.startswith("spatial") else 0]
 
 
-def python_code(scene, method):
-    """Return the statements of a scene that add the element."""
-    source = textwrap.dedent(inspect.getsource(scene))
-    body = ast.parse(source).body[0].body
-    chosen = [
-        ast.get_source_segment(source, node, padded=True)
-        for node in body
-        if f"m.{method}(" in ast.unparse(node)
-    ]
-    return "\n".join(textwrap.dedent(text) for text in chosen) + "\n"
+def written():
+    """Return the sections of elements.md: for each kind its text, Python code and C code."""
+    sections = (ROOT / "docs" / "site" / "elements.md").read_text(encoding="utf-8").split("\n## ")[1:]
+    found = {}
+    for section in sections:
+        name, text = section.split("\n", 1)
+        code = {language: block for language, block in re.findall(r"```(\w+)\n(.*?)```", text, flags=re.S)}
+        found[name] = re.sub(r"```.*?```\n", "", text, flags=re.S).strip(), code
+    return found
 
 
-def number(value):
-    return f"{value:.6g}" if "." in f"{value:.6g}" or "e" in f"{value:.6g}" else f"{value:.6g}.0"
-
-
-def c_name(name):
-    return re.sub(r"\W", "_", name)
-
-
-def c_code(m, element):
-    """Return C that adds an element of a mechanism, and the ids that it uses."""
-    kind = KINDS[element.kind.name]
-    struct, plain = kind.struct(), kind.struct()
-    kind.function("get")(m.handle, element.id, ctypes.byref(struct), ctypes.sizeof(struct))
-    getattr(baum._lib.lib, f"baum_{kind.name}_def_init")(ctypes.byref(plain), ctypes.sizeof(plain))
-    lines, used = (
-        [
-            f"baum_{kind.name}_def def = baum_{kind.name}_def_default();",
-            f'def.name = "{element.name}";',
-        ],
-        [],
-    )
-    for field, type_, *_ in struct._fields_[2:]:
-        value, default = getattr(struct, field), getattr(plain, field)
-        family = type_.__name__.removeprefix("baum_").removesuffix("_id")
-        if family in ("body", "joint", "input", "force") and bytes(value) != bytes(default):
-            name = "BAUM_GROUND" if value.index1 == -1 else c_name(m.find(family, value).name)
-            used += [] if value.index1 == -1 else [(family, name)]
-            lines.append(f"def.{field} = {name};")
-        elif isinstance(value, ctypes.Array) and bytes(value) != bytes(default):
-            if all(isinstance(one, float) for one in value):
-                pairs = [(k, x) for k, x in enumerate(value) if not math.isnan(x)]
-                lines += [f"def.{field}[{k}] = {number(x)};" for k, x in pairs if x != default[k]]
-        elif isinstance(value, float) and value != default and not math.isnan(value):
-            lines.append(f"def.{field} = {number(value)};")
-        elif isinstance(value, (bool, int)) and value != default and type_ is not ctypes.c_void_p:
-            lines.append(f"def.{field} = {str(value).lower()};")
-    receiver = {"body": "body", "joint": "joint", "force": "force"}[kind.family]
-    lines += [
-        f"baum_{receiver}_id id;",
-        f"status = baum_mechanism_add_{kind.name}(mechanism, &def, &id);",
-    ]
-    return "\n".join(lines) + "\n", used
-
-
-# Kinds whose definitions contain functions or arrays: the tutorial and the cookbook have complete programs.
-NO_C = {"planar_curve", "spatial_curve", "user_constraint", "user_force", "spline_driver"}
-
-
-def compiles(blocks):
-    """Check that the C blocks compile with the public headers."""
-    text = "#include <baum/baum.h>\n"
-    for k, (block, used) in enumerate(blocks):
-        ids = "".join(f", baum_{family}_id {name}" for family, name in dict.fromkeys(used))
-        text += f"baum_status f{k}(baum_mechanism *mechanism{ids});\n"
-        text += f"baum_status f{k}(baum_mechanism *mechanism{ids})\n{{\nbaum_status status;\n{block}return status;\n}}\n"
-    command = [
-        "cc",
-        "-std=c11",
-        "-Wall",
-        "-Werror",
-        "-fsyntax-only",
-        f"-I{ROOT / 'include'}",
-        "-x",
-        "c",
-        "-",
-    ]
-    done = subprocess.run(command, input=text, text=True, capture_output=True)
-    if done.returncode:
-        sys.exit(f"modelling.py: C code does not compile\n{done.stderr}")
-
-
-def entry(folder, name, method, cells, blocks):
-    kind = KINDS[name]
-    if name not in {**scenes.PLANE, **scenes.SPACE}:
-        sys.exit(f"modelling.py: tests/browser/scenes.py has no scene for {name}")
-    group = scenes.SPACE if name in scenes.SPACE else scenes.PLANE
-    m = scenes.build(group, name)
-    m.draw().save(folder / f"{name}.svg")
-    element = [one for one in m if one.kind and one.kind.name == name][-1]
-    about = inspect.getdoc(getattr(baum.Mechanism, method)).split("\n\n")[0].replace("\n", " ")
-    what = {"body": "Coordinates", "joint": "Rows Phi = 0", "force": "Acts with"}[kind.family]
-    what = "s(t)" if "driver" in name else what
-    text = f"## {method}\n\n![{name}]({name}.svg)\n\n{about.replace('Add a', 'A', 1) if about.startswith('Add a') else about}\n\n"
-    text += f"**{what}:** {cells[0]}\n\n"
-    if kind.family == "joint" and len(cells) > 2:
-        coordinate = "none" if cells[1] == "-" else cells[1]
-        text += f"**Coordinate:** {coordinate}. **Degrees of freedom removed:** {cells[2]}.\n\n"
-    text += f"```python\n{python_code(group[name], method)}```\n\n"
-    if name not in NO_C:
-        block, used = c_code(m, element)
-        blocks.append((block, used))
-        text += f"```c\n{block}```\n\n"
-    if name in MISTAKES:
-        text += f"**What goes wrong.** {MISTAKES[name]}\n\n"
-    text += f"Reference: {{py:meth}}`baum.Mechanism.{method}`, {{c:struct}}`baum_{name}_def`.\n\n"
+def fields(xml, name):
+    """Return the table of the fields of a definition, from the comments of the header."""
+    root = ET.parse(xml / f"structbaum__{name.replace('_', '__')}__def.xml").getroot()
+    text = "| field | type | unit, default, meaning |\n|---|---|---|\n"
+    for member in root.iter("memberdef"):
+        field = member.findtext("name")
+        if field in ("struct_size", "name"):
+            continue
+        type_ = "".join(member.find("type").itertext()) + (member.findtext("argsstring") or "")
+        about = " ".join(
+            "".join(part.itertext()).strip()
+            for part in (member.find("briefdescription"), member.find("detaileddescription"))
+        )
+        about = re.sub(r"\s+", " ", about).replace("|", "\\|").strip()
+        text += f"| `{field}` | `{type_.strip()}` | {about} |\n"
     return text
 
 
+def channels(m, element):
+    """Return the channels of an element that a run can record, with their sizes."""
+    m.freeze()
+    found = []
+    for channel in CHANNELS:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                run = m.simulate([0.0], "rk4", step=1e-3, record=[f"{element.name}.{channel}"])
+        except (baum.Error, KeyError):
+            continue
+        found.append(f"`{channel}` ({np.size(run[f'{element.name}.{channel}'][0])})")
+    return found
+
+
+def uses(method):
+    """Return links to the recipes and examples that call a method of Mechanism."""
+    pages = [(path, f"../docs/cookbook/{path.name}") for path in sorted((ROOT / "docs" / "cookbook").glob("*.md"))]
+    pages += [(path, f"../gallery/{path.stem}.md") for path in sorted((ROOT / "examples").glob("*.py"))]
+    links = []
+    for path, link in pages:
+        text = path.read_text(encoding="utf-8")
+        if f".{method}(" in text and path.stem not in ("warnings", "animation"):
+            title = text.split("\n")[0].lstrip("# ") if path.suffix == ".md" else f"examples/{path.name}"
+            links.append(f"[{title}]({link})")
+    return links[:8]
+
+
+def about_of(method):
+    return inspect.getdoc(getattr(baum.Mechanism, method)).split("\n\n")[0].replace("\n", " ")
+
+
+class Page:
+    def __init__(self, name, method, cells, section):
+        self.name, self.method, self.cells = name, method, cells
+        self.kind = KINDS[name]
+        self.mistake, self.code = section
+        self.title = name.replace("_", " ").capitalize() + (" joint" if name in NAMED_JOINT else "")
+        group = scenes.SPACE if name in scenes.SPACE else scenes.PLANE
+        self.scene = group.get(name)
+        self.m = scenes.build(group, name) if self.scene else None
+        if self.m:
+            self.element = [one for one in self.m if one.kind and one.kind.name == name][-1]
+
+    def programs(self):
+        """Return the Python and the C code."""
+        python = self.code.get("python") or python_code(self.scene, self.method)
+        if "python" in self.code:
+            m = baum.Mechanism()
+            exec(python, {"m": m, "np": np})
+            m.freeze()
+        if "c" in self.code:
+            check_c([self.code["c"]])
+            return python, self.code["c"]
+        block, used = c_code(self.m, self.element)
+        check_c([as_function("add", block, used)])
+        return python, block
+
+    def text(self, folder, xml):
+        about = about_of(self.method)
+        text = f"# {self.title}\n\n"
+        if self.m:
+            self.m.draw().save(folder / f"{self.name}.svg")
+            text += f"![{self.title}]({self.name}.svg)\n\n"
+        text += (about.replace("Add a", "A", 1) if about.startswith("Add a") else about) + "\n\n"
+        text += self.equations()
+        python, c = self.programs()
+        text += f"## Code\n\n```python\n{python}```\n\n```c\n{c}```\n\n"
+        text += "In this code, `m` or `mechanism` is the mechanism; the other names are bodies and joints that exist already.\n\n"
+        text += f"## What goes wrong\n\n{self.mistake}\n\n"
+        text += f"## Fields\n\nThe arguments of the Python method have the same names. Fields that are not set keep their defaults.\n\n"
+        text += f"{fields(xml, self.name)}\n"
+        found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
+        if found:
+            text += f"## What a run can record\n\n`record=[\"{self.element.name}.{found[0][1:].split('`')[0]}\"]`, and with other "
+            text += f"names in the same way; in parentheses, how many numbers: {', '.join(found)}.\n\n"
+        links = uses(self.method)
+        text += f"Used in: {', '.join(links)}.\n\n" if links else ""
+        return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
+
+    def equations(self):
+        what = {"body": "Coordinates", "joint": "Rows Phi = 0", "force": "Acts with"}[self.kind.family]
+        what = "s(t)" if "driver" in self.name else what
+        text = f"**{what}:** {self.cells[0]}\n\n"
+        if self.kind.family == "joint" and len(self.cells) > 2:
+            coordinate = "none" if self.cells[1] == "-" else self.cells[1]
+            text += f"**Coordinate:** {coordinate}. **Degrees of freedom removed:** {self.cells[2]}.\n\n"
+        return text if self.kind.family == "body" else text + symbols(self.name)
+
+
 def main():
-    folder = Path(sys.argv[1])
+    xml, folder = Path(sys.argv[1]), Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    added, rows, blocks = methods(), equations(), []
-    index = "# Elements with pictures\n\nEvery kind of element with its picture, its equation, and code in Python and C. "
-    index += "[The catalogue](../docs/catalogue.md) explains the symbols of the equations. In the code, `a`, `b` and `arm` are bodies, "
-    index += "and the numbers are those of the picture.\n\n"
-    for page, (title, kinds) in PAGES.items():
-        body = "".join(
-            entry(folder, name, added[name], row_of(name, rows), blocks) for name in kinds
-        )
-        (folder / f"{page}.md").write_text(f"# {title}\n\n{body}", encoding="utf-8")
-        index += (
-            f"- [{title}]({page}.md): "
-            + ", ".join(f"[{added[n]}]({page}.md#{added[n]})" for n in kinds)
-            + "\n"
-        )
-    compiles(blocks)
-    index += "\n```{toctree}\n:hidden:\n\n" + "\n".join(PAGES) + "\n```\n"
+    pictures = Path(sys.argv[3])
+    pictures.mkdir(parents=True, exist_ok=True)
+    added, rows, sections = methods(), equations(), written()
+    if sections.keys() != KINDS.keys():
+        sys.exit(f"modelling.py: elements.md and the kinds of elements differ: {sections.keys() ^ KINDS.keys()}")
+    index = "# Elements\n\nEvery kind of element has a page with its picture, its equation, code in Python and C, and its fields.\n"
+    names = []
+    for group, members in GROUPS.items():
+        index += f'\n## {group}\n\n```{{raw}} html\n<div class="cards">\n'
+        for name in members:
+            page = Page(name, added[name], row_of(name, rows), sections[name])
+            (folder / f"{name}.md").write_text(page.text(folder, xml), encoding="utf-8")
+            image = ""
+            if page.m:
+                (pictures / f"{name}.svg").write_bytes((folder / f"{name}.svg").read_bytes())
+                image = f'<img src="pictures/{name}.svg" alt="">'
+            index += f'<a href="{name}.html">{image}{page.title}</a>\n'
+        index += "</div>\n```\n"
+        names += members
+    index += "\n```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n"
     (folder / "index.md").write_text(index, encoding="utf-8")
-    print(
-        f"{sum(len(kinds) for _, kinds in PAGES.values())} kinds of elements, {len(blocks)} blocks of C compiled"
-    )
+    print(f"{len(names)} pages of elements, with C code that compiles")
 
 
 if __name__ == "__main__":
