@@ -553,7 +553,7 @@ class PlanarBodies(unittest.TestCase):
         m.spatial_revolute("hinge", m.ground, arm, point=(0, 0, 0.3))
         self.assertEqual(m.freeze().mobility().redundant_rows, 3)
         tilted = m.copy(hinge=dict(axis_b=(0, 0.1, 1)))
-        with self.assertRaisesRegex(baum.Error, 'contradict each other in joint 1 "hinge"'):
+        with self.assertRaisesRegex(baum.Error, 'joint 1 "hinge".*contradict each other'):
             tilted.simulation("rk8", rtol=1e-6)
 
     def test_planar_elements_name_the_remedy(self):
