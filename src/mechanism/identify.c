@@ -94,7 +94,14 @@ baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id
                                const char *field)
 {
   bool known = baum_i_input_index(mechanism, id) >= 0;
-  return check_known(mechanism, id.index1, known, label, field);
+  baum_status status = check_known(mechanism, id.index1, known, label, field);
+  if (status == BAUM_OK || !mechanism || mechanism->input_count > 0) {
+    return status;
+  }
+  return baum_i_fail(status,
+                     "%.900s; the mechanism has no inputs, baum_mechanism_add_input() adds one "
+                     "before freezing",
+                     baum_message());
 }
 
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint)
@@ -160,7 +167,8 @@ static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, con
   }
   if (mechanism->frozen != frozen) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is %s", call,
-                       frozen ? "not frozen" : "frozen; change a copy of it");
+                       frozen ? "not frozen; call baum_mechanism_freeze() first"
+                              : "frozen; change a copy of it");
   }
   return BAUM_OK;
 }

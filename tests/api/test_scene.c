@@ -396,7 +396,9 @@ static const char *const WRONG[][2] = {
   {HEAD "\"bodies\": {}}", "\"bodies\" is an object, must be a list"},
   {HEAD "\"bodies\": [1]}", "a body must be an object with the field \"kind\""},
   {HEAD "\"bodies\": [{\"kind\": \"driver\"}]}", "no body of the kind \"driver\""},
-  {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"masss\": 1}]}", "no field \"masss\""},
+  {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"masss\": 1}]}",
+   "no field \"masss\"; did you mean \"mass\"?"},
+  {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"colour\": 1}]}", "no field \"colour\""},
   {HEAD "\"bodies\": [\n{\"kind\": \"planar_body\", \"name\": \"b\", \"mass\": 0}]}",
    "line 2: body 1 \"b\": mass is 0 kg"},
   {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"name\": \"\\u0007\"}]}", "name"},
@@ -408,6 +410,12 @@ static const char *const WRONG[][2] = {
    "\"q\" has 1 entries, must have 2"},
   {HEAD "\"bodies\": [" BODY "], \"joints\": [{\"kind\": \"planar_revolute\", \"body_b\": \"c\"}]}",
    "there is no body \"c\""},
+  {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"name\": \"crank\"}], \"joints\": [{\"kind\": "
+        "\"planar_revolute\", \"body_b\": \"cranck\"}]}",
+   "no body \"cranck\"; did you mean \"crank\"?"},
+  {HEAD "\"bodies\": [" BODY "], \"joints\": [{\"kind\": \"revolute\"}]}",
+   "no joint of the kind \"revolute\"; did you mean \"planar_revolute\"?"},
+  {HEAD "\"joint\": []}", "a scene has no field \"joint\"; did you mean \"joints\"?"},
   {HEAD "\"bodies\": [" BODY ", " BODY
         "], \"joints\": [{\"kind\": \"planar_revolute\", \"body_b\": \"b\"}]}",
    "several bodies \"b\""},

@@ -492,7 +492,7 @@ class Coordinates(unittest.TestCase):
         with self.assertRaisesRegex(baum.Error, 'is "x", but .* has "displacement", "angle"'):
             m.driver("motor", sleeve, coordinate="x")
         with self.assertRaisesRegex(baum.Error, 'coordinate is "angle_b", but'):
-            m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record="sleeve.angle_b")
+            m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record=sleeve.angle_b)
 
 
 class PlanarBodies(unittest.TestCase):

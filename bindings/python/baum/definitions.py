@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _abi, _rotation, callbacks
 from ._lib import default, lib
-from ._values import address, integer, number, numbers, truth, vector, word
+from ._values import address, integer, number, numbers, there_are, truth, vector, word
 
 
 @dataclass(frozen=True)
@@ -186,8 +186,8 @@ class Definition:
         results follow from the other fields. Returns the definition."""
         unknown = [name for name in fields if name not in self._names]
         if unknown:
-            names = ", ".join(self._names)
-            raise TypeError(f"{self._label} has no {unknown[0]}; there are: {names}")
+            known = there_are(self._names, unknown[0])
+            raise TypeError(f"{self._label} has no {unknown[0]}; {known}")
         given = {
             FIELDS.get(name, name): fields[name] for name in fields if fields[name] is not None
         }

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from . import _abi, _calls
 from ._lib import default, lib, text
 from ._motion import TraceLike
-from ._values import address, integer, number, truth, vector, word
+from ._values import address, integer, number, there_are, truth, vector, word
 from .callbacks import event_function
 from .channels import Channel, Layout
 from .channels import q as ALL_Q
@@ -115,7 +115,7 @@ def _status_of(error: BaseException) -> Status:
 def _check_names(options: Iterable[str], known: Sequence[str]) -> None:
     for name in options:
         if name not in known:
-            raise TypeError(f"no option {name!r}; there are: integrator, {', '.join(known)}")
+            raise TypeError(f"no option {name!r}; {there_are(['integrator', *known], name)}")
 
 
 def make_options(method: Any, values: Mapping[str, Any]) -> Any:
