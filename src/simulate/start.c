@@ -169,8 +169,8 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
 }
 
 /* Add to the message about given velocities v by how much assembly has moved the body that it moved
- * most. Velocities that satisfy the constraints in an inaccurate design configuration do not satisfy
- * them in the assembled one. */
+ * most. Velocities that satisfy the constraints in an inaccurate design configuration do not
+ * satisfy them in the assembled one. */
 static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
