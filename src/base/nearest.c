@@ -5,7 +5,7 @@
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *
  * A name that contains the given one has the distance 1. Names are similar if the distance is at
- * most a third of the length of the given name. */
+ * most a third of the length of the given name, rounded. */
 #include "base/nearest.h"
 
 #include <stdbool.h>
@@ -40,7 +40,7 @@ static int distance_between(const char *a, const char *b)
 baum_i_nearest baum_i_nearest_to(const char *given)
 {
   const int length = (int)strlen(given);
-  return (baum_i_nearest){.given = given, .distance = length <= LONGEST ? length / 3 + 1 : 0};
+  return (baum_i_nearest){.given = given, .distance = length <= LONGEST ? (length + 1) / 3 + 1 : 0};
 }
 
 void baum_i_nearest_offer(baum_i_nearest *search, const char *name)

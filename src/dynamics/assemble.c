@@ -232,8 +232,8 @@ static baum_status fail_velocities(const assembly *s)
                      is_given
                        ? "t = %.9g s: the given velocities do not satisfy %s; leave "
                          "free those that follow from others"
-                       : "t = %.9g s: no velocities satisfy %s; the laws of drivers, or other "
-                         "functions of time, contradict each other",
+                       : "t = %.9g s: no velocities satisfy %s; a driver, or another function "
+                         "of time, contradicts one of these joints",
                      s->t, text);
 }
 

@@ -416,6 +416,7 @@ static const char *const WRONG[][2] = {
   {HEAD "\"bodies\": [" BODY "], \"joints\": [{\"kind\": \"revolute\"}]}",
    "no joint of the kind \"revolute\"; did you mean \"planar_revolute\"?"},
   {HEAD "\"joint\": []}", "a scene has no field \"joint\"; did you mean \"joints\"?"},
+  {HEAD "\"bodys\": []}", "a scene has no field \"bodys\"; did you mean \"bodies\"?"},
   {HEAD "\"bodies\": [" BODY ", " BODY
         "], \"joints\": [{\"kind\": \"planar_revolute\", \"body_b\": \"b\"}]}",
    "several bodies \"b\""},

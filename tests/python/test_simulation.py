@@ -115,6 +115,7 @@ class Samples(unittest.TestCase):
             ("B.phy", "'B', which is a planar_revolute; there are: angle, .*mean 'phi'"),
             ("C.value", "'C', which is a planar_.*; there are: .*multipliers, phi, phi_rate, reac"),
             ("ground.pose", "'ground', which is a body; there are none"),
+            ("B", "no channel 'B' of 'B', which is a planar_revolute; there are: angle"),
             ("enrgy", "there are: q, v, .*; did you mean 'energy'"),
         ):
             with self.assertRaisesRegex(KeyError, text):

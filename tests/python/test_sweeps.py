@@ -129,6 +129,7 @@ class SweepTest(unittest.TestCase):
         refuses(TypeError, 'body "crank" has no masss', {"crank.masss": [1]})
         refuses(ValueError, '"element.field" is wanted', {"mass": [1]})
         refuses(ValueError, "a list of values is wanted", {"crank.mass": 1})
+        refuses(TypeError, "parameters: a dict .* not a list", ["crank.mass"])
         refuses(TypeError, "crank.mass: numbers are wanted, not .'a'", {"crank.mass": ["a"]})
         refuses(ValueError, "different numbers", {"crank.mass": [1], "crank.inertia": [1, 2]})
         refuses(ValueError, "count is missing", {"crank.mass": [1, 2]}, samples=Fixed())

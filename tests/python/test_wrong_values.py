@@ -125,6 +125,8 @@ class Instead(unittest.TestCase):
 
     def test_remedies_are_named(self):
         m = rod_pendulum()
+        self.says(TypeError, 'joint "c": bodies: a body or a list of bodies is wanted', m.thawed().constraint,
+                  "c", lambda t, q: q, 1, lambda t, q: q)
         self.says(ValueError, "position: 2 numbers are wanted, not one", m.copy, bob=dict(position=1))
         self.says(baum.Error, "rk4 needs it; rtol is for variable steps", m.simulation, "rk4", rtol=1e-6)
         self.says(baum.Error, "call again to continue, or raise max_steps", m.simulation("rk4", step=1e-3,

@@ -27,6 +27,7 @@ static void a_misspelt_name_is_found(void **state)
   check("mas", "; did you mean \"mass\"?");
   check("masss", "; did you mean \"mass\"?");
   check("inretia", "; did you mean \"inertia\"?");
+  check("ma", "; did you mean \"a\"?");
   check("postion", "; did you mean \"position\"?");
   check("revolute", "; did you mean \"planar_revolute\"?");
 }
@@ -36,8 +37,9 @@ static void another_name_is_not(void **state)
   (void)state;
   check("", "");
   check("b", ""); /* one character of one is too much */
-  check("ma", "");
   check("mxxx", "");
+  check("mxxs", "");
+  check("mxss", "; did you mean \"mass\"?");
   check("velocity", "");
 }
 

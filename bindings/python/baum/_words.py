@@ -47,7 +47,8 @@ TABLE: list[tuple[str, Union[str, Callable[[re.Match[str]], str]]]] = [
     (r"^: ds is\b", ": rate is"),
     (r"^: dds is\b", ": acceleration is"),
     (r"\bbody_count\b", "len(bodies)"),
-    (r"\bpoint_count(?= is -?\d+, must be at least 2)", "len(bodies)"),
+    (r"\bpoint_count(?= is -?\d+, must be at least 3)", "number of points"),
+    (r"\bpoint_count(?= is -?\d+, must be)", "len(bodies)"),
     (r"\brow_count\b", "rows"),
     (r"\bNULL\b", "None"),
 ]

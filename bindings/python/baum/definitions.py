@@ -254,7 +254,13 @@ class Definition:
 
     def _set_bodies(self, value: Any) -> None:
         alone = isinstance(value, str) or hasattr(value, "family")
-        handles = [self._find("body", body) for body in ([value] if alone else value)]
+        try:
+            listed = [value] if alone else list(value)
+        except TypeError:
+            raise TypeError(
+                f"{self._label}: bodies: a body or a list of bodies is wanted, not {value!r}"
+            ) from None
+        handles = [self._find("body", body) for body in listed]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
         counter = "point_count" if "points" in self._types else "body_count"
         setattr(self.struct, counter, len(handles))

@@ -486,11 +486,12 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         if value in WHOLE:
             return WHOLE[value]
         name, _, attribute = value.rpartition(".")
-        if not name:
+        if not name and value not in self:
             raise KeyError(
                 f"no channel {value!r}; those of bodies and joints are written like 'B.phi', and "
                 f"of the whole mechanism {there_are(WHOLE, value)}"
             )
+        name = name or value  # an element without an attribute
         element = self[name]
         channels = self._channels(element)
         if attribute not in channels:

@@ -98,8 +98,16 @@ def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
 # ---- the rows of parameters --------------------------------------------------------------------
 
 
+def mapping(parameters: Any) -> None:
+    """Check that parameters are given by name."""
+    if not hasattr(parameters, "items"):
+        kind = type(parameters).__name__
+        raise TypeError(f"parameters: a dict of names and values is wanted, not a {kind}")
+
+
 def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
     columns = {}
+    mapping(parameters)
     for name, values in parameters.items():
         if "." not in name:
             raise ValueError(f'{name!r}: "element.field" is wanted, such as "rod.mass"')
