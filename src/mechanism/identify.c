@@ -189,12 +189,9 @@ baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *cal
 static bool is_angle(const baum_mechanism *m, const baum_i_family *family, int k,
                      const baum_i_def_field *field)
 {
-  if (family != &baum_i_joint_family || strcmp(field->unit, "rad or m") != 0) {
+  const baum_i_joint *joint = family == &baum_i_joint_family ? m->joints[k] : NULL;
+  if (!joint || !joint->type->driven || strcmp(field->unit, "rad or m") != 0) {
     return strcmp(field->unit, "rad") == 0;
-  }
-  const baum_i_joint *joint = m->joints[k];
-  if (!joint->type->driven) {
-    return false;
   }
   const baum_i_joint_coordinate driven = joint->type->driven(m, joint->element.def);
   return baum_i_is_angle(&driven);

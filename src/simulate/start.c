@@ -187,10 +187,7 @@ static baum_status explain_velocities(baum_simulation *run, const double *design
   if (most < 0 || !is_given) {
     return BAUM_ERR_INCONSISTENT;
   }
-  const baum_i_body *body = m->bodies[1];
-  for (int k = 2; k <= m->body_count && m->bodies[k]->v <= most; k++) {
-    body = m->bodies[k];
-  }
+  const baum_i_body *body = baum_i_velocity_body(m, most);
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
     "%.700s; they must fit the assembled configuration, in which %s is %.3g%s away "

@@ -140,8 +140,8 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
 }
 
 /* Makes a rod that is drawn at an angle [rad] and held by a pin at its left end and a link of 0.2 m
- * at its right end. Drivers may rotate it at 1 and at 2 rad/s. */
-static baum_mechanism *make_rod(double angle, double link, int drivers)
+ * at its right end. Drivers may rotate it at 1 and at 2 rad/s from an angle `value` [rad]. */
+static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
 {
   baum_mechanism *m = NULL;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
@@ -160,6 +160,7 @@ static baum_mechanism *make_rod(double angle, double link, int drivers)
     add_rod(m, "link", pin.body_b, link);
   }
   for (int k = 0; k < drivers; k++) {
+    driver.value = value;
     driver.rate = 1.0 + k;
     assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
   }
@@ -170,7 +171,7 @@ static baum_mechanism *make_rod(double angle, double link, int drivers)
 static void drivers_with_different_velocities_are_named(void **state)
 {
   (void)state;
-  baum_mechanism *m = make_rod(0.0, 0.0, 2);
+  baum_mechanism *m = make_rod(0.0, 0.0, 2, 0.0);
   baum_simulation_options o = euler_options();
   check_refused(m, &o, BAUM_ERR_INCONSISTENT,
                 "no velocities satisfy joint 2|joint 3|a driver, or another function");
@@ -185,15 +186,19 @@ static void a_large_angle_may_be_in_degrees(void **state)
   baum_simulation_options o = euler_options();
   const double angles[] = {80.0, 1.4};
   for (int k = 0; k < 2; k++) {
-    baum_mechanism *far = make_rod(angles[k], 0.0, 1);
+    baum_mechanism *far = make_rod(angles[k], 0.0, 1, 0.0);
     check_refused(far, &o, BAUM_ERR_INCONSISTENT, "assembly would move body 1 \"arm\" by");
     assert_true((strstr(baum_message(), hint) != NULL) == (k == 0));
     baum_mechanism_destroy(far);
-    baum_mechanism *open = make_rod(angles[k], 0.9, 0);
+    baum_mechanism *open = make_rod(angles[k], 0.9, 0, 0.0);
     check_refused(open, &o, BAUM_ERR_INCONSISTENT, "too far from an assembled one|\"link\"");
     assert_true((strstr(baum_message(), hint) != NULL) == (k == 0));
     baum_mechanism_destroy(open);
   }
+  baum_mechanism *driven = make_rod(0.0, 0.0, 1, 90.0);
+  check_refused(driven, &o, BAUM_ERR_INCONSISTENT,
+                "(angles are in radians, and value of joint 2 \"joint2\" is 90 rad)");
+  baum_mechanism_destroy(driven);
 }
 
 static void given_velocities_that_fit_are_held_exactly(void **state)
@@ -310,7 +315,7 @@ static void drivers_that_begin_out_of_reach_are_refused(void **state)
   baum_driver_def motor = baum_driver_def_default();
   assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &motor.joint), BAUM_OK);
   motor.name = "motor";
-  motor.value = 3.0;
+  motor.value = 9.0;
   assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
@@ -319,6 +324,7 @@ static void drivers_that_begin_out_of_reach_are_refused(void **state)
   baum_simulation *run = NULL;
   ASSERT_SAYS(baum_simulation_create(mechanism, &o, &run), BAUM_ERR_INCONSISTENT,
               "contradict each other|\"motor\"");
+  assert_null(strstr(baum_message(), "radians")); /* the value is a length */
   baum_mechanism_destroy(mechanism);
 }
 
