@@ -83,9 +83,10 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
     except Error as error:
         return _Result({}, int(error.status), str(error), ())
     except Exception as error:
-        if hasattr(error, "add_note"):
-            values = ", ".join(f"{name} = {value}" for name, value in zip(task.names, row))
-            error.add_note(f"baum: in the run of a sweep with {values}")
+        values = ", ".join(f"{name} = {value}" for name, value in zip(task.names, row))
+        add_note = getattr(error, "add_note", None)  # since Python 3.11
+        if add_note:
+            add_note(f"baum: in the run of a sweep with {values}")
         raise
 
 
