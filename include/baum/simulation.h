@@ -824,7 +824,10 @@ typedef struct baum_warning {
   double first;           /**< [s] time of the first warning. */
   double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
-  char text[400];         /**< Message of the first warning, and the number of warnings. */
+  /** Message of the first warning, the number of warnings, and at its end the code and the name,
+   *  such as "[warning 104 singular_start]": the heading of its entry in docs/cookbook/warnings.md,
+   *  which tells the meaning and what to do. */
+  char text[400];
 } baum_warning;
 
 /** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first

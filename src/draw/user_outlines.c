@@ -48,7 +48,10 @@ static baum_status check_points(const subject *s)
 {
   const baum_outline *o = s->outline;
   if (!o->points || o->point_count < 3) {
-    return refuse(s, o->points ? "point_count is below 3" : "points are NULL");
+    return !o->points ? refuse(s, "points are NULL")
+                      : baum_i_fail(BAUM_ERR_ARGUMENT,
+                                    "%s: outlines[%d]: point_count is %d, must be at least 3",
+                                    s->call, s->k, (int)o->point_count);
   }
   for (int k = 0; k < o->point_count; k++) {
     for (int i = 0; i < 3; i++) {

@@ -211,19 +211,30 @@ static baum_status fail_positions(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
   name_contradicting(s, s->w->phi, "", text);
+  const baum_mechanism *m = s->w->mechanism;
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: the constraints, or constraints and held bodies, contradict each "
-                     "other in %s; before assembly, %s is violated most, see baum_mechanism_svg()",
-                     s->t, text, baum_i_row_label(s->w->mechanism, s->open).text);
+                     "t = %.9g s: assembly does not satisfy %s; either constraints and held bodies "
+                     "contradict each other, or the design configuration is too far from an "
+                     "assembled one%s; before assembly, %s is violated most, see "
+                     "baum_mechanism_svg()",
+                     s->t, text, baum_i_degrees(m).text, baum_i_row_label(m, s->open).text);
 }
 
 static baum_status fail_velocities(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
   name_contradicting(s, s->w->phi_rate, " per s", text);
-  return baum_i_fail(
-    BAUM_ERR_INCONSISTENT,
-    "t = %.9g s: the given velocities and the constraints contradict each other in %s", s->t, text);
+  bool is_given = false;
+  for (int i = 0; i < s->w->mechanism->nv; i++) {
+    is_given = is_given || s->held[i];
+  }
+  return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                     is_given
+                       ? "t = %.9g s: the given velocities do not satisfy %s; leave "
+                         "free those that follow from others"
+                       : "t = %.9g s: no velocities satisfy %s; a driver, or another function "
+                         "of time, contradicts one of these joints",
+                     s->t, text);
 }
 
 /* ---- positions ---- */

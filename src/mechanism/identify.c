@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "mechanism/general/coordinate.h"
 
 /* ---- ids ---- */
 
@@ -93,7 +94,14 @@ baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id
                                const char *field)
 {
   bool known = baum_i_input_index(mechanism, id) >= 0;
-  return check_known(mechanism, id.index1, known, label, field);
+  baum_status status = check_known(mechanism, id.index1, known, label, field);
+  if (status == BAUM_OK || !mechanism || mechanism->input_count > 0) {
+    return status;
+  }
+  return baum_i_fail(status,
+                     "%.900s; the mechanism has no inputs, baum_mechanism_add_input() adds one "
+                     "before freezing",
+                     baum_message());
 }
 
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint)
@@ -159,7 +167,8 @@ static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, con
   }
   if (mechanism->frozen != frozen) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is %s", call,
-                       frozen ? "not frozen" : "frozen; change a copy of it");
+                       frozen ? "not frozen; call baum_mechanism_freeze() first"
+                              : "frozen; change a copy of it");
   }
   return BAUM_OK;
 }
@@ -172,4 +181,52 @@ baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call)
 {
   return check_stage(mechanism, true, call);
+}
+
+/* ---- angles that may be in degrees ---- */
+
+/* Tell whether a field is an angle. The value of a driver may be a length or an angle. */
+static bool is_angle(const baum_mechanism *m, const baum_i_family *family, int k,
+                     const baum_i_def_field *field)
+{
+  const baum_i_joint *joint = family == &baum_i_joint_family ? m->joints[k] : NULL;
+  if (!joint || !joint->type->driven || strcmp(field->unit, "rad or m") != 0) {
+    return strcmp(field->unit, "rad") == 0;
+  }
+  const baum_i_joint_coordinate driven = joint->type->driven(m, joint->element.def);
+  return baum_i_is_angle(&driven);
+}
+
+/* Return the value of a large angle of element k, or 0. */
+static double find_large_angle(const baum_mechanism *m, const baum_i_family *family, int k,
+                               const char **name)
+{
+  static const double REVOLUTION = 6.3;
+  const baum_i_element *element = family->at(m, k);
+  for (const baum_i_def_field *field = element->definition->fields; field->name; field++) {
+    if (field->kind == BAUM_I_FIELD_NUMBERS && is_angle(m, family, k, field)) {
+      double value = *(const double *)baum_i_field_at(field, element->def);
+      if (fabs(value) > REVOLUTION) {
+        *name = field->name;
+        return value;
+      }
+    }
+  }
+  return 0.0;
+}
+
+baum_i_text baum_i_degrees(const baum_mechanism *mechanism)
+{
+  for (int f = 0; f < BAUM_I_FAMILIES; f++) {
+    const baum_i_family *family = baum_i_families[f];
+    for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
+      const char *name = NULL;
+      double value = find_large_angle(mechanism, family, k, &name);
+      if (name) {
+        return baum_i_text_of(" (angles are in radians, and %s of %.100s is %g rad)", name,
+                              baum_i_label(family->at(mechanism, k)).text, value);
+      }
+    }
+  }
+  return baum_i_text_of("%s", "");
 }

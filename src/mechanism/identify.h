@@ -55,6 +55,10 @@ baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
  * BAUM_ERR_STATE if it is not frozen. */
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
+/* Return a note for messages about configurations if an angle of a definition is larger than a
+ * revolution, because it may be in degrees. Otherwise return "". */
+baum_i_text baum_i_degrees(const baum_mechanism *mechanism);
+
 /* Find the joint that owns a row, or the body that owns a velocity. The mechanism must be
  * frozen. */
 int baum_i_row_joint(const baum_mechanism *mechanism, int row);

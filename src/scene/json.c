@@ -93,7 +93,7 @@ static baum_status parse_number(parser *p, double *out)
   const char *first = p->at;
   char copy[NUMBER + 1];
   if (!skip_number(p)) {
-    return fail(p, "this is not JSON: a number is expected here");
+    return fail(p, "this is not JSON: a value is expected here");
   }
   size_t size = (size_t)(p->at - first);
   if (size > NUMBER) {

@@ -6,6 +6,7 @@
 
 #include "base/alloc.h"
 #include "base/file.h"
+#include "base/nearest.h"
 #include "base/text.h"
 #include "mechanism/definition.h"
 #include "scene/reader.h"
@@ -94,11 +95,28 @@ static baum_status check_keys(const baum_i_scene_reader *r, const baum_i_scene_k
     bool common = strcmp(node->key, "kind") == 0 || strcmp(node->key, "name") == 0 ||
                   (is_body && strcmp(node->key, "outlines") == 0);
     if (!common && !has_field(*kind->definition, node->key)) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: a %s has no field \"%.80s\"", r->label,
-                         node->line, kind->name, node->key);
+      baum_i_nearest near = baum_i_nearest_to(node->key);
+      for (const baum_i_def_field *f = (*kind->definition)->fields; f->name; f++) {
+        baum_i_nearest_offer(&near, f->name);
+      }
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: a %s has no field \"%.80s\"%s", r->label,
+                         node->line, kind->name, node->key, baum_i_nearest_note(&near).text);
     }
   }
   return BAUM_OK;
+}
+
+static baum_status fail_kind(const baum_i_scene_reader *r, const baum_i_family *family, int line,
+                             const char *name)
+{
+  baum_i_nearest near = baum_i_nearest_to(name);
+  for (const baum_i_scene_kind *kind = baum_i_scene_kinds; kind->name; kind++) {
+    if (kind->family == family) {
+      baum_i_nearest_offer(&near, kind->name);
+    }
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: there is no %s of the kind \"%.80s\"%s",
+                     r->label, line, family->name, name, baum_i_nearest_note(&near).text);
 }
 
 static baum_status find_kind(const baum_i_scene_reader *r, const baum_i_family *family,
@@ -117,10 +135,7 @@ static baum_status find_kind(const baum_i_scene_reader *r, const baum_i_family *
     kind++;
   }
   *out = kind;
-  return kind->name
-           ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: there is no %s of the kind \"%.80s\"",
-                         r->label, node->line, family->name, name);
+  return kind->name ? BAUM_OK : fail_kind(r, family, node->line, name);
 }
 
 static baum_status fill_definition(const baum_i_scene_reader *r,
@@ -231,13 +246,14 @@ static baum_status check_top(const baum_i_scene_reader *r)
   BAUM_I_TRY(check_version(r));
   for (const baum_i_json_node *node = baum_i_json_first(r->json, r->json->nodes); node;
        node = baum_i_json_next(r->json, node)) {
+    baum_i_nearest near = baum_i_nearest_to(node->key);
     size_t k = 0;
     while (k < count && strcmp(keys[k], node->key) != 0) {
-      k++;
+      baum_i_nearest_offer(&near, keys[k++]);
     }
     if (k == count) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: a scene has no field \"%.80s\"", r->label,
-                         node->line, node->key);
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: a scene has no field \"%.80s\"%s",
+                         r->label, node->line, node->key, baum_i_nearest_note(&near).text);
     }
   }
   return BAUM_OK;

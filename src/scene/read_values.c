@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "base/platform.h"
 #include "base/text.h"
 #include "mechanism/general/coordinate.h"
@@ -96,15 +97,30 @@ static baum_status read_place(const baum_i_scene_reader *r, const baum_i_json_no
                          r->label, node->line, what, (int)*out);
 }
 
+static baum_status fail_name(const baum_i_scene_reader *r, const baum_i_json_node *node,
+                             const baum_i_family *family, const char *where)
+{
+  baum_i_nearest near = baum_i_nearest_to(node->text);
+  for (int k = 0; k < baum_i_family_count(family, r->mechanism); k++) {
+    baum_i_nearest_offer(&near, family->at(r->mechanism, k)->name);
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: there is no %s \"%.80s\"%s%s", r->label,
+                     node->line, family->name, node->text, where, baum_i_nearest_note(&near).text);
+}
+
 baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_json_node *node,
                                    baum_body_id *out)
 {
   int32_t index = 0;
   if (node->kind == BAUM_I_JSON_TEXT) {
     index = baum_i_scene_find_body(&r->names, node->text);
+    if (index < -1) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s: line %d: there are several bodies \"%.80s\"; give the number, from 0",
+                         r->label, node->line, node->text);
+    }
     if (index < 0) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: there %s \"%.80s\"", r->label, node->line,
-                         index == -1 ? "is no body" : "are several bodies", node->text);
+      return fail_name(r, node, &baum_i_body_family, "");
     }
   } else if (is_number(node)) {
     BAUM_I_TRY(read_place(r, node, r->mechanism->body_count, "body", &index));
@@ -123,9 +139,7 @@ static baum_status read_joint(const baum_i_scene_reader *r, const baum_i_json_no
   if (node->kind == BAUM_I_JSON_TEXT) {
     k = baum_i_index_of_name(r->mechanism, &baum_i_joint_family, node->text);
     if (k < 0) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: line %d: there is no joint \"%.80s\" before this element", r->label,
-                         node->line, node->text);
+      return fail_name(r, node, &baum_i_joint_family, " before this element");
     }
   } else {
     BAUM_I_TRY(read_place(r, node, r->mechanism->joint_count, "joint", &k));

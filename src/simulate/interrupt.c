@@ -129,8 +129,10 @@ baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
   BAUM_I_TRY(baum_i_run_is_wanted(run));
   BAUM_I_TRY(taken > 0 ? baum_i_run_has_time(run) : BAUM_OK);
   if (taken >= run->options.max_steps) {
-    return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
-                       (long long)run->options.max_steps);
+    return baum_i_fail(BAUM_ERR_STEP,
+                       "t = %.9g s: max_steps = %lld steps taken in one call; "
+                       "call again to continue, or raise max_steps",
+                       t, (long long)run->options.max_steps);
   }
   return creeps(run, taken) ? fail_creeping(run) : BAUM_OK;
 }

@@ -113,10 +113,14 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
   memcpy(&x, (const char *)o + n->offset, sizeof x);
   const char *name = o->integrator->name;
   if (x == n->unset || (isnan(x) && isnan(n->unset))) {
+    const bool takes_rtol_for_step =
+      n->offset == offsetof(baum_simulation_options, step) && !isnan(o->rtol);
     return !n->required || !n->takes[how]
              ? BAUM_OK
              : baum_i_fail(BAUM_ERR_ARGUMENT,
-                           "simulation options: %s is not given, and %s needs it", n->name, name);
+                           "simulation options: %s is not given, and %s needs it%s", n->name, name,
+                           takes_rtol_for_step ? "; rtol is for variable steps, as rk8 has them"
+                                               : "");
   }
   if (!n->takes[how]) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,

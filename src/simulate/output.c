@@ -120,6 +120,13 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
   return slice_of(m, c).count;
 }
 
+static int fail_effort(const baum_i_joint *joint, int k)
+{
+  (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: joint is %s, a %s; only drivers have an effort",
+                    k, baum_i_label(&joint->element).text, joint->type->definition.kind);
+  return -1;
+}
+
 static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
   int joint = baum_i_joint_index(m, c->joint);
@@ -130,9 +137,11 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
     return baum_i_reaction_width(m, joint);
   }
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    return m->joints[joint]->type->driven ? 1 : fail_channel(k, "only drivers have an effort");
+    return m->joints[joint]->type->driven ? 1 : fail_effort(m->joints[joint], k);
   }
-  static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to record"};
+  static const baum_i_coordinate_fields fields = {
+    "joint", "coordinate",
+    "to record; all joints have BAUM_JOINT_REACTION, BAUM_LAMBDA, BAUM_PHI and BAUM_PHI_RATE"};
   const baum_i_text label = baum_i_text_of("channel %d", k);
   bool has = baum_i_check_coordinate(m, c->joint, c->coordinate, label.text, &fields) == BAUM_OK;
   return has ? 2 : -1;

@@ -162,6 +162,22 @@ baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
   return status;
 }
 
+/* Write the message of a warning, the number of occurrences, and the heading of its entry in
+ * docs/cookbook/warnings.md. If they do not fit, the message is cut, but the heading is not. */
+static void write_warning(const baum_warning *warning, char text[sizeof warning->text])
+{
+  const char *name = baum_warning_name(warning->code);
+  const baum_i_text heading =
+    baum_i_text_of(" [warning %d %s]", (int)warning->code, name ? name : "unknown");
+  const size_t room = sizeof warning->text - strlen(heading.text);
+  baum_i_print(text, room, "%s", warning->text);
+  if (warning->count > 1) {
+    baum_i_append(text, room, " (%lld times, the last at t = %.9g s)", (long long)warning->count,
+                  warning->last);
+  }
+  baum_i_append(text, sizeof warning->text, "%s", heading.text);
+}
+
 baum_status baum_i_run_finish(baum_simulation *run)
 {
   const baum_warning *worst = NULL;
@@ -178,8 +194,10 @@ baum_status baum_i_run_finish(baum_simulation *run)
   if (!worst) {
     return BAUM_OK;
   }
+  char text[sizeof worst->text];
+  write_warning(worst, text);
   (void)baum_i_fail(BAUM_WARNED, "t = %.9g s: %lld new %s: %s", run->state.t, (long long)count,
-                    count == 1 ? "warning" : "warnings", worst->text);
+                    count == 1 ? "warning" : "warnings", text);
   return baum_i_run_fail(run, BAUM_WARNED);
 }
 
@@ -190,11 +208,7 @@ baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k
   BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   BAUM_I_TRY(baum_i_check_entry(k, 0, simulation->counters.warnings, call));
   baum_warning warning = simulation->warnings[k];
-  if (warning.count > 1) {
-    size_t used = strlen(warning.text);
-    baum_i_print(warning.text + used, sizeof warning.text - used,
-                 " (%lld times, the last at t = %.9g s)", (long long)warning.count, warning.last);
-  }
+  write_warning(&simulation->warnings[k], warning.text);
   baum_i_give_sized(out, caller_size, &warning, sizeof warning);
   return BAUM_OK;
 }

@@ -71,9 +71,10 @@ static baum_status fail_far(baum_simulation *run, const double *design, const ba
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the design configuration "
     "violates %s most, see baum_mechanism_svg(); give a design configuration closer to the "
-    "assembled one",
+    "assembled one%s",
     run->trial.t, baum_i_label(&body->element).text, moved, unit_of(body, coordinate),
-    limit * scale, unit_of(body, coordinate), joint.text);
+    limit * scale, unit_of(body, coordinate), joint.text,
+    baum_i_degrees(run->workspace->mechanism).text);
 }
 
 /* Find the largest displacement that assembly has caused, and fail if it is too large. */
@@ -167,6 +168,33 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
   return baum_i_message_settle(status, &kept);
 }
 
+/* Add to the message about given velocities v by how much assembly has moved the body that it moved
+ * most. Velocities that satisfy the constraints in an inaccurate design configuration do not
+ * satisfy them in the assembled one. */
+static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double *moved = run->workspace->work_v;
+  baum_i_difference(m, design, run->trial.q, moved);
+  int most = -1;
+  bool is_given = false;
+  double largest = EXACT;
+  for (int i = 0; i < m->nv; i++) {
+    is_given = is_given || !isnan(v[i]);
+    most = fabs(moved[i]) / m->scale[i] > largest ? i : most;
+    largest = fmax(largest, fabs(moved[i]) / m->scale[i]);
+  }
+  if (most < 0 || !is_given) {
+    return BAUM_ERR_INCONSISTENT;
+  }
+  const baum_i_body *body = baum_i_velocity_body(m, most);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "%.700s; they must fit the assembled configuration, in which %s is %.3g%s away "
+    "from the design configuration",
+    baum_message(), baum_i_label(&body->element).text, fabs(moved[most]), unit_of(body, most));
+}
+
 static baum_status start_assembled(baum_simulation *run, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -177,10 +205,13 @@ static baum_status start_assembled(baum_simulation *run, const double *v)
   }
   memcpy(design, run->trial.q, nq * sizeof *design);
   baum_status status = assemble_positions(run, design, design + nq);
+  if (status == BAUM_OK) {
+    memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
+    status = baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held);
+    status = status == BAUM_ERR_INCONSISTENT ? explain_velocities(run, design, v) : status;
+  }
   baum_i_free(design);
-  BAUM_I_TRY(status);
-  memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
-  return baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held);
+  return status;
 }
 
 /* ---- exact ---- */

@@ -414,7 +414,8 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
       return BAUM_OK;
     }
   }
-  return baum_i_fail(BAUM_ERR_STATE, "%s: no entry is done and timed", call);
+  return baum_i_fail(BAUM_ERR_STATE, "%s: no entry is done and timed; call baum_study_run() first",
+                     call);
 }
 
 static baum_status refuse_error(const baum_study *study, double error, const char *call)

@@ -538,14 +538,14 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {baum_channel_of(BAUM_JOINT_REACTION), "channel 1: joint is none or not of this mechanism"},
     {baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.rod),
      "channel 1: joint is joint 2 \"rod\", a planar distance joint, which has no coordinate to "
-     "record"},
+     "record; all joints have BAUM_JOINT_REACTION, BAUM_LAMBDA, BAUM_PHI and BAUM_PHI_RATE"},
     {bad_coordinate(parts.sleeve, BAUM_COORDINATE_X),
      "channel 1: coordinate is \"x\", but joint 22 \"sleeve\", a spatial cylindrical joint, has "
      "\"displacement\", \"angle\""},
     {bad_coordinate(parts.pin, (baum_joint_coordinate)17),
      "channel 1: coordinate is \"unknown\", but joint 1 \"pin\", a planar revolute joint, has "
      "\"angle\""},
-    {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "channel 1: only drivers have an effort"},
+    {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "\"pin\", a planar|; only drivers"},
     {baum_channel_of(BAUM_DRIVE_EFFORT), "channel 1: joint is none or not of this mechanism"},
     {baum_channel_of_body(BAUM_BODY_ACCELERATION, BAUM_GROUND), "channel 1: ground has no pose"},
   };

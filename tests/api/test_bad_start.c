@@ -113,7 +113,92 @@ static void given_velocities_that_conflict_are_named(void **state)
   bead_def def = GOOD_BEAD;
   def.v[0] = 0.5;
   check_bead_refused(&def, BAUM_START_ASSEMBLE,
-                     "the given velocities and the constraints contradict each other|\"rod\"|0.5");
+                     "the given velocities do not satisfy joint 1 \"rod\"|0.5|leave free");
+  assert_null(strstr(baum_message(), "away from the design configuration"));
+}
+
+/* The velocity fits the inaccurate design configuration, in which the bead is at (1, 0) m, but not
+ * the assembled one. */
+static void velocities_of_an_inaccurate_design_are_explained(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.y = 0.01;
+  def.length = 1.02;
+  def.v[0] = 0.0;
+  def.v[1] = 1.0;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE,
+                     "the given velocities do not satisfy joint 1 \"rod\"|leave free|they must fit "
+                     "the assembled configuration, in which body 1 \"bead\" is 0.0199 m away from");
+  def.v[0] = (double)NAN;
+  baum_mechanism *mechanism = make_bead(&def);
+  baum_simulation_options o = euler_options();
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* Makes a rod that is drawn at an angle [rad] and held by a pin at its left end and a link of 0.2 m
+ * at its right end. Drivers may rotate it at 1 and at 2 rad/s from an angle `value` [rad]. */
+static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.name = "arm";
+  body.position[0] = 0.5;
+  body.angle = angle;
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.point_a[0] = pin.point_a[1] = pin.point_b[1] = 0.0;
+  pin.point_b[0] = -0.5;
+  baum_driver_def driver = baum_driver_def_default();
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pin.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &driver.joint), BAUM_OK);
+  if (link > 0.0) {
+    add_rod(m, "link", pin.body_b, link);
+  }
+  for (int k = 0; k < drivers; k++) {
+    driver.value = value;
+    driver.rate = 1.0 + k;
+    assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static void drivers_with_different_velocities_are_named(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_rod(0.0, 0.0, 2, 0.0);
+  baum_simulation_options o = euler_options();
+  check_refused(m, &o, BAUM_ERR_INCONSISTENT,
+                "no velocities satisfy joint 2|joint 3|a driver, or another function");
+  assert_null(strstr(baum_message(), "given velocities"));
+  baum_mechanism_destroy(m);
+}
+
+static void a_large_angle_may_be_in_degrees(void **state)
+{
+  (void)state;
+  static const char hint[] = "(angles are in radians, and angle of body 1 \"arm\" is 80 rad)";
+  baum_simulation_options o = euler_options();
+  const double angles[] = {80.0, 1.4};
+  for (int k = 0; k < 2; k++) {
+    baum_mechanism *far = make_rod(angles[k], 0.0, 1, 0.0);
+    check_refused(far, &o, BAUM_ERR_INCONSISTENT, "assembly would move body 1 \"arm\" by");
+    assert_true((strstr(baum_message(), hint) != NULL) == (k == 0));
+    baum_mechanism_destroy(far);
+    baum_mechanism *open = make_rod(angles[k], 0.9, 0, 0.0);
+    check_refused(open, &o, BAUM_ERR_INCONSISTENT, "too far from an assembled one|\"link\"");
+    assert_true((strstr(baum_message(), hint) != NULL) == (k == 0));
+    baum_mechanism_destroy(open);
+  }
+  baum_mechanism *driven = make_rod(0.0, 0.0, 1, 90.0);
+  check_refused(driven, &o, BAUM_ERR_INCONSISTENT,
+                "(angles are in radians, and value of joint 2 \"joint2\" is 90 rad)");
+  baum_mechanism_destroy(driven);
 }
 
 static void given_velocities_that_fit_are_held_exactly(void **state)
@@ -230,7 +315,7 @@ static void drivers_that_begin_out_of_reach_are_refused(void **state)
   baum_driver_def motor = baum_driver_def_default();
   assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &motor.joint), BAUM_OK);
   motor.name = "motor";
-  motor.value = 3.0;
+  motor.value = 9.0;
   assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
@@ -239,6 +324,7 @@ static void drivers_that_begin_out_of_reach_are_refused(void **state)
   baum_simulation *run = NULL;
   ASSERT_SAYS(baum_simulation_create(mechanism, &o, &run), BAUM_ERR_INCONSISTENT,
               "contradict each other|\"motor\"");
+  assert_null(strstr(baum_message(), "radians")); /* the value is a length */
   baum_mechanism_destroy(mechanism);
 }
 
@@ -451,6 +537,9 @@ int main(void)
     cmocka_unit_test(an_exact_start_refuses_positions_off_the_constraints),
     cmocka_unit_test(an_exact_start_refuses_velocities_off_the_constraints),
     cmocka_unit_test(given_velocities_that_conflict_are_named),
+    cmocka_unit_test(velocities_of_an_inaccurate_design_are_explained),
+    cmocka_unit_test(drivers_with_different_velocities_are_named),
+    cmocka_unit_test(a_large_angle_may_be_in_degrees),
     cmocka_unit_test(given_velocities_that_fit_are_held_exactly),
     cmocka_unit_test(joints_that_contradict_each_other_are_named),
     cmocka_unit_test(a_held_body_out_of_place_is_named),

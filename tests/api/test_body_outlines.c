@@ -340,7 +340,7 @@ static void wrong_fields_are_named_and_change_nothing(void **state)
     WRONG(BOX, color, wide, "color"),
     WRONG(BOX, color, empty, "color"),
     WRONG(POLYGON, points, null, "points are NULL"),
-    WRONG(POLYGON, point_count, two, "point_count is below 3"),
+    WRONG(POLYGON, point_count, two, "point_count is 2, must be at least 3"),
     WRONG(POLYGON, points, bent_points, "z of point 2 of a polygon is 1 m, must be 0 m"),
     WRONG(POLYGON, points, hole_points, "y of point 1 is nan m, must be finite"),
     WRONG(CIRCLE, radius, negative, "radius is -1 m, must be > 0"),

@@ -13,6 +13,7 @@
 
 #include "message.h"
 #include "models.h"
+#include "simulate/run.h"
 #include "study_entries.h"
 
 /* Makes a rod of 1 m on a pin. If `driven` is set, a driver rotates it at 1 rad/s. */
@@ -108,6 +109,40 @@ static void factors_that_hardly_damp_are_warned_of(void **state)
   baum_mechanism_destroy(m);
 }
 
+static bool ends_with(const char *text, const char *end)
+{
+  return strlen(text) >= strlen(end) && strcmp(text + strlen(text) - strlen(end), end) == 0;
+}
+
+/* The messages end with the heading of the entry in docs/cookbook/warnings.md, also if the message
+ * itself is too long. */
+static void messages_of_warnings_end_with_the_heading_of_their_entry(void **state)
+{
+  (void)state;
+  char longest[2 * sizeof((baum_warning *)NULL)->text];
+  memset(longest, 'x', sizeof longest - 1);
+  longest[sizeof longest - 1] = '\0';
+  baum_mechanism *m = rod_on_a_pin(false);
+  baum_simulation_options o = fixed_step(baum_euler(), 1e-3);
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    baum_i_run_warn(run, BAUM_WARNING_SINGULAR_START, 0.25, BAUM_I_NO_JOINT, "short");
+    baum_i_run_warn(run, BAUM_WARNING_BRANCH, 0.25, BAUM_I_NO_JOINT, "%s", longest);
+  }
+  baum_warning warning = {0};
+  assert_int_equal(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_OK);
+  assert_string_equal(warning.text,
+                      "short (2 times, the last at t = 0.25 s) [warning 104 singular_start]");
+  assert_int_equal(baum_simulation_warning(run, 1, &warning, sizeof warning), BAUM_OK);
+  assert_int_equal(strlen(warning.text), sizeof warning.text - 1);
+  assert_true(ends_with(warning.text, "xx [warning 100 branch]"));
+  assert_int_equal(baum_simulation_step(run, 1), BAUM_WARNED);
+  assert_true(ends_with(baum_message(), " [warning 104 singular_start]"));
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 /* A free particle moves at 1e300 m/s. Its accelerations are finite, but its position overflows in a
  * step of 1e9 s. */
 static void a_step_to_infinity_is_an_error(void **state)
@@ -171,6 +206,7 @@ int main(void)
     cmocka_unit_test(kinematics_keeps_no_energy_account),
     cmocka_unit_test(a_step_below_the_rounding_of_time_is_an_error),
     cmocka_unit_test(factors_that_hardly_damp_are_warned_of),
+    cmocka_unit_test(messages_of_warnings_end_with_the_heading_of_their_entry),
     cmocka_unit_test(a_step_to_infinity_is_an_error),
     cmocka_unit_test(a_study_that_has_run_keeps_its_reference),
   };

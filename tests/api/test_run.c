@@ -226,7 +226,7 @@ static void max_steps_ends_a_call_and_the_next_goes_on(void **state)
   o.max_steps = 5;
   scene s = open_with(&o);
   ASSERT_SAYS(baum_simulation_advance_to(s.run, 0.08), BAUM_ERR_STEP,
-              "t = 0.05 s: max_steps = 5 steps taken in one call");
+              "t = 0.05 s: max_steps = 5 steps taken in one call; call again");
   assert_true(baum_simulation_time(s.run) == 5 * STEP);
   assert_int_equal(baum_simulation_advance_to(s.run, 0.08), BAUM_OK);
   close_scene(&s);

@@ -56,6 +56,34 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
+# Follows docs/install.md, where the library is in ~/baum, with the first program of README.md.
+echo "the commands of docs/install.md for programs"
+. "$source/documented.sh"
+page=$project/docs/install.md
+mkdir -p "$build/by_hand/home"
+ln -s "$(cd "$prefix" && pwd)" "$build/by_hand/home/baum"
+(
+  cd "$build/by_hand"
+  export HOME="$PWD/home"
+  unset PKG_CONFIG_PATH
+  first_block "$project/README.md" c >program.c
+  first_block "$project/README.md" text >expected.txt
+  first_block "$page" cmake >CMakeLists.txt
+  check_program() {
+    "$1" >printed.txt
+    diff expected.txt printed.txt
+  }
+  follow "$page" "The C library" 4
+  check_program ./program
+  rm program
+  eval "$(documented "$page" "The C library" 3)"
+  follow "$page" "The C library" 5
+  check_program ./program
+  check_program ./program_static
+  follow "$page" "The C library" 6
+  check_program build/program
+)
+
 # link OUT ARGUMENT... links every_backend.c with the static libraries and runs it.
 link() {
   out=$1

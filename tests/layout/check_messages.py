@@ -27,7 +27,7 @@ HEAD = """# Messages
 
 Every message and warning of the library, from the sources: `python3 tests/layout/check_messages.py --write .` writes this page. `#`
 stands for a number, `...` for a name or another text. `sh tests/run.sh coverage` lists the messages that no test triggers.
-[theory/errors.md](theory/errors.md) explains the warnings, [status.h](../include/baum/status.h) the statuses. *As failed* stands for
+Each warning links to its [entry](cookbook/warnings.md), [theory/errors.md](theory/errors.md) explains doubts, [status.h](../include/baum/status.h) the statuses. *As failed* stands for
 the status of the failure that the message passes on.
 """
 
@@ -158,15 +158,28 @@ def read(project):
     return found
 
 
-def code_of(code):
-    return " or ".join(f"`{c}`" for c in re.findall(r"BAUM_(?:ERR|STOP|WARNING)_\w+|BAUM_WARNED", code)) or "as failed"
+def entries_of(project):
+    """Return {name of a warning's code: its entry in the cookbook}. Fails if an entry is missing."""
+    header = (project / "include/baum/simulation.h").read_text(encoding="utf-8")
+    cookbook = (project / "docs/cookbook/warnings.md").read_text(encoding="utf-8")
+    entries = {}
+    for name, number in re.findall(r"BAUM_WARNING_(\w+) = (\d+)", header):
+        if f"\n## {number} {name.lower()}\n" not in cookbook:
+            raise SystemExit(f"docs/cookbook/warnings.md has no entry {number} {name.lower()}")
+        entries["BAUM_WARNING_" + name] = f"cookbook/warnings.md#{number}-{name.lower()}"
+    return entries
 
 
-def page(found):
+def code_of(code, entries):
+    codes = re.findall(r"BAUM_(?:ERR|STOP|WARNING)_\w+|BAUM_WARNED", code)
+    return " or ".join(f"[`{c}`]({entries[c]})" if c in entries else f"`{c}`" for c in codes) or "as failed"
+
+
+def page(found, entries):
     lines = [HEAD]
     for folder, messages in found.items():
         lines += [f"## {folder}", "", "| status or code | message | file |", "|---|---|---|"]
-        rows = [f"| {code_of(code)} | {readable(text)} | {name.split('/', 1)[1]} |" for name, code, text, *_ in messages]
+        rows = [f"| {code_of(code, entries)} | {readable(text)} | {name.split('/', 1)[1]} |" for name, code, text, *_ in messages]
         lines += [*dict.fromkeys(rows), ""]
     return "\n".join(lines)
 
@@ -200,10 +213,10 @@ def main(arguments):
     failures = [f"src/{name}:{first}: more than {MOST_CLAUSES} clauses: {readable(text)}"
                 for messages in found.values() for name, _, text, first, _ in messages
                 if len(re.findall(r"[.!?;](?= )", readable(text).replace("...", ""))) >= MOST_CLAUSES]
-    target = project / "docs" / "messages.md"
+    target, text = project / "docs" / "messages.md", page(found, entries_of(project))
     if arguments[0] == "--write":
-        target.write_text(page(found), encoding="utf-8")
-    elif not target.exists() or target.read_text(encoding="utf-8") != page(found):
+        target.write_text(text, encoding="utf-8")
+    elif not target.exists() or target.read_text(encoding="utf-8") != text:
         failures.append("docs/messages.md is not current: python3 tests/layout/check_messages.py --write .")
     print("\n".join([*failures, f"{sum(map(len, found.values()))} messages"]))
     return 1 if failures else 0

@@ -30,6 +30,7 @@ def right() -> None:
     run = assert_type(m.freeze().simulate([0, 1], "rk4", record="pin.phi", **options), baum.Run)
     assert_type(run[pin.phi], Array)
     assert_type(run.counters.steps, int)
+    assert_type(run.events[0].name, str)
     assert_type(run.counters.max_phi_joint, "baum.Joint | None")
     with m.simulation("rk8", rtol=1e-8, progress=True) as s:
         assert_type(s, baum.Simulation)

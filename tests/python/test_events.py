@@ -3,7 +3,10 @@
 tested in C."""
 
 import math
+import pickle
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -36,7 +39,12 @@ class Events(unittest.TestCase):
             self.assertIn('event 0 "one", rising', s.message)
             self.assertEqual(s.advance_to(2), baum.Status.OK)
             (event,) = s.events
-            self.assertEqual((event.event, event.direction), (0, 1))
+            self.assertEqual((event.event, event.direction, event.name), (0, 1, "one"))
+            t, number, direction = event
+            self.assertEqual((t, number, direction), (event.t, 0, 1))
+            back = pickle.loads(pickle.dumps(event))
+            self.assertEqual((back, back.name), (event, "one"))
+            self.assertRegex(repr(event), r"^Event\(t=0.*, event=0, direction=1, name='one'\)$")
             self.assertAlmostEqual(event.t, 0.5, 13)
 
     def test_a_pendulum_bounces(self):
@@ -57,9 +65,15 @@ class Events(unittest.TestCase):
     def test_those_that_do_not_stop_are_in_the_run(self):
         s = turning().simulation("rk4", step=1e-2)
         s.event("pin", 0.5, terminal=False)
-        s.event(function=lambda t, q, v: t - 0.75, terminal=False)
+        s.event(function=lambda t, q, v: t - 0.75, terminal=False, name="rest")
         run = s.sample([0, 1])
         self.assertEqual([event.event for event in run.events], [0, 1])
+        self.assertEqual([event.name for event in run.events], ["event 0", "rest"])
+        self.assertEqual([event.name for event in pickle.loads(pickle.dumps(run)).events][1], "rest")
+        with tempfile.TemporaryDirectory() as folder:
+            page = Path(folder) / "run.html"
+            run.page(page)
+            self.assertTrue('"rest"' in page.read_text(encoding="utf-8"))
         np.testing.assert_allclose([event.t for event in run.events], [0.25, 0.75], rtol=1e-12)
         self.assertEqual(run.near_singular, [])
 

@@ -331,7 +331,7 @@ class ExportTest(FmuTest):
             (ValueError, 'the name "arm.mass"', dict(step=1e-3, parameters=["arm.mass"] * 2)),
             (ValueError, 'the name "torque"', dict(step=1e-3, inputs=["torque"] * 2)),
             (ValueError, "max_step is inf", dict(rtol=1e-6, max_step=float("inf"))),
-            (ValueError, "field of numbers", dict(step=1e-3, parameters=["arm.masss"])),
+            (ValueError, "field of numbers; there are: mass, .*'mass'", dict(step=1e-3, parameters=["arm.masss"])),
             (ValueError, "field of numbers", dict(step=1e-3, parameters=["torque.initial"])),
             (ValueError, "field of numbers", dict(step=1e-3, parameters=["pin.body_a"])),
         ):

@@ -109,7 +109,7 @@ class Forms(unittest.TestCase):
         for outline, error, text in (
             (baum.Circle(-1), baum.Error, "radius is -1 m, must be > 0"),
             (baum.Box((1, 0, 0)), baum.Error, "two edges"),
-            ([(0, 0), (1, 0)], baum.Error, "point_count is below 3"),
+            ([(0, 0), (1, 0)], baum.Error, "number of points is 2, must be at least 3"),
             ([(0, 0), (1, 0), (np.nan, 1)], baum.Error, "x of point 2 is nan m"),
             ([FORMS["disc"], baum.Cylinder(1, (1, 0), (1, 0))], baum.Error, r"outlines\[1\]: start and end"),
             (baum.Circle(1, color="red"), baum.Error, "#rrggbb"),

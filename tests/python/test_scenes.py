@@ -111,7 +111,7 @@ class SceneTest(FileTest):
             baum.parse(pendulum().scene())
 
     def test_a_wrong_text_is_refused_with_its_line(self):
-        with self.assertRaisesRegex(baum.Error, 'line 2: a planar_body has no field "masss"'):
+        with self.assertRaisesRegex(baum.Error, 'line 2: a planar_body has no field "masss"; did you mean "mass"'):
             baum.parse(
                 '{"baum_scene": 1, "bodies": [\n{"kind": "planar_body", "masss": 1}]}'
             )

@@ -111,12 +111,23 @@ class Samples(unittest.TestCase):
         for name in ("B.phy", "x.phi", "nothing"):
             with self.assertRaises(KeyError):
                 self.m.simulate([0.001], "rk4", step=1e-4, record=[name])
-        with self.assertRaisesRegex(KeyError, "'B' has .*phi, phi_rate, reaction"):
-            self.m.channel("B.phy")
+        for name, text in (
+            ("B.phy", "'B', which is a planar_revolute; there are: angle, .*mean 'phi'"),
+            ("C.value", "'C', which is a planar_.*; there are: .*multipliers, phi, phi_rate, reac"),
+            ("ground.pose", "'ground', which is a body; there are none"),
+            ("B", "no channel 'B' of 'B', which is a planar_revolute; there are: angle"),
+            ("enrgy", "there are: q, v, .*; did you mean 'energy'"),
+        ):
+            with self.assertRaisesRegex(KeyError, text):
+                self.m.channel(name)
+        open_ = self.m.thawed()  # before freezing, no channel of a joint is excluded
+        self.assertEqual(open_.channel("A.effort").key, "A.effort")
+        with self.assertRaisesRegex(TypeError, "not <planar_revolute 'B'>; it has angle"):
+            self.m.channel(self.m["B"])
         with self.assertRaises(TypeError):
             self.m.simulate([0.001], "rk4", step=1e-4, record=[3])
         for names in (["B.coordinate", "motor.coordinate"], ["A.effort"]):
-            with self.assertRaises(baum.Error):
+            with self.assertRaisesRegex(KeyError, "which is a .*; there are: .*phi_rate"):
                 self.m.simulate([0.001], "rk4", step=1e-4, record=names)
 
     def test_counters_and_account_are_python_values(self):
@@ -251,7 +262,8 @@ class Warned(unittest.TestCase):
             run = rod_pendulum().simulate([0.01], "euler", step=1e-3, gains=baum.taylor())
         self.assertEqual(caught.filename, __file__)
         self.assertEqual(run.status, baum.Status.WARNED)
-        self.assertRegex(str(run.warnings[0]), "marginal")
+        # The message ends with the heading of the entry in docs/cookbook/warnings.md.
+        self.assertRegex(str(run.warnings[0]), r"marginal.* \[warning 2 gains\]$")
         self.assertIsInstance(run.warnings[0], baum.GainsWarning)
         self.assertFalse(run.warnings[0].doubts_motion)
 

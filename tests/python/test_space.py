@@ -492,7 +492,7 @@ class Coordinates(unittest.TestCase):
         with self.assertRaisesRegex(baum.Error, 'is "x", but .* has "displacement", "angle"'):
             m.driver("motor", sleeve, coordinate="x")
         with self.assertRaisesRegex(baum.Error, 'coordinate is "angle_b", but'):
-            m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record="sleeve.angle_b")
+            m.freeze().simulate([0, 1], "rk8", rtol=1e-6, record=sleeve.angle_b)
 
 
 class PlanarBodies(unittest.TestCase):
@@ -553,7 +553,7 @@ class PlanarBodies(unittest.TestCase):
         m.spatial_revolute("hinge", m.ground, arm, point=(0, 0, 0.3))
         self.assertEqual(m.freeze().mobility().redundant_rows, 3)
         tilted = m.copy(hinge=dict(axis_b=(0, 0.1, 1)))
-        with self.assertRaisesRegex(baum.Error, 'contradict each other in joint 1 "hinge"'):
+        with self.assertRaisesRegex(baum.Error, 'joint 1 "hinge".*contradict each other'):
             tilted.simulation("rk8", rtol=1e-6)
 
     def test_planar_elements_name_the_remedy(self):

@@ -129,10 +129,21 @@ class SweepTest(unittest.TestCase):
         refuses(TypeError, 'body "crank" has no masss', {"crank.masss": [1]})
         refuses(ValueError, '"element.field" is wanted', {"mass": [1]})
         refuses(ValueError, "a list of values is wanted", {"crank.mass": 1})
+        refuses(TypeError, "parameters: a dict .* not a list", ["crank.mass"])
+        refuses(TypeError, "crank.mass: numbers are wanted, not .'a'", {"crank.mass": ["a"]})
         refuses(ValueError, "different numbers", {"crank.mass": [1], "crank.inertia": [1, 2]})
         refuses(ValueError, "count is missing", {"crank.mass": [1, 2]}, samples=Fixed())
         refuses(ValueError, "lower and upper", {"crank.mass": [1]}, samples=Fixed(), count=1)
         refuses(TypeError, r"submit\(\) or map\(\)", {"crank.mass": [1]}, executor=3)
+
+    @unittest.skipUnless(hasattr(Exception, "add_note"), "needs Python 3.11")
+    def test_an_exception_names_its_run(self):
+        def fails(run):
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError) as caught:
+            baum.sweep(crank(), {"crank.mass": [2.5]}, TIMES, **METHOD, reduce=fails)
+        self.assertIn("sweep with crank.mass = 2.5", caught.exception.__notes__[0])
 
     def test_results_become_a_table(self):
         try:

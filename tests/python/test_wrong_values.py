@@ -61,7 +61,7 @@ class Values(unittest.TestCase):
                   mass=lambda t, q: 1, force=lambda t, q, v: 0)
 
     def test_others_are_named(self):
-        self.says(ValueError, "gravity: an array of one dimension", baum.Mechanism, gravity=9.81)
+        self.says(ValueError, "gravity: several numbers are wanted, not one", baum.Mechanism, gravity=9.81)
         m = rod_pendulum()
         self.says(TypeError, 'body "bob": a dict is wanted, not 3', m.copy, bob=3)
         self.says(TypeError, "progress: a function or True is wanted", m.simulation, "rk4", step=1, progress=1)
@@ -99,11 +99,45 @@ class Instead(unittest.TestCase):
         self.says(KeyError, "no input 'x' in this mechanism; there are: torque\\W*$", s.set_input, "x", 1)
         self.says(KeyError, "no joint 'x' .* there are: pin\\W*$", s.set_driver, "x", 1)
         self.says(KeyError, "no body 'x' .* there are: ground, arm\\W*$", m.columns, "x")
+        self.says(KeyError, "no 'torqe' .*; did you mean 'torque'", m.__getitem__, "torqe")
+        self.says(TypeError, "has no mas; there are: .*; did you mean 'mass'", m.copy, arm=dict(mas=1))
+        self.says(TypeError, "no option 'stepp'; .*; did you mean 'step'", m.simulation, "rk4", stepp=1)
+        self.says(ValueError, "no integrator 'rk44'; .*; did you mean 'rk4'", m.simulation, "rk44")
+        self.says(ValueError, "no form.* 'projektion'; .*; did you mean 'projection'", m.simulation, "rk4",
+                  step=1, formulation="projektion")
+        self.says(TypeError, "a body or its name is wanted, not 'pin', a joint", m.columns, "pin")
+
+    def test_long_lists_of_names_end_early(self):
+        m = baum.Mechanism()
+        for k in range(40):
+            m.planar_particle(f"body {k}")
+        self.says(KeyError, "there are: ground, body 0, .*body 28 and 11 more; did you mean 'body 39'",
+                  m.__getitem__, "bdy 39")
+
+    def test_a_mechanism_without_inputs(self):
+        m = rod_pendulum()
+        wanted = "no input 'x': the mechanism has no inputs; add one by Mechanism.input"
+        self.says(KeyError, wanted, m.simulation("rk4", step=0.1).set_input, "x", 1)
+        self.says(KeyError, wanted, m.initial, "x")
+        m, other = m.thawed(), baum.Mechanism()
+        self.says(baum.Error, "the mechanism has no inputs, Mechanism.input.. adds one before freezing$", m.load,
+                  "push", "bob", input=other.input("x"))
+
+    def test_remedies_are_named(self):
+        m = rod_pendulum()
+        self.says(TypeError, 'joint "c": bodies: a body or a list of bodies is wanted', m.thawed().constraint,
+                  "c", lambda t, q: q, 1, lambda t, q: q)
+        self.says(ValueError, "position: 2 numbers are wanted, not one", m.copy, bob=dict(position=1))
+        self.says(baum.Error, "rk4 needs it; rtol is for variable steps", m.simulation, "rk4", rtol=1e-6)
+        self.says(baum.Error, "call again to continue, or raise max_steps", m.simulation("rk4", step=1e-3,
+                  max_steps=2).advance_to, 1)
+        self.says(baum.Error, r"no entry is done and timed; call run\(\) first", baum.study(
+            m, 0, 1, progress=False).recommend, 1e-3)
 
     def test_a_mechanism_that_is_not_frozen(self):
         m = baum.Mechanism()
         m.planar_body("arm", mass=1, inertia=1)
-        self.says(baum.Error, "^the mechanism is not frozen", m.simulation, "rk4", step=0.1)
+        self.says(baum.Error, r"^the mechanism is not frozen; call freeze\(\) first$", m.simulation, "rk4", step=0.1)
 
     def test_a_run_is_not_read_in_its_own_functions(self):
         m = rod_pendulum()

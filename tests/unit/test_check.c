@@ -438,7 +438,8 @@ static void the_mechanism_must_be_there_and_frozen(void **state)
   baum_mechanism *mechanism = user_make_empty();
   assert_int_equal(baum_mechanism_check_derivatives(mechanism), BAUM_ERR_STATE);
   assert_string_equal(baum_message(),
-                      "baum_mechanism_check_derivatives: the mechanism is not frozen");
+                      "baum_mechanism_check_derivatives: the mechanism is not frozen; call "
+                      "baum_mechanism_freeze() first");
   baum_mechanism_destroy(mechanism);
 }
 

@@ -194,6 +194,10 @@ static void a_wrong_input_is_refused(void **state)
   planar_scene other = planar_scene_make();
   baum_planar_load_def def = good(&scene);
   assert_int_equal(baum_mechanism_add_input(other.mechanism, "gas", 1.0, &def.input), BAUM_OK);
+  check_refused(scene.mechanism, add, &def,
+                "force 1 \"push\": input is not of this mechanism; the mechanism has no inputs, "
+                "baum_mechanism_add_input() adds one before freezing");
+  assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", 1.0, NULL), BAUM_OK);
   check_refused(scene.mechanism, add, &def, "force 1 \"push\": input is not of this mechanism");
   def.input.index1 = 0;
   check_refused(scene.mechanism, add, &def, "force 1 \"push\": input is none, must be given");

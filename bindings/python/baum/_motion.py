@@ -121,7 +121,7 @@ def _marks(run: Run) -> list[Mark]:
     for x in run.near_singular:
         text = f"near a singular configuration, {x.branch}"
         marks.append((x.t, text, kinds.BAUM_MARK_SINGULAR))
-    marks += [(event.t, f"event {event.event}", kinds.BAUM_MARK_EVENT) for event in run.events]
+    marks += [(event.t, event.name, kinds.BAUM_MARK_EVENT) for event in run.events]
     if run.failure is not None and len(run.t):
         marks.append((float(run.t[-1]), run.failure, kinds.BAUM_MARK_WARNING))
     return sorted(marks, key=lambda mark: mark[0])

@@ -5,12 +5,15 @@ the values, because they know the names of the arguments and can put them into m
 from __future__ import annotations
 
 import ctypes
+import difflib
 import operator
-from typing import Any, Mapping
+from typing import Any, Iterable, Mapping
 
 import numpy as np
 
 from .typing import Array
+
+LISTED = 30  # largest number of names in a message
 
 
 def number(value: Any, label: str) -> float:
@@ -44,10 +47,20 @@ def truth(value: Any, label: str) -> bool:
     return bool(value)
 
 
+def there_are(names: Iterable[str], given: Any) -> str:
+    """Return the part of a message that lists the known names, and names the one that is most
+    similar to an unknown name."""
+    known = list(names)
+    more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+    near = difflib.get_close_matches(str(given), known, 1)
+    meant = f"; did you mean {near[0]!r}?" if near else ""
+    return f"there are: {', '.join(known[:LISTED])}{more}{meant}"
+
+
 def word(words: Mapping[str, int], value: Any, label: str) -> int:
     """Return the number that a word stands for."""
-    if value not in words:
-        raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
+    if not isinstance(value, str) or value not in words:
+        raise ValueError(f"no {label} {value!r}; {there_are(words, value)}")
     return words[value]
 
 
@@ -59,6 +72,8 @@ def vector(value: Any, size: int | None, label: str) -> Array:
         array = np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{label}: numbers are wanted, not {value!r}") from None
+    if array.ndim == 0:
+        raise ValueError(f"{label}: {size or 'several'} numbers are wanted, not one number")
     if array.ndim != 1:
         raise ValueError(
             f"{label}: an array of one dimension is wanted, not of shape {array.shape}"

@@ -86,7 +86,18 @@ class Layout:
 
 def width(mechanism: Mechanism, channel: Channel) -> int:
     """Return the number of columns of a channel."""
-    count: int = lib.baum_channels_width(mechanism.handle, ctypes.byref(channel.struct), 1)
+    count = _width(mechanism, channel)
     if count < 0:
-        raise Error(Status.ERR_ARGUMENT, _calls.message())
+        message = _calls.message().replace("channel 0:", f"channel {channel.key!r}:", 1)
+        raise Error(Status.ERR_ARGUMENT, message)
+    return count
+
+
+def has(mechanism: Mechanism, channel: Channel) -> bool:
+    """Tell whether a frozen mechanism has a channel."""
+    return _width(mechanism, channel) >= 0
+
+
+def _width(mechanism: Mechanism, channel: Channel) -> int:
+    count: int = lib.baum_channels_width(mechanism.handle, ctypes.byref(channel.struct), 1)
     return count

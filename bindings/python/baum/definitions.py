@@ -15,7 +15,7 @@ import numpy as np
 
 from . import _abi, _rotation, callbacks
 from ._lib import default, lib
-from ._values import address, integer, number, numbers, truth, vector, word
+from ._values import address, integer, number, numbers, there_are, truth, vector, word
 
 
 @dataclass(frozen=True)
@@ -186,8 +186,8 @@ class Definition:
         results follow from the other fields. Returns the definition."""
         unknown = [name for name in fields if name not in self._names]
         if unknown:
-            names = ", ".join(self._names)
-            raise TypeError(f"{self._label} has no {unknown[0]}; there are: {names}")
+            known = there_are(self._names, unknown[0])
+            raise TypeError(f"{self._label} has no {unknown[0]}; {known}")
         given = {
             FIELDS.get(name, name): fields[name] for name in fields if fields[name] is not None
         }
@@ -254,7 +254,13 @@ class Definition:
 
     def _set_bodies(self, value: Any) -> None:
         alone = isinstance(value, str) or hasattr(value, "family")
-        handles = [self._find("body", body) for body in ([value] if alone else value)]
+        try:
+            listed = [value] if alone else list(value)
+        except TypeError:
+            raise TypeError(
+                f"{self._label}: bodies: a body or a list of bodies is wanted, not {value!r}"
+            ) from None
+        handles = [self._find("body", body) for body in listed]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
         counter = "point_count" if "points" in self._types else "body_count"
         setattr(self.struct, counter, len(handles))

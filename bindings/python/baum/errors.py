@@ -85,7 +85,9 @@ class Retry(Exception):
 
 
 class Warning(UserWarning):
-    """All warnings of one kind in a run. str(warning) is the message of the first one.
+    """All warnings of one kind in a run. str(warning) is the message of the first one. It ends with
+    the code and the name, such as "[warning 104 singular_start]": the heading of its entry in
+    docs/cookbook/warnings.md, which tells the meaning and what to do.
 
     code: a number that stays the same in later versions.
     doubts_motion: whether the result may be wrong by far more than its tolerance. This is true for

@@ -21,6 +21,7 @@ from . import _abi
 from ._lib import default, lib
 from ._lib import path as library
 from ._lib import version as library_version
+from ._values import there_are
 from .channels import Channel, Layout
 from .integrators import lookup
 
@@ -137,11 +138,13 @@ def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
     element, _, field = name.rpartition(".")
     found = mechanism[element] if element in mechanism else None
     struct: Any = mechanism.read(found) if found is not None and found.kind is not None else None
-    kind = dict(pair[:2] for pair in struct._fields_).get(field) if struct else None
-    if ctypes.c_double not in (kind, getattr(kind, "_type_", None)):
-        raise ValueError(f'{name!r} is not "element.field" with a field of numbers')
+    kinds: dict[str, Any] = dict(pair[:2] for pair in struct._fields_) if struct else {}
+    known = [k for k, c in kinds.items() if ctypes.c_double in (c, getattr(c, "_type_", None))]
+    if field not in known:
+        more = f"; {there_are(known, field)}" if known else ", such as 'rod.mass'"
+        raise ValueError(f'{name!r} is not "element.field" with a field of numbers{more}')
     value = getattr(struct, field)
-    numbers = [value] if kind is ctypes.c_double else list(value)
+    numbers = [value] if kinds[field] is ctypes.c_double else list(value)
     for one, start in zip(_numbered(name, len(numbers)), numbers):
         yield _Variable(one, "parameter", "fixed", start)
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from . import _abi, _calls
 from ._lib import lib, text
-from ._values import number, vector
+from ._values import number, there_are, vector
 from .typing import Array, ArrayLike, Scalar
 
 
@@ -82,7 +82,7 @@ def lookup(value: Any) -> Integrator:
     try:
         return _ALL[value]
     except (KeyError, TypeError):
-        raise ValueError(f"no integrator {value!r}; there are: {', '.join(_ALL)}") from None
+        raise ValueError(f"no integrator {value!r}; {there_are(_ALL, value)}") from None
 
 
 class Amplification(NamedTuple):

@@ -15,10 +15,10 @@ import numpy as np
 from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings, fmu
 from ._lib import lib, text
 from ._motion import TraceLike
-from ._values import number, numbers, vector
+from ._values import number, numbers, there_are, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
-from .channels import WHOLE, Channel
+from .channels import WHOLE, Channel, has
 from .definitions import KINDS, Definition, sizes
 from .drawings import Drawing, Page
 from .elements import CLASSES, GROUND, Body, Element, Entry, Input, Joint, one
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from .integrators import Integrator
     from .typing import SimulationOptions
 
-LISTED = 30  # largest number of names in a message
 MANY = 1000  # elements of a mechanism whose evaluation may take longer than a few ms
 
 
@@ -87,10 +86,7 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
-def _channels(element: Any) -> list[str]:
-    """Return the names of the properties that are channels."""
-    properties = inspect.getmembers(type(element), lambda p: isinstance(p, property))
-    return [name for name, p in properties if p.fget.__annotations__.get("return") == "Channel"]
+ADD_INPUT = "add one by Mechanism.input() before freezing"
 
 
 class Mechanism(Adding, AddingInSpace, Scenes):
@@ -183,11 +179,10 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         entry = self._entries.get(name)
         if entry is None:
             known = [known for known, entry in self._entries.items() if entry.family in families]
-            more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+            if families == ["input"] and not known:
+                raise KeyError(f"no input {name!r}: the mechanism has no inputs; {ADD_INPUT}")
             what = families[0] + " " if len(families) == 1 else ""
-            raise KeyError(
-                f"no {what}{name!r} in this mechanism; there are: {', '.join(known[:LISTED])}{more}"
-            )
+            raise KeyError(f"no {what}{name!r} in this mechanism; {there_are(known, name)}")
         handle = self._handles.get(name)
         if handle is None:
             handle = self._handles[name] = CLASSES[entry.family](self, name, entry)
@@ -213,7 +208,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
         if not isinstance(element, Element) or element.family != family:
-            raise TypeError(f"{one(family)} or its name is wanted, not {value!r}")
+            is_other = isinstance(value, str) and isinstance(element, Element)
+            other = f", {one(element.family)}" if is_other else ""
+            raise TypeError(f"{one(family)} or its name is wanted, not {value!r}{other}")
         return element
 
     def _of_id(self, family: str, id: Any) -> Any:
@@ -269,7 +266,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         label = f'input "{element.name}"'
         unknown = [name for name in fields if name != "initial"]
         if unknown:
-            raise TypeError(f"{label} has no {unknown[0]}; there are: name, initial")
+            known = there_are(("name", "initial"), unknown[0])
+            raise TypeError(f"{label} has no {unknown[0]}; {known}")
         if fields.get("initial") is not None:
             initial = number(fields["initial"], f"{label}: initial")
             self._owner.call(lib.baum_mechanism_set_input, element.id, initial)
@@ -482,20 +480,36 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         if isinstance(value, Channel):
             return value
         if not isinstance(value, str):
-            raise TypeError(f"a channel or its name is wanted, not {value!r}")
+            known = self._channels(value) if isinstance(value, Element) else []
+            more = f"; it has {', '.join(known)}" if known else ""
+            raise TypeError(f"a channel or its name is wanted, not {value!r}{more}")
         if value in WHOLE:
             return WHOLE[value]
         name, _, attribute = value.rpartition(".")
-        if not name:
+        if not name and value not in self:
             raise KeyError(
-                f"no channel {value!r}; there are {', '.join(WHOLE)} and those of bodies "
-                'and joints, such as "B.phi"'
+                f"no channel {value!r}; those of bodies and joints are written like 'B.phi', and "
+                f"of the whole mechanism {there_are(WHOLE, value)}"
             )
+        name = name or value  # an element without an attribute
         element = self[name]
-        channel = getattr(element, attribute, None)
-        if not isinstance(channel, Channel):
-            raise KeyError(f"no channel {value!r}; {name!r} has {', '.join(_channels(element))}")
+        channels = self._channels(element)
+        if attribute not in channels:
+            kind = element.kind.name if element.kind else element.family
+            others = there_are(channels, attribute) if channels else "there are none"
+            raise KeyError(f"no channel {value!r} of {name!r}, which is a {kind}; {others}")
+        channel: Channel = getattr(element, attribute)
         return channel
+
+    def _channels(self, element: Element) -> list[str]:
+        """Return the names of the channels of an element. Whether a joint has a coordinate is known
+        when the mechanism is frozen."""
+        found = []
+        for name, p in inspect.getmembers(type(element), lambda p: isinstance(p, property)):
+            is_channel = p.fget.__annotations__.get("return") == "Channel"
+            if is_channel and (not self.frozen or has(self, getattr(element, name))):
+                found.append(name)
+        return found
 
     def draw(self, q: ArrayLike | Literal["assembled"] | None = None) -> Drawing:
         """Draw the mechanism.

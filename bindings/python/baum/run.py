@@ -51,17 +51,30 @@ class NearSingular(_ByName, _records.NearSingular):
     __slots__ = ()
 
 
-class Event(NamedTuple):
-    """An event that has happened.
+class _Event(NamedTuple):
+    t: float
+    event: int
+    direction: int
+
+
+class Event(_Event):
+    """An event that has happened: a tuple of t, event and direction, which also has a name.
 
     t: its time [s].
     event: its number, which Simulation.event() has returned.
     direction: 1 if the function rises in time, -1 if it falls.
+    name: the name that Simulation.event() was given, by default "event 0", "event 1", ...
     """
 
-    t: float
-    event: int
-    direction: int
+    name: str
+
+    def __new__(cls, t: float, event: int, direction: int, name: str | None = None) -> Event:
+        made = super().__new__(cls, t, event, direction)
+        made.name = f"event {event}" if name is None else name
+        return made
+
+    def __repr__(self) -> str:
+        return f"{super().__repr__()[:-1]}, name={self.name!r})"
 
 
 class Place(NamedTuple):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Sequence
 import numpy as np
 
 from . import errors
-from .sweeps import Named, Reduce, Sweep, sweep
+from .sweeps import Named, Reduce, Sweep, mapping, sweep
 from .typing import Array, ArrayLike, ChannelLike
 
 if TYPE_CHECKING:
@@ -88,6 +88,7 @@ def sensitivities(
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")
+    mapping(parameters)
     for name in set(steps or {}) - set(parameters):
         raise KeyError(f"steps: {name!r} is not one of the parameters: {', '.join(parameters)}")
     names: list[str] = []

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from . import _abi, _calls
 from ._lib import default, lib, text
 from ._motion import TraceLike
-from ._values import address, integer, number, truth, vector, word
+from ._values import address, integer, number, there_are, truth, vector, word
 from .callbacks import event_function
 from .channels import Channel, Layout
 from .channels import q as ALL_Q
@@ -115,7 +115,7 @@ def _status_of(error: BaseException) -> Status:
 def _check_names(options: Iterable[str], known: Sequence[str]) -> None:
     for name in options:
         if name not in known:
-            raise TypeError(f"no option {name!r}; there are: integrator, {', '.join(known)}")
+            raise TypeError(f"no option {name!r}; {there_are(['integrator', *known], name)}")
 
 
 def make_options(method: Any, values: Mapping[str, Any]) -> Any:
@@ -289,6 +289,7 @@ class Simulation(_calls.Closing):
         self._has_account = bool(energy_account)
         self._layouts: dict[tuple[str, ...], Layout] = {}
         self._event_functions: list[Any] = []
+        self._event_names: list[str] = []
         self._warned: dict[int, int] = {}
         self._seconds_per_step: float | None = None
         self._time_limit = math.inf
@@ -483,7 +484,7 @@ class Simulation(_calls.Closing):
         direction: 1 only when the function rises in time, -1 only when it falls, 0 both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
             call continues. False only records the event in `events`.
-        name: name of the event in messages.
+        name: name of the event in messages and in `events`, by default "event 0", "event 1", ...
         tolerance: accuracy of the time of the event [s], by default the rounding error of the time.
         coordinate: which coordinate of `joint`, as in Mechanism.driver().
         """
@@ -502,6 +503,7 @@ class Simulation(_calls.Closing):
             self._event_functions.append(struct.function)
         index = ctypes.c_int32()
         self._call(lib.baum_simulation_add_event, ctypes.byref(struct), ctypes.byref(index))
+        self._event_names.append(f"event {index.value}" if name is None else name)
         return index.value
 
     @property
@@ -513,7 +515,8 @@ class Simulation(_calls.Closing):
         for k in range(max(0, count - 1024), count):
             size = ctypes.sizeof(record)
             self._call(lib.baum_simulation_event, k, ctypes.byref(record), size)
-            happened.append(Event(record.t, record.event, record.direction))
+            name = self._event_names[record.event]
+            happened.append(Event(record.t, record.event, record.direction, name))
         return happened
 
     def save(self) -> bytes:

@@ -14,7 +14,7 @@ import numpy as np
 from . import _abi, _calls, _html
 from ._lib import default, lib, text
 from ._records import StudyEntry, StudyMethod, StudyReference
-from ._values import address, integer, number, numbers, truth, vector
+from ._values import address, integer, number, numbers, there_are, truth, vector
 from .channels import Channel
 from .errors import Status, Warning, as_status, warn
 from .gains import Gains
@@ -110,7 +110,7 @@ def _value(name: str, value: Any) -> Any:
 
 def _cost(word: str) -> int:
     if word not in COSTS:
-        raise ValueError(f"no cost {word!r}; there are: {', '.join(COSTS)}")
+        raise ValueError(f"no cost {word!r}; {there_are(COSTS, word)}")
     return COSTS[word]
 
 
@@ -329,9 +329,8 @@ class Study(_calls.Closing):
         if integrator is not None:
             struct.integrator = lookup(integrator).address
         if formulation not in FORMULATIONS:
-            raise ValueError(
-                f"no formulation {formulation!r}; there are: {', '.join(FORMULATIONS)}"
-            )
+            known = there_are(FORMULATIONS, formulation)
+            raise ValueError(f"no formulation {formulation!r}; {known}")
         struct.formulation = FORMULATIONS[formulation]
         struct.settings = integer(settings, "settings")
         struct.constants = integer(constants, "constants")
@@ -555,7 +554,7 @@ def _title(title: str | None) -> bytes | None:
 
 def _form(word: str) -> int:
     if word not in FORMS:
-        raise ValueError(f"no form {word!r} of a report; there are: {', '.join(FORMS)}")
+        raise ValueError(f"no form {word!r} of a report; {there_are(FORMS, word)}")
     return FORMS[word]
 
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Na
 
 import numpy as np
 
-from ._values import vector
+from ._values import there_are, vector
 from .errors import Error, Status
 from .progress import Line, stream
 from .run import Run
@@ -82,6 +82,12 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
         return _Result(_values_of(run, task.reduce), int(run.status), "", kinds)
     except Error as error:
         return _Result({}, int(error.status), str(error), ())
+    except Exception as error:
+        values = ", ".join(f"{name} = {value}" for name, value in zip(task.names, row))
+        add_note = getattr(error, "add_note", None)  # since Python 3.11
+        if add_note:
+            add_note(f"baum: in the run of a sweep with {values}")
+        raise
 
 
 def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
@@ -93,12 +99,24 @@ def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
 # ---- the rows of parameters --------------------------------------------------------------------
 
 
+def mapping(parameters: Any) -> None:
+    """Check that parameters are given by name."""
+    if not hasattr(parameters, "items"):
+        kind = type(parameters).__name__
+        raise TypeError(f"parameters: a dict of names and values is wanted, not a {kind}")
+
+
 def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
-    columns = {name: np.asarray(values, dtype=float) for name, values in parameters.items()}
-    for name, values in columns.items():
+    columns = {}
+    mapping(parameters)
+    for name, values in parameters.items():
         if "." not in name:
             raise ValueError(f'{name!r}: "element.field" is wanted, such as "rod.mass"')
-        if values.ndim == 0:
+        try:
+            columns[name] = np.asarray(values, dtype=float)
+        except (TypeError, ValueError):
+            raise TypeError(f"{name}: numbers are wanted, not {values!r}") from None
+        if columns[name].ndim == 0:
             raise ValueError(f"{name}: a list of values is wanted, not {values!r}")
     return columns
 
@@ -177,7 +195,7 @@ class Named:
     def __getitem__(self, name: str) -> Array:
         found = self._values.get(name)
         if found is None:
-            raise KeyError(f"no {name!r} in these results; there are: {', '.join(self._values)}")
+            raise KeyError(f"no {name!r} in these results; {there_are(self._values, name)}")
         return found
 
 
