@@ -40,6 +40,7 @@ TITLES = {
     "planetary_gear": "Planetary gear with two inputs",
     "rssr": "Spatial four-bar (RSSR) with a coupler or a massless rod",
     "slider_crank": "Slider-crank with eight sets of gains, as a table",
+    "spatial_slider_crank": "Spatial slider-crank beside and above its crank",
     "stewart": "Stewart platform: inverse and forward kinematics",
     "suspension": "Quarter car with double wishbones",
     "tradeoff": "Error against cost of a slider-crank",
@@ -65,7 +66,6 @@ IN_C = {
     },
     "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
     "known_rolling_disc": {"rolling_disc": "Two discs in C, one of which rolls steadily"},
-    "known_spatial_slider_crank": {"spatial_slider_crank": "A slider-crank with other data, in C"},
 }
 # Channels that the figures show, in addition to the efforts of drivers, or to the energy if there is no driver.
 MEASURED = {

@@ -3,12 +3,12 @@
 
 from docutils import nodes
 
-TITLES = {"python": "Python", "c": "C"}
+TITLES = {"python": "Python", "py": "Python", "c": "C"}
 
 
 def are_pair(one, two):
-    languages = {one.get("language"), two.get("language")}
-    return languages == set(TITLES) and one.parent is two.parent and one.parent.index(two) == one.parent.index(one) + 1
+    titles = {TITLES.get(block.get("language")) for block in (one, two)}
+    return titles == {"Python", "C"} and one.parent is two.parent and one.parent.index(two) == one.parent.index(one) + 1
 
 
 def make_tabs(app, doctree, docname):

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_tutorial.sh PROJECT PROGRAM...
 # Checks that README.md and docs/tutorial.md show code that is compiled. README.md must contain
-# examples/first.c. Every ```c block must consist of consecutive lines of a file in examples/. Every
-# ```text block must consist of consecutive lines that a PROGRAM prints.
+# examples/first.c. Every ```c and ```py block must consist of consecutive lines of a file in
+# examples/. Every ```text block must consist of consecutive lines that a PROGRAM prints. (Blocks of
+# ```python are programs, which a test of the Python package executes.)
 set -eu
 project=$1
 shift
@@ -47,7 +48,7 @@ check() {
   [ "$count" -gt 0 ] || fail "$1 has no block of $2"
 }
 
-cp "$project"/examples/*.[ch] "$scratch/sources"
+cp "$project"/examples/*.[ch] "$project"/examples/*.py "$scratch/sources"
 for program in "$@"; do
   "$program" >"$scratch/prints/$(basename "$program")" 2>&1 || fail "$program: exit code $?"
 done
@@ -57,4 +58,5 @@ for document in README.md docs/tutorial.md; do
   check "$document" c "$scratch/sources"
   check "$document" text "$scratch/prints"
 done
+check docs/tutorial.md py "$scratch/sources"
 [ "$failures" -eq 0 ]
