@@ -38,7 +38,8 @@ def axes_along(x: Array) -> Array:
 
 
 def bar_inertia(mass: float, length: float) -> tuple[float, float, float]:
-    """Return the principal moments of inertia [kg m^2] of a bar along x, radius of gyration 1 cm."""
+    """Return the principal moments of inertia [kg m^2] of a bar along x. The radius of gyration
+    about x is 1 cm."""
     across = mass * length**2 / 12
     return 1e-4 * mass, across, across
 
