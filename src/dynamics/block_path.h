@@ -79,6 +79,10 @@ baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
+/* slender.c: raise the moments of slender bodies in the solver if this is necessary, and where
+ * refinement converges. */
+baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
+
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
  * They are the same path if no body is fixed. *verdict describes the first. */
 typedef struct baum_i_paths {

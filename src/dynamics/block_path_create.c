@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "base/hot.h"
 #include "base/message.h"
+#include "mechanism/general/coordinate.h"
 #include "mechanism/spatial/spatial_joint.h"
 
 /* In planar chains rounding errors grow even without small pivots, at worst in proportion to the
@@ -85,6 +86,18 @@ static int pinned_body(const baum_i_joint *joint)
   return pinned ? joint->span.bodies[0] : -1;
 }
 
+/* Tell whether the multiplier of a row of a joint is a moment. All multipliers of couplings and of
+ * user constraints count as forces. */
+static bool is_moment(const baum_mechanism *m, const baum_i_joint *joint, int row)
+{
+  const baum_i_spatial_row *rows = baum_i_spatial_rows_of(joint);
+  if (joint->type->driven) {
+    const baum_i_joint_coordinate c = joint->type->driven(m, joint->element.def);
+    return baum_i_is_angle(&c);
+  }
+  return rows && rows[row].y != BAUM_I_APART;
+}
+
 /* Properties of bodies, joints and rows that the solver needs. */
 typedef struct traits {
   baum_i_block_pin *pins;
@@ -94,7 +107,18 @@ typedef struct traits {
   unsigned char *diagonal;
   unsigned char *fixed;
   unsigned char *omitted;
+  unsigned char *moments;
 } traits;
+
+static void find_moments(const baum_mechanism *m, unsigned char *moments)
+{
+  for (int i = 0; i < m->joint_count; i++) {
+    const baum_i_joint *joint = m->joints[i];
+    for (int k = 0; k < joint->rows; k++) {
+      moments[joint->row + k] = is_moment(m, joint, k) ? 1 : 0;
+    }
+  }
+}
 
 static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
 {
@@ -128,7 +152,9 @@ static baum_status make_solver(const baum_workspace *w, const traits *t, int *hu
                                         .pinned = t->pinned,
                                         .whole = t->whole,
                                         .omitted = t->omitted,
-                                        .fixed = t->fixed};
+                                        .fixed = t->fixed,
+                                        .moments = t->moments,
+                                        .length = w->mechanism->length};
     return baum_i_space_create(&layout, hub, &path->space);
   }
   const baum_i_block_layout layout = {.structure = &w->structure,
@@ -149,11 +175,13 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
               .kinds = baum_i_alloc((size_t)m->body_count, 1),
               .diagonal = baum_i_alloc((size_t)m->body_count, 1),
               .fixed = baum_i_alloc((size_t)m->body_count, 1),
-              .omitted = baum_i_alloc((size_t)m->nc, 1)};
+              .omitted = baum_i_alloc((size_t)m->nc, 1),
+              .moments = baum_i_alloc((size_t)m->nc, 1)};
   baum_status status = BAUM_ERR_MEMORY;
-  if (t.pins && t.pinned && t.whole && t.kinds && t.diagonal && t.fixed && t.omitted) {
+  if (t.pins && t.pinned && t.whole && t.kinds && t.diagonal && t.fixed && t.omitted && t.moments) {
     int hub = -1;
     find_traits(w, for_motion, &t);
+    find_moments(m, t.moments);
     status = make_solver(w, &t, &hub, path);
     verdict->blocks = hub < 0 ? BAUM_I_BLOCKS_FILLED : BAUM_I_BLOCKS_CROWDED;
     verdict->body = hub + 1;
@@ -165,6 +193,7 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   baum_i_free(t.diagonal);
   baum_i_free(t.fixed);
   baum_i_free(t.omitted);
+  baum_i_free(t.moments);
   return status;
 }
 
@@ -372,88 +401,6 @@ static bool has_planar_bodies(const baum_mechanism *m)
   return found;
 }
 
-/* If the weakest pivot of slender bodies is smaller than this in the design configuration, their
- * moments of inertia are raised. */
-static const double USELESS = 1e-6;
-/* The refinements must reduce the errors about the axes of slender bodies to this fraction. */
-static const double FAST = 1e-2;
-enum { TRIALS = 3 };
-
-/* Return the largest |u . y|. Before, replace the motion by its change in the last refinement, if
- * any. */
-static double take_change(const baum_i_space *space, bool refined)
-{
-  double most = 0.0;
-  for (int i = 0; refined && i < BAUM_I_SPACE_MOTION * space->body_count; i++) {
-    space->motion[i] -= space->pull_low[i];
-  }
-  for (int t = 1; t < space->body_count; t++) {
-    const double *u = space->lack + (ptrdiff_t)4 * t;
-    const double *y = space->motion + (ptrdiff_t)BAUM_I_SPACE_MOTION * t + 4;
-    most = fmax(most, fabs(u[0] * y[0] + u[1] * y[1] + u[2] * y[2]));
-  }
-  return most;
-}
-
-/* Tell whether refinement converges. It does not if slender bodies can turn about their axes
- * without moving other inertia. The error of a solution becomes P W K times itself in each
- * refinement, where K is the change of M and P the projection on the null space of J. Therefore
- * apply this product to a vector with different rotations of all slender bodies. */
-static bool converges(const baum_i_block_path *path)
-{
-  const baum_i_space *space = path->space;
-  memset(space->motion, 0, BAUM_I_SPACE_MOTION * (size_t)space->body_count * sizeof(double));
-  for (int t = 1; t < space->body_count; t++) {
-    for (int c = 0; c < 3; c++) {
-      space->motion[BAUM_I_SPACE_MOTION * (ptrdiff_t)t + 4 + c] =
-        cos(t) * space->lack[4 * (ptrdiff_t)t + c];
-    }
-  }
-  double before = 0.0;
-  double size = take_change(space, false);
-  for (int k = 0; k < TRIALS; k++) {
-    before = size;
-    path->space_kernel->find_rest(path->space);
-    memset(space->rest, 0, (size_t)space->numbers_of_rows * sizeof *space->rest);
-    (void)path->space_kernel->correct(path->space);
-    size = take_change(space, true);
-  }
-  return size <= FAST * before;
-}
-
-static baum_status set_numbers_again(baum_workspace *w, baum_i_block_path *path)
-{
-  baum_i_free(path->space_joints.numbers);
-  BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
-  BAUM_I_TRY(baum_i_block_path_factor(w, path, 0.0, w->mechanism->design_q));
-  return BAUM_OK;
-}
-
-/* Raise the moments of slender bodies in the solver if this is necessary and refinement
- * converges. */
-static baum_status raise_slender(baum_workspace *w, baum_i_block_path *path)
-{
-  baum_i_space *space = path->space;
-  if (!baum_i_space_has_slender(space)) {
-    return BAUM_OK;
-  }
-  BAUM_I_TRY(baum_i_block_path_factor(w, path, 0.0, w->mechanism->design_q));
-  if (!(space->weakest > USELESS)) {
-    baum_i_space_raise_slender(space);
-    BAUM_I_TRY(set_numbers_again(w, path));
-    baum_i_space_use_force(space, true);
-    if (!converges(path)) {
-      space->is_raised = false;
-      (void)baum_i_space_set_mass(space, w->mass);
-      BAUM_I_TRY(set_numbers_again(w, path));
-    }
-  }
-  w->eliminated_by = NULL;
-  w->jacobian_ready = false;
-  path->factorizations = 0;
-  return BAUM_OK;
-}
-
 static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
                         baum_i_block_path *path)
 {
@@ -461,11 +408,10 @@ static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   if (path->space) {
-    path->space->length = w->mechanism->length;
     path->has_planar = has_planar_bodies(w->mechanism);
     path->only_weights = !path->has_planar && w->mechanism->force_count == 0;
     BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
-    BAUM_I_TRY(raise_slender(w, path));
+    BAUM_I_TRY(baum_i_raise_slender(w, path));
   }
   BAUM_I_TRY(prepare_forces(w, path));
   path->uneven = path->space ? is_uneven_in_space(path->space) : is_uneven(path);

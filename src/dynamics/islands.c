@@ -3,29 +3,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-
-/* ---- sets of bodies, as a forest ---- */
-
-static int root_of(int *parent, int body)
-{
-  while (parent[body] != body) {
-    parent[body] = parent[parent[body]]; /* shortens the path to the root for later calls */
-    body = parent[body];
-  }
-  return body;
-}
-
-/* Unite two sets. The body with the lower number becomes their root. */
-static void unite(int *parent, int a, int b)
-{
-  int root_a = root_of(parent, a);
-  int root_b = root_of(parent, b);
-  if (root_a < root_b) {
-    parent[root_b] = root_a;
-  } else {
-    parent[root_a] = root_b;
-  }
-}
+#include "base/sets.h"
 
 /* Return the first body of a joint that is not fixed, or -1. */
 static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
@@ -40,15 +18,13 @@ static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
 
 static void unite_joined(const baum_mechanism *m, int *parent)
 {
-  for (int i = 0; i <= m->body_count; i++) {
-    parent[i] = i;
-  }
+  baum_i_sets_begin(parent, m->body_count + 1);
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_span *span = &m->joints[k]->span;
     int first = first_free(m, m->joints[k]);
     for (int i = 0; i < span->body_count && first >= 0; i++) {
       if (!m->bodies[span->bodies[i]]->fixed) {
-        unite(parent, first, span->bodies[i]);
+        baum_i_sets_unite(parent, first, span->bodies[i]);
       }
     }
   }
@@ -59,12 +35,12 @@ static void unite_joined(const baum_mechanism *m, int *parent)
 static void count_all(const baum_mechanism *m, int *parent, baum_i_island *island)
 {
   for (int i = 1; i <= m->body_count; i++) {
-    island[root_of(parent, i)].bodies += m->bodies[i]->fixed ? 0 : 1;
+    island[baum_i_sets_find(parent, i)].bodies += m->bodies[i]->fixed ? 0 : 1;
   }
   for (int k = 0; k < m->joint_count; k++) {
     int first = first_free(m, m->joints[k]);
     if (first >= 0) {
-      baum_i_island *of = &island[root_of(parent, first)];
+      baum_i_island *of = &island[baum_i_sets_find(parent, first)];
       of->joints++;
       of->rows += m->joints[k]->rows;
     }

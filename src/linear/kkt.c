@@ -20,6 +20,7 @@
 #include "linear/backend.h"
 #include "linear/residual.h"
 #include "linear/scale.h"
+#include "linear/whiten.h"
 
 enum { MOST_REFINEMENTS = 3 };
 
@@ -59,7 +60,9 @@ struct baum_i_kkt {
   ladder_rung top_rung;
   baum_i_kkt_quality quality;
   baum_i_kkt_counters counters;
-  baum_i_kkt_values values;
+  baum_i_kkt_values values;    /* whitened if bodies are slender */
+  baum_i_whitening *whitening; /* NULL if there are no bodies in space */
+  baum_i_residual_islands islands;
   double *memory; /* memory of the five arrays below */
   double *scale;
   double *b;
@@ -99,7 +102,8 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
   kkt->first.ops = choice == BAUM_I_KKT_QR ? &baum_i_qr_ops : &baum_i_klu_ops;
   kkt->last.ops = &baum_i_qr_ops;
   kkt->top_rung = TOP_RUNG[choice];
-  if (!make_room(kkt)) {
+  if (!make_room(kkt) || baum_i_whitening_create(structure, &kkt->whitening) != BAUM_OK ||
+      baum_i_residual_islands_find(structure, &kkt->islands) != BAUM_OK) {
     baum_i_kkt_destroy(kkt);
     return baum_i_fail_memory();
   }
@@ -125,6 +129,8 @@ void baum_i_kkt_destroy(baum_i_kkt *kkt)
   }
   kkt->first.ops->destroy(kkt->first.self);
   kkt->last.ops->destroy(kkt->last.self);
+  baum_i_whitening_destroy(kkt->whitening);
+  baum_i_residual_islands_clear(&kkt->islands);
   baum_i_free(kkt->memory);
   baum_i_free(kkt);
 }
@@ -235,7 +241,8 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
     return BAUM_ERR_NOT_FINITE;
   }
   kkt->values = *values;
-  baum_i_scale_compute(kkt->structure, values, kkt->scale);
+  baum_i_whitening_set(kkt->whitening, &kkt->values);
+  baum_i_scale_compute(kkt->structure, &kkt->values, kkt->scale);
   /* Kept pivots would fail close to a singular configuration. */
   bool keep = kkt->first.has_pivots && kkt->quality == BAUM_I_KKT_GOOD;
   return add_message(climb(kkt, keep ? RUNG_KEEP : RUNG_CHOOSE));
@@ -255,6 +262,7 @@ static void load_right_side(baum_i_kkt *kkt, const double *f, const double *r)
 {
   int nv = kkt->structure->nv;
   copy(f, nv, kkt->b);
+  baum_i_whitening_convert_force(kkt->whitening, kkt->b);
   for (int i = 0; i < kkt->structure->nc; i++) {
     bool omitted = kkt->values.omitted && kkt->values.omitted[i];
     kkt->b[nv + i] = omitted ? 0.0 : r[i];
@@ -282,7 +290,7 @@ static baum_status refine(baum_i_kkt *kkt)
 
 static bool is_at_rounding(const baum_i_kkt *kkt)
 {
-  return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
+  return baum_i_residual_is_rounding(kkt->n, &kkt->islands, kkt->scale, kkt->residual, kkt->size);
 }
 
 /* Tells whether all rows with a large residual are negligible. False at lower rungs, where climbing
@@ -291,8 +299,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
   bool is_careful = kkt->present_rung >= RUNG_CAREFUL || kkt->present_rung == kkt->top_rung;
-  return is_careful &&
-         baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size, present_rcond(kkt));
+  return is_careful && baum_i_residual_is_noise(kkt->n, &kkt->islands, kkt->scale, kkt->residual,
+                                                kkt->size, present_rcond(kkt));
 }
 
 /* Tells whether a matrix without full rank was solved by least squares. */
@@ -369,6 +377,7 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
   }
   BAUM_I_TRY(add_message(solve_climbing(kkt)));
   copy(kkt->x, kkt->structure->nv, a);
+  baum_i_whitening_restore_motion(kkt->whitening, a);
   copy(kkt->x + kkt->structure->nv, kkt->structure->nc, lambda);
   return BAUM_OK;
 }

@@ -15,17 +15,59 @@
  * The reason is that some rows differ from zero only by rounding, such as those of a guide along an
  * axis of the ground, and cannot be solved more accurately. In baum_i_residual_is_noise(), this
  * limit is eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest row,
- * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2).
+ * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). "The
+ * largest row" always means the largest row of the same island.
  */
 #include "linear/residual.h"
 
 #include <float.h>
 #include <math.h>
 
+#include "base/alloc.h"
+#include "base/sets.h"
+
 static const double rounding = 100.0 * DBL_EPSILON;
 static const double noise = 1000.0 * DBL_EPSILON; /* times the number of rows */
 static const double noise_of_noise = 1e-27;
 static const double nothing = 1e-30;
+
+/* ---- islands ---- */
+
+baum_status baum_i_residual_islands_find(const baum_i_kkt_structure *structure,
+                                         baum_i_residual_islands *out)
+{
+  int n = structure->nv + structure->nc;
+  *out = (baum_i_residual_islands){.of = baum_i_alloc((size_t)n, sizeof *out->of)};
+  if (!out->of) {
+    return BAUM_ERR_MEMORY;
+  }
+  baum_i_sets_begin(out->of, n);
+  for (int b = 0; b < structure->mass_block_count; b++) {
+    const baum_i_mass_block *block = &structure->mass_blocks[b];
+    for (int i = 1; i < block->size; i++) {
+      baum_i_sets_unite(out->of, block->first, block->first + i);
+    }
+  }
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    for (int i = 0; i < block->rows; i++) {
+      for (int k = 0; k < block->cols; k++) {
+        baum_i_sets_unite(out->of, structure->nv + block->row + i, block->col[k]);
+      }
+    }
+  }
+  out->count = baum_i_sets_number(out->of, n);
+  out->largest = baum_i_alloc((size_t)out->count, sizeof *out->largest);
+  return out->largest ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+void baum_i_residual_islands_clear(const baum_i_residual_islands *islands)
+{
+  baum_i_free(islands->of);
+  baum_i_free(islands->largest);
+}
+
+/* ---- residual ---- */
 
 static void start(int n, const double *b, double *residual, double *size)
 {
@@ -126,19 +168,33 @@ static double largest_scaled(int n, const double *scale, const double *x)
   return largest;
 }
 
-/* Tests the residual. Rows of scaled size up to `negligible` times the largest are compared with
- * the largest. A residual of at most `least` times the largest row always passes. */
-static bool is_rounding(int n, const double *scale, const double *residual, const double *size,
-                        double negligible, double least)
+static void find_largest(int n, const baum_i_residual_islands *islands, const double *scale,
+                         const double *size)
 {
-  double largest = -1.0; /* computed on first use */
+  for (int k = 0; k < islands->count; k++) {
+    islands->largest[k] = 0.0;
+  }
+  for (int i = 0; i < n; i++) {
+    double *largest = &islands->largest[islands->of[i]];
+    *largest = fmax(*largest, scale[i] * fabs(size[i]));
+  }
+}
+
+/* Tests the residual. Rows of scaled size up to `negligible` times the largest of their island are
+ * compared with the largest. A residual of at most `least` times the largest row always passes. */
+static bool is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
+                        const double *residual, const double *size, double negligible, double least)
+{
+  bool found = false;
   for (int i = 0; i < n; i++) {
     if (fabs(residual[i]) <= rounding * size[i]) {
       continue;
     }
-    if (largest < 0.0) {
-      largest = largest_scaled(n, scale, size);
+    if (!found) {
+      find_largest(n, islands, scale, size);
+      found = true;
     }
+    double largest = islands->largest[islands->of[i]];
     bool is_negligible = scale[i] * size[i] <= negligible * largest;
     double most = is_negligible ? rounding : least;
     if (!(scale[i] * fabs(residual[i]) <= most * largest)) {
@@ -148,16 +204,16 @@ static bool is_rounding(int n, const double *scale, const double *residual, cons
   return true;
 }
 
-bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
-                                 const double *size)
+bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
+                                 const double *residual, const double *size)
 {
-  return is_rounding(n, scale, residual, size, noise_of_noise, nothing);
+  return is_rounding(n, islands, scale, residual, size, noise_of_noise, nothing);
 }
 
-bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
-                              const double *size, double rcond)
+bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
+                              const double *residual, const double *size, double rcond)
 {
-  return is_rounding(n, scale, residual, size, n * noise, fmin(nothing / rcond, rounding));
+  return is_rounding(n, islands, scale, residual, size, n * noise, fmin(nothing / rcond, rounding));
 }
 
 bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,

@@ -10,15 +10,28 @@
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 
+/* Islands of the system, which its blocks do not couple. The rows of an island are never compared
+ * with those of another, which may be larger by many orders of magnitude. */
+typedef struct baum_i_residual_islands {
+  int count;
+  int *of;         /* (n) island of each row */
+  double *largest; /* (count) used by the functions below */
+} baum_i_residual_islands;
+
+/* BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+baum_status baum_i_residual_islands_find(const baum_i_kkt_structure *structure,
+                                         baum_i_residual_islands *out);
+void baum_i_residual_islands_clear(const baum_i_residual_islands *islands);
+
 /* Tells whether each |residual_i| is at most a few units of rounding of its own size_i. False for
  * NaN. */
-bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
-                                 const double *size);
+bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
+                                 const double *residual, const double *size);
 
-/* The same, but a row whose scaled size is at rounding level of the largest row is compared with
- * the largest row. rcond: reciprocal condition number of the scaled matrix. */
-bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
-                              const double *size, double rcond);
+/* The same, but a row whose scaled size is at rounding level of the largest row of its island is
+ * compared with that row. rcond: reciprocal condition number of the scaled matrix. */
+bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
+                              const double *residual, const double *size, double rcond);
 
 /* Tells whether each scaled |residual_i| is at most `tolerance` times the largest scaled |b_i|. */
 bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,

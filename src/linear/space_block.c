@@ -16,10 +16,13 @@ static const double weak_pivot = 1e-3;
 static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
-/* A body is slender if its smallest moment of inertia is below this fraction of the trace of I, and
- * if a joint compares its directions with those of another body. The pivots of such joints may be
- * as small as this fraction. A moment that is raised by `raised` times the trace avoids this. Each
- * refinement then gains about four digits. */
+/* A body is thin if its smallest moment of inertia is below this fraction of the trace of I. Its
+ * spin about the axis may be much larger than all other accelerations. */
+static const double thin = 2e-5;
+
+/* A body is slender if this moment is below the first fraction of the trace of I. The pivots of its
+ * joints may be as small as this fraction. A moment that is raised by `raised` times the trace
+ * avoids this. Each refinement then gains about four digits. */
 static const double slender = 1e-8;
 static const double raised = 1e-4;
 
@@ -42,7 +45,8 @@ static baum_status make_arrays(baum_i_space *b)
     {&b->pull, motion},
     {&b->pull_low, motion},
     {&b->lack, 4 * (size_t)b->body_count},
-    {&b->twists, (size_t)b->body_count},
+    {&b->spins, (size_t)b->body_count},
+    {&b->units, rows},
     {&b->rest, rows},
     {&b->rest_low, rows},
   };
@@ -57,6 +61,16 @@ static baum_status make_arrays(baum_i_space *b)
   return BAUM_OK;
 }
 
+static void set_units(const baum_i_space *b, const baum_i_space_layout *layout)
+{
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    for (int i = 0; i < node->rows; i++) {
+      b->units[node->place + i] = layout->moments[node->row[i]] ? 1.0 / layout->length : 1.0;
+    }
+  }
+}
+
 baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, baum_i_space **out)
 {
   *out = NULL;
@@ -69,15 +83,19 @@ baum_status baum_i_space_create(const baum_i_space_layout *layout, int *hub, bau
   baum_status status = baum_i_space_find_structure(layout, b);
   *hub = b->hub;
   if (status == BAUM_OK) {
+    status = baum_i_space_find_islands(b);
+  }
+  if (status == BAUM_OK) {
     status = make_arrays(b);
   }
   if (status != BAUM_OK) {
     baum_i_space_destroy(b);
     return status;
   }
+  set_units(b, layout);
   double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
   b->weak_pivot = fmax(weak_pivot * few * sqrt(few), least_weak_pivot);
-  b->length = 1.0;
+  b->length = layout->length;
   baum_i_space_use_force(b, true);
   *out = b;
   return BAUM_OK;
@@ -88,8 +106,9 @@ void baum_i_space_destroy(baum_i_space *space)
   if (!space) {
     return;
   }
-  const void *arrays[] = {space->bodies,    space->list,  space->side_list, space->pairs,
-                          space->couplings, space->zeros, space->targets,   space->numbers};
+  const void *arrays[] = {
+    space->bodies, space->list,    space->side_list, space->pairs,         space->couplings,
+    space->zeros,  space->targets, space->numbers,   space->island_bodies, space->island_nodes};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -144,42 +163,6 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
   return true;
 }
 
-static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_space_body *body)
-{
-  const double *m = mass + block->value;
-  int n = block->size;
-  bool positive = m[0] > 0.0;
-  body->mass = m[0];
-  bool planar = body->slots[2] == 5;
-  for (int i = 0; i < 3; i++) {
-    body->weight[i] = planar && i == 2 ? 0.0 : 1.0 / m[0];
-  }
-  if (n == 6) {
-    positive = whiten(body->inertia, body) && positive;
-  } else if (n == 3 && planar) {
-    positive = positive && m[8] > 0.0;
-    body->unwhite[8] = sqrt(m[8]);
-    body->whiten[10] = 1.0 / body->unwhite[8];
-  }
-  return positive;
-}
-
-int baum_i_space_set_mass(baum_i_space *space, const double *mass)
-{
-  for (int i = 0; i < space->structure->mass_block_count; i++) {
-    const baum_i_mass_block *block = &space->structure->mass_blocks[i];
-    baum_i_space_body *body = &space->bodies[1 + i];
-    body->heft = mass[block->value];
-    for (int c = 0; block->size == 6 && c < 9; c++) {
-      body->inertia[c / 3 * 4 + c % 3] = mass[block->value + 21 + c / 3 * 6 + c % 3];
-    }
-    if (!body->fixed && !set_body(block, mass, body)) {
-      return i;
-    }
-  }
-  return -1;
-}
-
 /* ---- slender bodies ---- */
 
 /* Returns the largest diagonal entry of I^-1, and its number. */
@@ -200,66 +183,122 @@ static double trace_of(const baum_i_space_body *body)
   return body->inertia[0] + body->inertia[5] + body->inertia[10];
 }
 
-/* twists[] marks bodies whose directions a joint compares. */
-static bool is_slender(const baum_i_space *b, int body)
+static void set_spin(baum_i_space_body *body)
 {
-  const baum_i_space_body *own = &b->bodies[body];
-  int axis = 0;
-  return !own->fixed && own->size == 6 && b->twists[body] > 0.0 &&
-         slender * trace_of(own) * weakest_axis(own, &axis) > 1.0;
+  const double *e = body->axis;
+  const double *white = body->whiten;
+  for (int k = 0; k < 3; k++) {
+    body->spin[k] = white[k] * e[0] + white[4 + k] * e[1] + white[8 + k] * e[2];
+  }
 }
 
-bool baum_i_space_has_slender(baum_i_space *space)
+/* Finds the axis of a thin body. Columns of I^-1 are nearly parallel to it. */
+static void find_axis(baum_i_space_body *body)
+{
+  const double *white = body->whiten;
+  int axis = 0;
+  double size = 0.0;
+  body->thin = thin * trace_of(body) * weakest_axis(body, &axis) > 1.0;
+  for (int i = 0; i < 3; i++) {
+    const double *x = white + 4 * (ptrdiff_t)i;
+    const double *y = white + 4 * (ptrdiff_t)axis;
+    body->axis[i] = body->thin ? x[0] * y[0] + x[1] * y[1] + x[2] * y[2] : 0.0;
+    size = hypot(size, body->axis[i]);
+  }
+  for (int i = 0; i < 3 && body->thin; i++) {
+    body->axis[i] /= size;
+  }
+  set_spin(body);
+}
+
+static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_space_body *body)
+{
+  const double *m = mass + block->value;
+  int n = block->size;
+  bool positive = m[0] > 0.0;
+  body->mass = m[0];
+  bool planar = body->slots[2] == 5;
+  for (int i = 0; i < 3; i++) {
+    body->weight[i] = planar && i == 2 ? 0.0 : 1.0 / m[0];
+  }
+  if (n == 6) {
+    positive = whiten(body->inertia, body) && positive;
+    find_axis(body);
+  } else if (n == 3 && planar) {
+    positive = positive && m[8] > 0.0;
+    body->unwhite[8] = sqrt(m[8]);
+    body->whiten[10] = 1.0 / body->unwhite[8];
+  }
+  return positive;
+}
+
+int baum_i_space_set_mass(baum_i_space *space, const double *mass)
+{
+  for (int i = 0; i < space->structure->mass_block_count; i++) {
+    const baum_i_mass_block *block = &space->structure->mass_blocks[i];
+    baum_i_space_body *body = &space->bodies[1 + i];
+    body->heft = mass[block->value];
+    for (int c = 0; block->size == 6 && c < 9; c++) {
+      body->inertia[c / 3 * 4 + c % 3] = mass[block->value + 21 + c / 3 * 6 + c % 3];
+    }
+    if (!body->fixed && !set_body(block, mass, body)) {
+      return i;
+    }
+    space->has_thin = space->has_thin || body->thin;
+  }
+  return -1;
+}
+
+static bool is_slender(const baum_i_space_body *body)
+{
+  int axis = 0;
+  return !body->fixed && body->thin && slender * trace_of(body) * weakest_axis(body, &axis) > 1.0;
+}
+
+bool baum_i_space_has_slender(const baum_i_space *space)
 {
   bool found = false;
-  for (int k = 0; k < space->node_count; k++) {
-    const baum_i_space_node *node = &space->list[k];
-    bool only_points = node->rows == 1 || (node->lean && node->rows == 3);
-    for (int s = 0; s < node->side_count && !only_points; s++) {
-      space->twists[space->side_list[node->first_side + s].body] = 1.0;
-    }
-  }
   for (int t = 1; t < space->body_count && !found; t++) {
-    found = is_slender(space, t);
+    found = is_slender(&space->bodies[t]);
   }
   return found;
 }
 
 /* Replaces I by I + w e e^T, with the axis e, and sets u = w^(1/2) L^-1 e, where L is the factor of
- * the new tensor. Columns of I^-1 are nearly parallel to e. */
+ * the new tensor. */
 static void raise_moment(baum_i_space_body *body, double u[4])
 {
-  const double *white = body->whiten;
-  int axis = 0;
-  double size = 0.0;
-  double e[3];
+  double weight = raised * trace_of(body);
+  const double *e = body->axis;
   double tensor[12];
-  (void)weakest_axis(body, &axis);
-  for (int i = 0; i < 3; i++) {
-    const double *x = white + 4 * (ptrdiff_t)i;
-    const double *y = white + 4 * (ptrdiff_t)axis;
-    e[i] = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-    size = hypot(size, e[i]);
-  }
-  for (int i = 0; i < 3; i++) {
-    e[i] *= sqrt(raised * trace_of(body)) / size;
-  }
   for (int i = 0; i < 12; i++) {
-    tensor[i] = body->inertia[i] + (i % 4 < 3 ? e[i / 4] * e[i % 4] : 0.0);
+    tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
   }
   (void)whiten(tensor, body); /* it has a factor, because I has one */
+  set_spin(body);
   for (int k = 0; k < 3; k++) {
-    u[k] = white[k] * e[0] + white[4 + k] * e[1] + white[8 + k] * e[2];
+    u[k] = sqrt(weight) * body->spin[k];
   }
 }
 
 void baum_i_space_raise_slender(baum_i_space *space)
 {
   for (int t = 1; t < space->body_count; t++) {
-    if (is_slender(space, t)) {
+    if (is_slender(&space->bodies[t])) {
       raise_moment(&space->bodies[t], space->lack + 4 * (ptrdiff_t)t);
       space->is_raised = true;
     }
+  }
+}
+
+void baum_i_space_restore_slender(baum_i_space *space, int body)
+{
+  memset(space->lack + 4 * (ptrdiff_t)body, 0, 4 * sizeof *space->lack);
+  (void)whiten(space->bodies[body].inertia, &space->bodies[body]);
+  set_spin(&space->bodies[body]);
+  space->is_raised = false;
+  for (int i = 0; i < 4 * space->body_count; i++) {
+    space->is_raised = space->is_raised || space->lack[i] != 0.0;
   }
 }
 

@@ -48,7 +48,10 @@ typedef struct baum_i_space_layout {
    * that its size is that of the joint */
   const unsigned char *whole;
   const unsigned char *omitted; /* (nc) */
+  const unsigned char *moments; /* (nc) non-zero: the multiplier is a moment, otherwise a force */
   const unsigned char *fixed;   /* (mass_block_count) non-zero: a = 0 */
+  double length; /* [m] characteristic length, to compare accelerations of origins with angular
+                  * ones, and forces with moments */
 } baum_i_space_layout;
 
 typedef struct baum_i_space_node {
@@ -104,9 +107,12 @@ typedef struct baum_i_space_body {
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
   double inertia[12]; /* I likewise */
   double unwhite[9];  /* L^T, row-major */
+  double axis[4];     /* axis e of a thin body, otherwise 0 */
+  double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
   double mass;        /* 0: W = 0 */
   double heft;        /* its mass, even if it is fixed */
   bool fixed;         /* W = 0 */
+  bool thin;          /* the moment of inertia about `axis` is small */
   int32_t first;      /* its first column */
   int32_t size;
   const int32_t *slots; /* (size) the place of each of its columns in [E | R] */
@@ -123,8 +129,7 @@ typedef struct baum_i_space {
   int zero_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
   int hub;       /* mass block with too many sides; -1: none */
-  double length; /* [m] characteristic length, to compare accelerations of origins with angular
-                  * ones; 1 unless the caller sets it */
+  double length; /* [m] see the layout */
   /* pivots are weak if a determinant of a node is below this fraction of the product of the
    * diagonal entries of S */
   double weak_pivot;
@@ -135,7 +140,14 @@ typedef struct baum_i_space {
   baum_i_space_side *side_list;     /* (side_count) */
   baum_i_space_pair *pairs;         /* (pair_count) ascending in `to` */
   baum_i_space_coupling *couplings; /* (coupling_count) */
-  int32_t *zeros;                   /* (zero_count x 2) start and length of blocks in off[] that no
+  /* The bodies of island i are island_bodies[k], body_start[i] <= k < body_start[i + 1]; likewise
+   * its nodes. Island 0 consists of ground and fixed bodies, and has no nodes. */
+  int island_count;
+  int32_t *island_bodies; /* (body_count) */
+  int32_t *body_start;
+  int32_t *island_nodes; /* (node_count) in the order of elimination */
+  int32_t *node_start;
+  int32_t *zeros;   /* (zero_count x 2) start and length of blocks in off[] that no
                                      * pair sets */
   int32_t *targets; /* starts in off[] of blocks that receive products of couplings */
 
@@ -153,8 +165,10 @@ typedef struct baum_i_space {
   /* (body_count x 4) u of slender bodies, otherwise 0. The solver uses the inertia I + L u u^T L^T
    * in place of I, with its factor L. Refinement removes the effect of this change. */
   double *lack;
-  double *twists; /* (body_count) |u . change of y| by the last refinement */
+  double *spins;  /* (body_count) change of the spin of slender bodies by the last refinement */
+  double *units;  /* (numbers_of_rows) factors that convert multipliers to forces */
   bool is_raised; /* the inertia of a body is replaced */
+  bool has_thin;  /* a body is thin */
   double *rest;   /* (numbers_of_rows) r - J a */
   double *rest_low;
   const double *from; /* a0 of the present right-hand side: free or nothing */
@@ -192,14 +206,18 @@ void baum_i_space_destroy(baum_i_space *space); /* NULL is allowed */
 /* Sets all members of an empty solver except the arrays of numbers (space_structure.c). */
 baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_i_space *space);
 
+/* Sets the islands of an otherwise complete structure (space_islands.c). */
+baum_status baum_i_space_find_islands(baum_i_space *space);
+
 /* Sets W. Returns -1, or the first mass block that is not positive definite. */
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
 /* The first function tells whether there are bodies so slender that their pivots may be too small.
- * The second, which needs a call of the first, raises the moments of inertia of these bodies about
- * their axes. */
-bool baum_i_space_has_slender(baum_i_space *space);
+ * The second one raises the moments of inertia of these bodies about their axes. The third one
+ * restores one of them. */
+bool baum_i_space_has_slender(const baum_i_space *space);
 void baum_i_space_raise_slender(baum_i_space *space);
+void baum_i_space_restore_slender(baum_i_space *space, int body);
 
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
@@ -245,14 +263,16 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
   /* Returns the largest acceleration of a body that the multipliers of one joint cause, divided by
-   * the largest acceleration of all bodies. If this quotient is large, digits have cancelled. */
+   * the largest acceleration of all bodies of the island. Spins of thin bodies about their axes are
+   * also divided by the spin itself. If this quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. Of the residual of the equations of
    * motion, only the part of slender bodies is computed. */
   void (*find_rest)(baum_i_space *space);
-  /* Corrects a and lambda once. Returns the largest relative change of the multipliers or of the
-   * accelerations, but at least 1 if refinement does not converge quickly for a slender body. */
+  /* Corrects a and lambda once. Returns the largest change of the multipliers or of the
+   * accelerations, relative to those of the island, but at least 1 if refinement does not converge
+   * quickly for a slender body. */
   double (*correct)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);

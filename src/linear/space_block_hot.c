@@ -294,13 +294,23 @@ BAUM_I_INLINE four larger(four x, four most)
   return baum_i_four_larger(baum_i_four_magnitude(x), most);
 }
 
+static double larger_of(double x, double y)
+{
+  return x > y ? x : y;
+}
+
 static double largest(four x)
 {
   baum_i_pair two = baum_i_larger(baum_i_four_low(x), baum_i_four_high(x));
-  return two[0] > two[1] ? two[0] : two[1];
+  return larger_of(two[0], two[1]);
 }
 
-/* The largest accelerations of origins and the largest angular accelerations. */
+static double share(double x, double y)
+{
+  return x > 0.0 ? x / y : 0.0;
+}
+
+/* The largest accelerations of origins, and angular accelerations without spins of thin bodies. */
 typedef struct peaks {
   four moves;
   four turns;
@@ -308,23 +318,50 @@ typedef struct peaks {
 
 static const peaks NO_PEAKS = {0};
 
-BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, peaks most)
+/* Returns the spin of a thin body about its axis. */
+BAUM_I_INLINE double spin_of(const baum_i_space_body *body, const double *y)
 {
-  return (peaks){larger(move, most.moves), larger(unwhitened(body, turn), most.turns)};
+  return body->spin[0] * y[0] + body->spin[1] * y[1] + body->spin[2] * y[2];
+}
+
+BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
+{
+  four axis = baum_i_four_load(body->axis);
+  return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
+}
+
+/* `thin` must be a compile-time constant, here and below: whether any body is thin. */
+BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
+                            peaks most)
+{
+  four angular = unwhitened(body, turn);
+  angular = thin && body->thin ? without_spin(body, angular) : angular;
+  return (peaks){larger(move, most.moves), larger(angular, most.turns)};
 }
 
 /* Returns the largest acceleration in units of 1/s^2. Those of origins are divided by the
  * characteristic length, so that the result does not depend on the unit of length. */
 static double size_of(const baum_i_space *b, peaks of)
 {
-  double move = largest(of.moves) / b->length;
-  double turn = largest(of.turns);
-  return move > turn ? move : turn;
+  return larger_of(largest(of.moves) / b->length, largest(of.turns));
+}
+
+/* Returns the largest acceleration of a body of one island. */
+BAUM_I_INLINE double largest_motion(const baum_i_space *b, int island, bool thin)
+{
+  peaks most = NO_PEAKS;
+  const int32_t *last = b->island_bodies + b->body_start[island + 1];
+  for (const int32_t *at = b->island_bodies + b->body_start[island]; at < last; at++) {
+    int t = *at;
+    const double *x = b->motion + (ptrdiff_t)MOTION * t;
+    most = include(&b->bodies[t], baum_i_four_load(x), baum_i_four_load(x + 4), thin, most);
+  }
+  return size_of(b, most);
 }
 
 /* Includes the accelerations that the multipliers of one node cause. */
 BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
-                                   peaks most)
+                                   bool thin, peaks most)
 {
   column lambda = baum_i_column_load(b->nodes + node->at, 1, 0, tall);
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
@@ -335,31 +372,72 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
     if (side->sign == 0) {
       push = transposed_times(b->sides + side->move, lambda, tall);
     }
-    most = include(body, baum_i_four_times(push, baum_i_four_load(body->weight)), turn, most);
+    push = baum_i_four_times(push, baum_i_four_load(body->weight));
+    most = include(body, push, turn, thin, most);
   }
   return most;
 }
 
-/* Returns the largest acceleration of a body. */
-static double largest_motion(const baum_i_space *b)
+/* Returns the sum of the magnitudes of the spins that the multipliers of one side cause. They may
+ * nearly cancel. */
+BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side *side,
+                                 column lambda, bool tall)
 {
-  peaks most = NO_PEAKS;
-  for (int t = 1; t < b->body_count; t++) {
-    const double *x = b->motion + (ptrdiff_t)MOTION * t;
-    most = include(&b->bodies[t], baum_i_four_load(x), baum_i_four_load(x + 4), most);
+  column sum = {.low = baum_i_four_zero()};
+  for (int c = 0; c < 3; c++) {
+    sum = baum_i_column_add(sum, baum_i_column_load(b->sides + side->turn, 3, c, tall),
+                            b->bodies[side->body].spin[c], tall);
   }
-  return size_of(b, most);
+  four all = baum_i_four_magnitude(baum_i_four_times(sum.low, lambda.low));
+  if (tall) {
+    all = baum_i_four_plus(all, baum_i_four_of(baum_i_magnitude(sum.high * lambda.high)));
+  }
+  return baum_i_four_sum(all);
+}
+
+/* Returns the largest spin of a thin body that the multipliers of one node cause, relative to the
+ * whole spin or to `size`. */
+BAUM_I_INLINE double largest_spin(const baum_i_space *b, const baum_i_space_node *node, bool tall,
+                                  double size)
+{
+  double most = 0.0;
+  column lambda = baum_i_column_load(b->nodes + node->at, 1, 0, tall);
+  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+    const baum_i_space_side *side = &b->side_list[s];
+    const baum_i_space_body *body = &b->bodies[side->body];
+    if (body->thin) {
+      double whole = fabs(spin_of(body, b->motion + (ptrdiff_t)MOTION * side->body + 4));
+      most = larger_of(share(pushed_spin(b, side, lambda, tall), larger_of(whole, size)), most);
+    }
+  }
+  return most;
+}
+
+BAUM_I_INLINE double amplify(const baum_i_space *b, int island, bool thin)
+{
+  peaks pushes = NO_PEAKS;
+  double spins = 0.0;
+  double size = largest_motion(b, island, thin);
+  const int32_t *last = b->island_nodes + b->node_start[island + 1];
+  for (const int32_t *at = b->island_nodes + b->node_start[island]; at < last; at++) {
+    const baum_i_space_node *node = &b->list[*at];
+    bool tall = node->rows > 4;
+    pushes = tall ? include_pushes(b, node, true, thin, pushes)
+                  : include_pushes(b, node, false, thin, pushes);
+    if (thin) {
+      spins = larger_of(largest_spin(b, node, tall, size), spins);
+    }
+  }
+  return larger_of(share(size_of(b, pushes), size), spins);
 }
 
 static double amplification(const baum_i_space *b)
 {
-  peaks pushes = NO_PEAKS;
-  for (int k = 0; k < b->node_count; k++) {
-    const baum_i_space_node *node = &b->list[k];
-    pushes = node->rows > 4 ? include_pushes(b, node, true, pushes)
-                            : include_pushes(b, node, false, pushes);
+  double most = 0.0;
+  for (int i = 1; i < b->island_count; i++) {
+    most = larger_of(b->has_thin ? amplify(b, i, true) : amplify(b, i, false), most);
   }
-  return size_of(b, pushes) / largest_motion(b);
+  return most;
 }
 
 /* Replaces lambda of one node by J pull - rest. */
@@ -398,83 +476,93 @@ static void gather(baum_i_space *b)
   }
 }
 
-/* Adds the corrections to the saved multipliers. Returns their largest relative change. */
-static double add_changes(const baum_i_space *b)
+/* Adds the corrections to the saved multipliers of an island. Returns their largest change relative
+ * to the largest multiplier. */
+static double add_changes(const baum_i_space *b, int island)
 {
   four changes = baum_i_four_zero();
   four sizes = baum_i_four_zero();
-  for (int k = 0; k < b->node_count; k++) {
-    const baum_i_space_node *node = &b->list[k];
+  const int32_t *last = b->island_nodes + b->node_start[island + 1];
+  for (const int32_t *at = b->island_nodes + b->node_start[island]; at < last; at++) {
+    const baum_i_space_node *node = &b->list[*at];
     double *numbers = b->nodes + node->at;
     bool tall = node->rows > 4;
+    column unit = baum_i_column_load(b->units + node->place, 1, 0, tall);
     column change = baum_i_column_load(numbers, 1, 0, tall);
     column sum = baum_i_column_load(b->rest_low + node->place, 1, 0, tall);
     sum = baum_i_column_add(sum, change, 1.0, tall);
     baum_i_column_store(numbers, 1, 0, tall, sum);
-    changes = larger(baum_i_four_of(change.high), larger(change.low, changes));
-    sizes = larger(baum_i_four_of(sum.high), larger(sum.low, sizes));
+    changes = larger(baum_i_four_times(change.low, unit.low), changes);
+    sizes = larger(baum_i_four_times(sum.low, unit.low), sizes);
+    if (tall) {
+      changes = larger(baum_i_four_of(change.high * unit.high), changes);
+      sizes = larger(baum_i_four_of(sum.high * unit.high), sizes);
+    }
   }
-  double size = largest(sizes);
-  return size > 0.0 ? largest(changes) / size : 0.0;
-}
-
-/* Returns the largest change of accelerations relative to the largest acceleration. */
-static double change_of_motion(const baum_i_space *b, const double *before)
-{
-  peaks changes = NO_PEAKS;
-  for (int t = 1; t < b->body_count; t++) {
-    ptrdiff_t at = (ptrdiff_t)MOTION * t;
-    four x = baum_i_four_minus(baum_i_four_load(b->motion + at), baum_i_four_load(before + at));
-    four y =
-      baum_i_four_minus(baum_i_four_load(b->motion + at + 4), baum_i_four_load(before + at + 4));
-    changes = include(&b->bodies[t], x, y, changes);
-  }
-  double size = largest_motion(b);
-  return size > 0.0 ? size_of(b, changes) / size : 0.0;
+  return share(largest(changes), largest(sizes));
 }
 
 /* If joints do not hold a slender body about its axis, its raised moment of inertia makes all
- * changes about the axis much too small, and they do not decrease. Changes below NOISE times the
- * largest y may be rounding errors. */
+ * changes of its spin much too small, and they do not decrease. Changes below NOISE times the
+ * accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 
-/* Returns 0 if the changes of all slender bodies about their axes decrease quickly, otherwise 1. */
-static double compare_twists(const baum_i_space *b, const double *before)
+/* Returns the change of the spin of a thin body, relative to the spin or to the accelerations of
+ * its island, or 1 if the body is slender and the changes do not decrease quickly. */
+static double change_of_spin(const baum_i_space *b, int t, const double *before, double others)
 {
-  if (!baum_i_space_must_refine(b)) {
-    return 0.0;
+  const baum_i_space_body *body = &b->bodies[t];
+  ptrdiff_t at = (ptrdiff_t)MOTION * t + 4;
+  double spin = spin_of(body, b->motion + at);
+  double change = fabs(spin - spin_of(body, before + at));
+  double size = larger_of(fabs(spin), others);
+  const double *u = b->lack + (ptrdiff_t)4 * t;
+  bool slender = baum_i_space_must_refine(b) && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
+  bool slow = slender && change > SLOWEST * b->spins[t] && change > NOISE * size;
+  b->spins[t] = change;
+  return slow ? 1.0 : share(change, size);
+}
+
+/* Returns the largest change of accelerations of an island, relative to the largest one. */
+BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const double *before,
+                                      bool thin)
+{
+  peaks changes = NO_PEAKS;
+  double spins = 0.0;
+  double size = largest_motion(b, island, thin);
+  const int32_t *last = b->island_bodies + b->body_start[island + 1];
+  for (const int32_t *t = b->island_bodies + b->body_start[island]; t < last; t++) {
+    ptrdiff_t at = (ptrdiff_t)MOTION * *t;
+    four x = baum_i_four_minus(baum_i_four_load(b->motion + at), baum_i_four_load(before + at));
+    four y =
+      baum_i_four_minus(baum_i_four_load(b->motion + at + 4), baum_i_four_load(before + at + 4));
+    changes = include(&b->bodies[*t], x, y, thin, changes);
+    if (thin && b->bodies[*t].thin) {
+      spins = larger_of(change_of_spin(b, *t, before, size), spins);
+    }
   }
-  four sizes = baum_i_four_zero();
-  for (int t = 1; t < b->body_count; t++) {
-    sizes = larger(baum_i_four_load(b->motion + (ptrdiff_t)MOTION * t + 4), sizes);
-  }
-  double noise = NOISE * largest(sizes);
-  bool fine = true;
-  for (int t = 1; t < b->body_count; t++) {
-    double twist = fabs(baum_i_space_twist(b, t, b->motion) - baum_i_space_twist(b, t, before));
-    fine = fine && (twist <= SLOWEST * b->twists[t] || twist <= noise);
-    b->twists[t] = twist;
-  }
-  return fine ? 0.0 : 1.0;
+  return larger_of(share(size_of(b, changes), size), spins);
 }
 
 static double correct(baum_i_space *b)
 {
   double *before = b->pull_low;
-  memcpy(before, b->motion, (size_t)(MOTION * b->body_count) * sizeof *before);
   gather(b);
   forward(b);
   for (int i = 0; i < MOTION * b->body_count; i += 4) {
-    four sum = baum_i_four_plus(baum_i_four_load(b->motion + i), baum_i_four_load(b->pull + i));
-    baum_i_four_store(b->motion + i, sum);
+    four x = baum_i_four_load(b->motion + i);
+    baum_i_four_store(before + i, x);
+    baum_i_four_store(b->motion + i, baum_i_four_plus(x, baum_i_four_load(b->pull + i)));
   }
   backward(b);
-  double change = add_changes(b);
-  double moved = change_of_motion(b, before);
-  double slow = compare_twists(b, before);
-  moved = slow > moved ? slow : moved;
-  return change > moved ? change : moved;
+  double most = 0.0;
+  for (int i = 1; i < b->island_count; i++) {
+    double moved =
+      b->has_thin ? change_of_motion(b, i, before, true) : change_of_motion(b, i, before, false);
+    most = larger_of(add_changes(b, i), larger_of(moved, most));
+  }
+  return most;
 }
 
 /* ---- results ---- */

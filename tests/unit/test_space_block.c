@@ -213,7 +213,8 @@ static void compare_corrections(const pair *p)
     assert_true(kernel->read_motion(p->space[k], a[k]));
   }
   compare_nodes(p, 1e-11);
-  ASSERT_NEAR(change[1], change[0], 1e-9, 0.0);
+  /* the change of the island in which rounding errors grow most may be the largest */
+  ASSERT_NEAR(change[1], change[0], fmax(1e-9, 1e-13 * amplification[0]), 0.0);
   ASSERT_NEAR(amplification[1], amplification[0], 1e-9, 0.0);
   /* rounding errors grow by the amplification */
   assert_alike(a[1], a[0], p->w[0]->mechanism->nv, fmax(1e-10, 1e-14 * amplification[0]), 0.0);

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Random mechanisms of slender rods, and a comparison of their accelerations with a solution in
+ * quadruple precision of the same equations. A mechanism consists of up to three islands whose
+ * masses, lengths and accelerations differ by large factors. Joints lie on the axes of the rods or
+ * beside them, and half of the rods have full inertia tensors. The ratio of the axial moment of
+ * inertia to the transverse one is 0, or between 1e-12 and 1e-3. */
+#ifndef BAUM_TEST_SLENDER_RODS_H
+#define BAUM_TEST_SLENDER_RODS_H
+
+#include "random_mechanism.h"
+
+typedef enum slender_verdict {
+  SLENDER_RIGHT,    /* the error is at most SLENDER_ERROR */
+  SLENDER_ROUNDED,  /* rounding M, J, g and gamma explains the error */
+  SLENDER_UNJUDGED, /* it does, but rounding changes the accelerations by more than 1e-3 */
+  SLENDER_REFUSED,  /* refused, because rows are dependent or rounding changes everything */
+  SLENDER_FALSE_REFUSAL,
+  SLENDER_WRONG, /* wrong without a message */
+  SLENDER_VERDICTS
+} slender_verdict;
+
+/* The largest permitted error. Errors of each island are relative to the largest acceleration in
+ * this island; those of spins about the axes of rods are also relative to the spin itself.
+ * Accelerations of origins are divided by the length of the island. A thousand times the effect of
+ * rounding is added. */
+static const double SLENDER_ERROR = 1e-9;
+
+/* Classes of mechanisms by their smallest ratio of moments, in powers of ten. */
+enum { SLENDER_CLASSES = 14 };
+
+typedef struct slender_tally {
+  long mechanisms;
+  long not_projected;
+  long counts[SLENDER_VERDICTS];
+  long by_class[SLENDER_CLASSES][SLENDER_VERDICTS];
+  double worst;         /* largest error of SLENDER_RIGHT */
+  double worst_rounded; /* largest error of SLENDER_ROUNDED */
+} slender_tally;
+
+/* Tests the mechanism of a seed in two configurations. `unit` is the number of units of length in a
+ * metre. *first is the verdict of the first configuration, unless it is NULL. */
+void slender_judge(uint64_t seed, double unit, slender_tally *tally, slender_verdict *first);
+
+#endif
