@@ -53,7 +53,7 @@ def mechanism() -> baum.Mechanism:
         mass=0.2,
         inertia=bar_inertia(0.2, CRANK),
         position=a / 2,
-        angular_velocity=(None, None, SPEED),
+        angular_velocity=(0, 0, SPEED),
     )
     rod = m.spatial_body(
         "rod",
