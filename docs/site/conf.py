@@ -34,6 +34,7 @@ html_title = f"baum {release}"
 html_static_path = ["static"]
 html_extra_path = [str(ROOT / "build" / "site-extra")]
 html_css_files = ["site.css"]
+html_js_files = ["tabs.js"]
 html_copy_source = False
 html_show_sourcelink = False
 html_show_sphinx = False
