@@ -29,11 +29,18 @@ struct baum_i_whitening {
 
 /* ---- create ---- */
 
+/* Blocks may be out of order, with gaps between their values. */
+static size_t larger(size_t x, size_t y)
+{
+  return x > y ? x : y;
+}
+
 static size_t mass_size(const baum_i_kkt_structure *s)
 {
   size_t size = 0;
   for (int b = 0; b < s->mass_block_count; b++) {
-    size += (size_t)s->mass_blocks[b].size * (size_t)s->mass_blocks[b].size;
+    const baum_i_mass_block *block = &s->mass_blocks[b];
+    size = larger(size, (size_t)block->value + (size_t)block->size * (size_t)block->size);
   }
   return size;
 }
@@ -42,7 +49,8 @@ static size_t jacobian_size(const baum_i_kkt_structure *s)
 {
   size_t size = 0;
   for (int b = 0; b < s->row_block_count; b++) {
-    size += (size_t)s->row_blocks[b].rows * (size_t)s->row_blocks[b].cols;
+    const baum_i_row_block *block = &s->row_blocks[b];
+    size = larger(size, (size_t)block->value + (size_t)block->rows * (size_t)block->cols);
   }
   return size;
 }
