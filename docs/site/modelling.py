@@ -76,6 +76,7 @@ def symbols(name):
     text = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
     start = r"A joint in space" if name in kinds("joint", "spatial") else r"In the equations, the indices"
     found = re.search(rf"^{start}.*?\n\n", text, flags=re.M | re.S)[0]
+    found = found if name == "planar_gear" else found.replace(", and c to the carrier", "").replace(" One of these bodies", " One of them")
     return re.sub(r" The last column .*?\n\n", "\n\n", found, flags=re.S).replace("](space.md", "](../docs/space.md").replace(
         "In the table, ", ""
     )
@@ -193,8 +194,9 @@ class Page:
         text += f"{fields(xml, self.name)}\n"
         found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
         if found:
-            text += f"## What a run can record\n\n`record=[\"{self.element.name}.{found[0][1:].split('`')[0]}\"]`, and with other "
-            text += f"names in the same way; in parentheses, how many numbers: {', '.join(found)}.\n\n"
+            first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
+            text += f"## What a run can record\n\nFor example, `{first}`. The names that can follow the dot, with the count of their "
+            text += f"numbers in parentheses, are: {', '.join(found)}.\n\n"
         links = uses(self.method)
         text += f"Used in: {', '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
@@ -206,7 +208,8 @@ class Page:
         if self.kind.family == "joint" and len(self.cells) > 2:
             coordinate = "none" if self.cells[1] == "-" else self.cells[1]
             text += f"**Coordinate:** {coordinate}. **Degrees of freedom removed:** {self.cells[2]}.\n\n"
-        return text if self.kind.family == "body" else text + symbols(self.name)
+        explained = self.kind.family == "joint" or self.name.endswith("al_spring") or self.name == "planar_spring"
+        return text + symbols(self.name) if explained else text
 
 
 def main():
