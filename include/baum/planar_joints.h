@@ -82,7 +82,9 @@ typedef struct baum_planar_rack_and_pinion_def {
    *  Default: 0, must be set.
    */
   double radius;
-  double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
+   *  configuration. */
+  double offset;
 } baum_planar_rack_and_pinion_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -137,7 +139,9 @@ typedef struct baum_planar_gear_def {
   /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
    *  set. */
   double radius_b;
-  double offset; /**< [m] in the row above. Default: NaN, the value in the design configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
+   *  configuration. */
+  double offset;
 } baum_planar_gear_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -78,7 +78,7 @@ static baum_status evaluate_formula(sample *at, double t)
   return baum_i_catalog_fail(
     BAUM_ERR_UNSUPPORTED,
     "catalogue: with these parameters the formulas of \"%s\" may be off by "
-    "%.1e at t = %g s, which is more than their %g digits",
+    "%.1e at t = %g s, so they do not have the stated accuracy of %g digits",
     of->name, off, t, fmin(of->digits_q, of->digits_v));
 }
 

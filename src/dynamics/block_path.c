@@ -24,7 +24,7 @@ static const double SETTLED_IN_SPACE = 1e-9;
 static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
-/* In space, the relative error of a is about eps amplification / pivot. The pivot is the weakest
+/* In space, the relative error of a is about eps * amplification / pivot. The pivot is the weakest
  * one, and the amplification (space_block.h) tells how much a = a0 - W J^T lambda increases errors
  * of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if amplification / pivot is at
  * most MOST_LOST. Their errors against quadruple precision were below 1e-10 in 1500 random
