@@ -140,8 +140,8 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
-/* Makes the frame in space of a planar body. Only the last column of L^-T is not zero, where L L^T is
- * the inertia tensor of the body. */
+/* Makes the frame in space of a planar body. Only the last column of L^-T is not zero, where L L^T
+ * is the inertia tensor of the body. */
 BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];

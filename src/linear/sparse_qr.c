@@ -207,8 +207,8 @@ static void find_fronts(baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Makes two lists for each front: its children, and the rows that enter at this front. The lists are
- * filled from the end, so that they ascend. */
+/* Makes two lists for each front: its children, and the rows that enter at this front. The lists
+ * are filled from the end, so that they ascend. */
 static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
 {
   for (int32_t f = 0; f < qr->front_count; f++) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds the points at which violations decay fastest.
  *
- * The symbols are those of docs/theory/stabilization.md: A = alpha h, B = (beta h)^2, and z = R(mu) is
- * the factor of one step. At a dead-beat point, all z are 0. A zero mu of R and its conjugate give
- * the dead-beat point A = -Re mu, B = |mu|^2.
+ * The symbols are those of docs/theory/stabilization.md: A = alpha h, B = (beta h)^2, and z = R(mu)
+ * is the factor of one step. At a dead-beat point, all z are 0. A zero mu of R and its conjugate
+ * give the dead-beat point A = -Re mu, B = |mu|^2.
  *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
  *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)

@@ -231,8 +231,9 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
   ASSERT_SAYS(baum_catalog_reference(&CRANK, (double)INFINITY, q, NULL), BAUM_ERR_ARGUMENT,
               "must be finite");
   const baum_catalog_choice swing = {.name = "pendulum"};
-  ASSERT_SAYS(baum_catalog_reference(&swing, 1e4, q, NULL), BAUM_ERR_UNSUPPORTED,
-              "may be off by |at t = 10000 s, so they do not have the stated accuracy of 12 digits");
+  ASSERT_SAYS(
+    baum_catalog_reference(&swing, 1e4, q, NULL), BAUM_ERR_UNSUPPORTED,
+    "may be off by |at t = 10000 s, so they do not have the stated accuracy of 12 digits");
   ASSERT_SAYS(baum_catalog_reference(&swing, 1e300, q, NULL), BAUM_ERR_UNSUPPORTED, "off by inf");
   assert_int_equal(baum_catalog_reference(&swing, -10.0, q, NULL), BAUM_OK);
   /* When the crank points downwards, the rod is too short to reach the guide, because
