@@ -57,14 +57,10 @@ BAUM_I_INLINE double find_next(const baum_simulation *run, const void *times, si
                        : (double)INFINITY;
 }
 
-baum_i_break baum_i_run_next_break(const baum_simulation *run)
+baum_i_break baum_i_run_find_break(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_schedule *jumps = &run->schedule;
-  if (m->break_count == 0 && jumps->count == 0) { /* this is so in most runs */
-    double never = run->problem.direction * (double)INFINITY;
-    return (baum_i_break){never, never};
-  }
   double from = baum_i_run_last_end(run);
   double a = find_next(run, m->breaks, sizeof *m->breaks, m->break_count, from);
   double b = find_next(run, jumps->jumps, sizeof *jumps->jumps, jumps->count, from);

@@ -138,7 +138,11 @@ void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state)
 {
   if (run->crossings) {
     int joint = -1;
-    double pivot = baum_i_smallest_pivot(run->workspace, &joint);
+    double pivot = baum_i_smallest_pivot(run->workspace, NULL);
+    if (pivot < 2.0 * BAUM_I_NEAR_PIVOT * run->crossings->usual) {
+      /* Only near-singular states need the joint. The factor 2 covers rounding. */
+      (void)baum_i_smallest_pivot(run->workspace, &joint);
+    }
     note_state(run, state, pivot, joint);
   }
 }

@@ -152,7 +152,7 @@ static void observe_large(baum_simulation *run, double t)
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
   baum_counters *c = &run->counters;
-  if (baum_i_run_has_warned(run, BAUM_WARNING_VIOLATION) || c->max_phi <= 2.0 * run->judged_phi) {
+  if (c->max_phi <= 2.0 * run->judged_phi || baum_i_run_has_warned(run, BAUM_WARNING_VIOLATION)) {
     return;
   }
   run->judged_phi = c->max_phi;

@@ -79,7 +79,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
   const baum_i_state *state = &run->state;
-  if (!p || p->recent_count == 0) {
+  if (!p || p->recent_count == 0 || run->workspace->rows.count == 0) {
     return BAUM_OK;
   }
   double pivot = run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);

@@ -301,7 +301,17 @@ typedef struct baum_i_break {
 
 /* Return the next break after the last step in the direction of the run. Both times are infinite if
  * there is none. */
-baum_i_break baum_i_run_next_break(const baum_simulation *run);
+baum_i_break baum_i_run_find_break(const baum_simulation *run);
+
+/* Do the same, but return at once if there are no breaks at all, as in most runs. */
+static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
+{
+  if (run->workspace->mechanism->break_count == 0 && run->schedule.count == 0) {
+    double never = run->problem.direction * (double)INFINITY;
+    return (baum_i_break){never, never};
+  }
+  return baum_i_run_find_break(run);
+}
 
 /* Tell whether the last step ends at the near side of the break. */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
