@@ -21,7 +21,8 @@ baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *
 baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call)
 {
   if (first >= count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, but there are none", call, (long long)k);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, but there are no entries", call,
+                       (long long)k);
   }
   if (k < first || k >= count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld%s", call,

@@ -53,8 +53,8 @@ baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omi
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is relative to
  * its usual value. If `well_separated` is true, only a well-separated set is accepted. Without this
  * demand, a run next to a singular configuration would restart again and again. Returns true if the
- * rows have changed. The last solution is then lost. This function allocates memory, but only
- * rarely. */
+ * rows have changed. The accelerations and multipliers computed last are then no longer available.
+ * This function allocates memory, but only rarely. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
                         bool well_separated);
 

@@ -218,12 +218,12 @@ BAUM_I_INLINE void put(column *x, int i, four y, int c)
   }
 }
 
-/* A direction y on body b, and its first and second derivatives relative to body a without the
- * accelerations. For an axis x on body a, Phi' = x . z and gamma = -x . bend. */
+/* A direction y on body b. For the row x . y with an axis x on body a, Phi' is x . z and gamma is
+ * -x . bend. */
 typedef struct direction {
   four y;
-  four z;
-  four bend;
+  four z;    /* the time derivative of y, relative to body a */
+  four bend; /* the second derivative without the terms of accelerations */
 } direction;
 
 BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_space_frame *g,

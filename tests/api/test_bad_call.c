@@ -451,7 +451,7 @@ static void outputs_of_a_run_may_not_be_null(void **state)
   ASSERT_SAYS(baum_simulation_warning(run, 0, &warning, 0), BAUM_ERR_ARGUMENT,
               "caller_size is too small");
   ASSERT_SAYS(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_ERR_ARGUMENT,
-              "k is 0, but there are none");
+              "k is 0, but there are no entries");
   ASSERT_SAYS(baum_simulation_warning(run, -1, &warning, sizeof warning), BAUM_ERR_ARGUMENT,
               "k is -1");
   assert_string_equal(warning.text, "as is");

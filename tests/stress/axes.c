@@ -124,7 +124,7 @@ typedef struct decades {
   int from, to, by; /* the exponents of ten */
   const way *const *ways;
   bool zero;    /* whether the first value is 0 */
-  int64_t most; /* largest number of steps, or 0 for the number of an ordinary cell */
+  int64_t most; /* largest number of steps; 0 means the one of ordinary cells */
 } decades;
 
 static const decades DECADES[] = {
