@@ -293,7 +293,7 @@ static void wrong_calls_are_refused(void **state)
   ASSERT_SAYS(baum_mechanism_get_outline(m, s.flat, 1, &got, sizeof got), BAUM_ERR_ARGUMENT,
               "k is 1");
   ASSERT_SAYS(baum_mechanism_get_outline(m, s.solid, 0, &got, sizeof got), BAUM_ERR_ARGUMENT,
-              "there are none");
+              "there are no entries");
   ASSERT_SAYS(baum_mechanism_get_outline(m, s.flat, 0, NULL, sizeof got), BAUM_ERR_ARGUMENT,
               "out is NULL");
   ASSERT_SAYS(baum_mechanism_get_outline(m, other.flat, 0, &got, sizeof got), BAUM_ERR_ARGUMENT,
