@@ -118,11 +118,21 @@ baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double
   return pair;
 }
 
-double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row)
+double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                                  double *gradient)
 {
   const vector x = vector_of(pair, row.x);
   const vector y = vector_of(pair, row.y);
+  if (gradient) {
+    memset(gradient, 0, COLUMNS * sizeof *gradient);
+    add_gradient(pair, 1.0, &x, &y, gradient);
+  }
   return baum_i_dot3(x.value, y.value);
+}
+
+double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row)
+{
+  return baum_i_spatial_gradient_at(pair, row, NULL);
 }
 
 /* The vectors x and y of a product, each with its first and second derivatives along a motion. */
