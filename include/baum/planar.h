@@ -356,8 +356,9 @@ typedef struct baum_planar_load_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */
-  double force[2];    /**< [N] Default: (0, 0). */
-  double torque;      /**< [N m] counter-clockwise. Default: 0. */
+  /** [N] in ground axes, or in body axes if `follows_body` is true. Default: (0, 0). */
+  double force[2];
+  double torque; /**< [N m] counter-clockwise. Default: 0. */
   /** True if the force rotates with the body. Default: false, the force is in ground axes. */
   bool follows_body;
   baum_input_id input; /**< An input whose value multiplies force and torque. Default: none. */
