@@ -315,7 +315,7 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT
  *  - prismatic joint, point on a line: DISPLACEMENT
- *  - cylindrical joint: DISPLACEMENT, ANGLE
+ *  - cylindrical joint, screw: DISPLACEMENT, ANGLE
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
@@ -342,15 +342,16 @@ typedef enum baum_joint_coordinate {
  *  / 2, or a law of your own. If the coordinate is an angle of a spatial joint, whole revolutions
  *  do not count in this row. */
 typedef struct baum_driver_def {
-  size_t struct_size;               /**< Set by the default. Do not write. */
-  const char *name;                 /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
-  double value;                     /**< [rad or m] s at t = 0. Default: 0. */
-  double rate;                      /**< [rad/s or m/s] s' at t = 0. Default: 0. */
-  double acceleration;              /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;                 /**< Replaces the polynomial. Default: NULL. */
-  void *user;                       /**< Passed to law. Not owned. Default: NULL. */
-  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
+  double value;        /**< [rad or m] s at t = 0. Default: 0. */
+  double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
+  double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
+  baum_law_fn *law;    /**< Replaces the polynomial. Default: NULL. */
+  void *user;          /**< Passed to law. Not owned. Default: NULL. */
+  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
 } baum_driver_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -408,10 +409,12 @@ typedef struct baum_coupling_def {
   /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
    *  configuration. */
   double offset;
-  baum_coupling_fn *law;              /**< Replaces ratio and offset. Default: NULL. */
-  void *user;                         /**< Passed to law. Not owned. Default: NULL. */
-  baum_joint_coordinate coordinate_a; /**< [-] Default: BAUM_COORDINATE_FIRST. */
-  baum_joint_coordinate coordinate_b; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
+  void *user;            /**< Passed to law. Not owned. Default: NULL. */
+  /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate_a;
+  /** [-] which coordinate of joint_b. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate_b;
 } baum_coupling_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -503,12 +506,13 @@ typedef int baum_spring_fn(double length, double rate, double out[3], void *user
  *  A run counts the revolutions of an angle of a spatial joint, so the spring winds up further with
  *  each revolution. The functions of a workspace use angles between -pi and pi. */
 typedef struct baum_joint_spring_def {
-  size_t struct_size;               /**< Set by the default. Do not write. */
-  const char *name;                 /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
-  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
-  double stiffness;                 /**< [N m/rad or N/m] >= 0. Default: 0. */
-  double damping;                   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
+  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
+  double stiffness; /**< [N m/rad or N/m] >= 0. Default: 0. */
+  double damping;   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;

@@ -39,9 +39,10 @@ typedef struct baum_planar_body_def {
   double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
   /** [m] of the centre of mass in the design configuration. Default: (0, 0). */
   double position[2];
-  double angle;            /**< [rad] of the body axes in the design configuration. Default: 0. */
-  double velocity[2];      /**< [m/s] of the centre of mass at the start. Default: NaN, free. */
-  double angular_velocity; /**< [rad/s] at the start. Default: NaN, free. */
+  double angle; /**< [rad] of the body axes in the design configuration. Default: 0. */
+  /** [m/s] of the centre of mass at the start. Default: NaN, assembly determines it. */
+  double velocity[2];
+  double angular_velocity; /**< [rad/s] at the start. Default: NaN, assembly determines it. */
   bool held;               /**< Assembly keeps the design position and angle. Default: false. */
 } baum_planar_body_def;
 
@@ -74,7 +75,7 @@ typedef struct baum_planar_particle_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
-  double velocity[2]; /**< [m/s] at the start. Default: NaN, free. */
+  double velocity[2]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_planar_particle_def;
 

@@ -254,18 +254,18 @@ class StudyEntry(NamedTuple):
     name: Such as "rk8 projection, rtol 1e-06".
     message: Why the entry was refused or failed; otherwise its first warning; "" if there is
         none.
-    integrator: Its integrator.
-    formulation: Its formulation; never "default".
-    gains: Its gain rule, as given in the options.
+    integrator: The integrator.
+    formulation: The formulation; never "default".
+    gains: The gain rule, as given in the options.
     step: [s] NaN for entries with rtol.
     rtol: [-] NaN for entries with a step.
     method: [-] see methods.
     state: done, refused, failed, timed_out or waiting
-    status: status of its run
+    status: status of the run of the entry
     at_floor: error is at the uncertainty of the reference
     untrusted: the reference is not trusted, so neither are the errors
-    off: another motion: error_q above 0.1, or a branch warning
-    unstable: its gains do not damp with this step
+    off: on another motion: error_q above 0.1, or a branch warning
+    unstable: its gains do not damp violations at this step
     alpha: [1/s] alpha in use; 0: no gains
     beta: [1/s] beta in use; 0: no gains
     error: [-] the error, see error
@@ -280,14 +280,14 @@ class StudyEntry(NamedTuple):
     energy_error: [J] drift of energy against the reference
     energy_error_final: [J] drift of energy at the last sample
     error_estimate: [-] error_estimate of counters
-    error_validated: [-] error over twice the span and from perturbed starts
+    error_validated: [-] largest error of the validation, see option validate
     max_phi: [m or rad] largest constraint violation |Phi| over all steps
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
     violation_work: [J] work of violated constraints, see energy_account
     projection_work: [J] change of energy by projections
     gains_work: [J] work of the gains, see energy_account
-    work: [evaluations] see "work"; the same on every machine
-    cpu: [s] least CPU time to create and run it, without taking samples
+    work: [evaluations] evaluations, factorizations and implicit iterations
+    cpu: [s] least CPU time to create and run it, without samples
     cpu_spread: [s] second least CPU time minus the least
     repeats: [-] number of runs that measured the CPU time
     evaluations: [-] evaluations in the run, without those for samples
