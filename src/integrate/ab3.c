@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The explicit Adams method of three steps, order 3 (J. C. Adams, in: F. Bashforth, 1883).
  *
+ * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1):
+ *
  *   w_0 = theta + 3 theta^2/4 + theta^3/6
  *   w_1 = -theta^2 - theta^3/3
  *   w_2 = theta^2/4 + theta^3/6;  b = 23/12, -16/12, 5/12

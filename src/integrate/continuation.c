@@ -8,19 +8,19 @@
  * does not ensure this: where two branches pass close to each other, a long step may end next to
  * the wrong branch and converge to it. The sign of det J distinguishes the branches: it is constant
  * along a path without singular configurations, and opposite beyond a fold or a crossing. With J0
- * at the beginning and J1 at the end,
+ * at the beginning of the step and J1 at its end, the ratio of the determinants is
  *
- *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
+ *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv)
  *
- * this ratio is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the
- * step is sufficient: |D| is then also below 1 along the step, because D grows about in proportion
- * to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
+ * It is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the step is
+ * sufficient: |D| is then also below 1 along the step, because D grows about in proportion to the
+ * length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
  * Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe z that moves
  * every coordinate by a fraction of its scale:
  *
- *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
+ *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i
  *
- * This number is close to the largest eigenvalue of D or above it, because z has a component in
+ * `turning` is close to the largest eigenvalue of D or above it, because z has a component in
  * every critical direction. Each product D z takes one solution of linear equations. Their matrix
  * is already factored, because v and a need it, too.
  *
@@ -187,7 +187,8 @@ static bool converges(int k, double size, double last)
   return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
 }
 
-/* Find the configuration by Newton's method. The workspace then contains its position stage. */
+/* Find the configuration by Newton's method. The workspace then contains Phi and J at this
+ * configuration. */
 static bool find_root(const baum_i_continuation *path, baum_i_configuration *to,
                       baum_i_verdict *verdict)
 {

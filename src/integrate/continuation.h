@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Configurations on the path q(t) of Phi(q, t) = 0 of mechanisms without degrees of freedom, and
- * one guarded step from one to the next. */
+/* The path q(t) that solves Phi(q, t) = 0, for mechanisms without degrees of freedom. The functions
+ * take one step along the path, and refuse a step that may lead to another branch. */
 #ifndef BAUM_I_INTEGRATE_CONTINUATION_H
 #define BAUM_I_INTEGRATE_CONTINUATION_H
 
@@ -12,8 +12,7 @@ typedef struct baum_i_configuration {
   double *q; /* (nq) */
   double *v; /* (nv) J v = nu */
   double *a; /* (nv) J a = gamma */
-  /* (nv) direction in which J has changed most since the last configuration; zeros if there is
-   * none */
+  /* (nv) direction in which J has changed most since the last configuration; zeros at the start */
   double *turn;
   double *jacobian; /* (jacobian_size) */
 } baum_i_configuration;

@@ -77,8 +77,8 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
 
 /* ---- projection ---- */
 
-/* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): After Newton's
- * iteration q and v are moved onto the constraints by the least change in the metric of M. The
+/* Projection within the steps of BDF (E. Eich, SIAM J. Numer. Anal. 30, 1993): after Newton's
+ * iteration, q and v are moved onto the constraints by the least change in the metric of M. The
  * component of the estimated error of q normal to the constraint manifold is removed, because the
  * projection also removes this component of the true error:
  *
@@ -87,9 +87,10 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  * where the last J is without the rows of velocity level, which do not restrict q.
  *
  * The estimated error e_v of v is not changed, because the projection does not remove its whole
- * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q.
- * If P e_v is subtracted, errors are twice as large at the same tolerance and the same cost
- * (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to 1e-10).
+ * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q,
+ * where the subscript q denotes a derivative. If P e_v is subtracted, errors are twice as large at
+ * the same tolerance and the same cost (pendulum, slider-crank, four-bar, Andrews, rtol 1e-4 to
+ * 1e-10).
  *
  * CVODE adds the correction to its history, so that the next prediction starts at the projected
  * state. The history of Adams methods consists of values of f, which cannot be corrected in this

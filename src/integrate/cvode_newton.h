@@ -17,7 +17,8 @@ typedef struct baum_i_cvode_newton {
   double *jacobian;       /* the same for J */
 } baum_i_cvode_newton;
 
-/* As baum_i_sundials_klu_open() and _close(); attach newton->solver with newton->klu.matrix. */
+/* The same rules as for baum_i_sundials_klu_open() and _close() apply. Attach newton->solver to
+ * CVODE together with newton->klu.matrix. */
 baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials);
 void baum_i_cvode_newton_close(baum_i_cvode_newton *newton);
 

@@ -100,7 +100,7 @@ typedef struct alpha_run {
   double *memory;   /* memory of all arrays of this struct */
   double *moved;    /* (nv) displacement from q of the state to q of y */
   double *y;        /* (nq + nv + nc) q, v, lambda */
-  double *dy;       /* (nq + nv + nc) zeros, v', unused */
+  double *dy;       /* (nq + nv + nc) zeros, then v', then an unused part */
   double *residual; /* (nq + nv + nc) */
   double *x;        /* (nv + nc) */
   double *nudged;   /* (2 (nq + nv + nc)) y and dy with changed last digits */
@@ -108,8 +108,8 @@ typedef struct alpha_run {
 
 /* ---- begin ---- */
 
-/* Find v' and lambda by (5), and a by a difference along the motion. a is computed for the step
- * length of the grid, even if the first step has another length. */
+/* Find v' and lambda by equation (5) of docs/notation.md, and a by a difference along the motion. a
+ * is computed for the step length of the grid, even if the first step has another length. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;

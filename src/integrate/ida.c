@@ -9,17 +9,18 @@
  *   index 3   Phi
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
- * Rows of velocity level have Phi' also at index 3, and mu = 0 in GGL.
+ * For rows of velocity level the equation is Phi' = 0 also at index 3. In GGL their mu is 0.
  *
  * IDA solves these equations reliably only under the following conditions, which were found by
  * measurement:
  * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
  *   also velocities. At index 1, tolerance_lambda adds lambda to the test. In other forms the error
  *   estimate of lambda does not decrease with the step as it should. Newton's iteration has a
- *   separate convergence test that includes multipliers (ida_newton.c). Without it they diverge.
+ *   separate convergence test that includes multipliers (ida_newton.c). Without this test,
+ *   multipliers diverge.
  * - The start is consistent: q and v are projected if Phi or Phi' is among the equations and not
- *   small, and v' and lambda come from one solution of (5) or (7). IDA's own search for a
- *   consistent start can succeed with wrong accelerations.
+ *   small, and v' and lambda come from one solution of (5) or (7) of docs/notation.md. IDA's own
+ *   search for a consistent start can succeed with wrong accelerations.
  * - The length of the first step is prescribed. IDA's own choice is too large for index 3.
  * - The Jacobian is exact and sparse. Without the derivatives with respect to lambda, iterations
  *   fail.

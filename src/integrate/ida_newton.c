@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of IDA on y = (q, v, lambda), for GGL (q, v, lambda, mu), with y' = c y + ...
- * and c = O(1/h).
+/* Newton's iteration of IDA. The unknowns are y = (q, v, lambda), and for GGL (q, v, lambda, mu).
+ * BDF sets y' = c y + ..., where c = O(1/h).
  *
  * Convergence. The size of a correction d is the root of the sum of squares of
  *
@@ -13,21 +13,23 @@
  *            E = 1/100 (largest |mu_i| n_i) + |c| (largest W_jj s_j tolerance_q_j),
  *            whose second term is the uncertainty of W q' = c W q + ... = W v - J^T mu
  *
+ * where s_j is the scale of coordinate j, and W is the metric of GGL (docs/notation.md).
+ *
  * If lambda is in the error test, E is at most the tolerance of that test,
  *
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
- * which contains the kinetic energy at the rate 1/T, so that multipliers may vanish. The tolerance
- * of lambda_i is this energy divided by n_i. If tolerance_lambda is smaller than tolerance_q and
- * tolerance_v, Newton's iteration multiplies the tolerances of q and v by tolerance_lambda over the
- * smaller of the two. Without this factor, the remaining errors of q and v would cause errors of
- * lambda that no shorter step reduces. In measurements, runs without it took 40 times as many
- * steps.
+ * The second term, the kinetic energy at the rate 1/T, keeps this tolerance positive if all
+ * multipliers are zero. The tolerance of lambda_i is this energy divided by n_i. If
+ * tolerance_lambda is smaller than tolerance_q and tolerance_v, Newton's iteration multiplies the
+ * tolerances of q and v by tolerance_lambda / min(tolerance_q, tolerance_v). Without this factor,
+ * the remaining errors of q and v would cause errors of lambda that no shorter step reduces. In
+ * measurements, runs without this factor took 40 times as many steps.
  *
- * At index 3, v is a difference of q over h with the rounding error c eps s, and the tolerance of v
- * is at least |c| tolerance_q / 10. The iteration ends if the first correction is below IDA's bound
- * (0.33), or if the convergence rate of this step predicts an error below the bound after a later
- * correction.
+ * At index 3, v is a difference of q divided by h. Its rounding error is c eps s, where eps is the
+ * unit roundoff. The tolerance of v is therefore at least |c| tolerance_q / 10. The iteration ends
+ * if the first correction is below IDA's bound (0.33), or if the convergence rate of this step
+ * predicts an error below the bound after a later correction.
  *
  * IDA's own convergence test does not work for these equations. No fixed tolerance is suitable for
  * multipliers, because they may be zero and their rounding errors grow with c. Without any test
@@ -36,15 +38,15 @@
  * large; their rounding errors then changed q and v, and no step converged. IDA also uses the
  * convergence rate of an earlier step with the same matrix, which shortens steps by a third.
  *
- * Older matrices. With r = c / c0, the matrix A(c0) gives the present matrix A(c) up to terms that
- * are smaller by a factor of h:
+ * Older matrices. The matrix A(c0) was factored for an earlier coefficient c0. With r = c / c0 it
+ * gives the present matrix A(c), up to terms that are smaller by a factor of h:
  *
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
- * with the further entries R = r^2, C = r^-1 for mu, and with k = 2 for rows of velocity level at
- * index 3. The solution is therefore x = C A(c0)^-1 R b. IDA itself would multiply the solution by
- * 2 / (1 + r), which is a compromise for stiff equations. With this factor, each iteration leaves
- * the fraction (1 - r) / (1 + r) of the error of the multipliers. */
+ * For mu, the entry of R is r^2 and the entry of C is r^-1. For rows of velocity level at index 3,
+ * k = 2. The solution is therefore x = C A(c0)^-1 R b. IDA itself would multiply the solution by 2
+ * / (1 + r), which is a compromise for stiff equations. With this factor, each iteration leaves the
+ * fraction (1 - r) / (1 + r) of the error of the multipliers. */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -192,7 +194,7 @@ static double size_of_mu(const baum_i_ida_newton *newton, double c, const double
 
 /* ---- the test ---- */
 
-/* Test of convergence; NaN has not converged. */
+/* Test whether the iteration has converged. A NaN counts as not converged. */
 static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, sunrealtype tolerance,
                 N_Vector weights, void *user)
 {

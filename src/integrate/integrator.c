@@ -2,8 +2,8 @@
 /* Common functions of all integrators: properties, memory, accelerations and tolerances. This file
  * refers to no integrator, so a program links only the integrators that it calls.
  *
- * With the scale s_i of coordinate i (q and v have separate scales) and the rate w = 1/T, the
- * tolerances are
+ * Let s_i be the scale of coordinate i (q and v have separate scales), w = 1/T the rate of the
+ * problem, and f_q and f_v its factors tolerance_q and tolerance_v. The tolerances are
  *
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)

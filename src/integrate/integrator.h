@@ -22,17 +22,19 @@ typedef struct baum_i_problem {
   double alpha;     /* [1/s] >= 0 */
   double beta;      /* [1/s] >= 0 */
   double direction; /* +1 forward, -1 backward in time; multiplies alpha */
-  double rate;      /* [1/s] > 0, 1/T: velocities are compared with scale x rate */
-  double max_step;  /* [s] > 0, INFINITY for none; variable step */
+  /* [1/s] > 0, 1/T, where T is the time scale of the motion; scale x rate is a typical velocity */
+  double rate;
+  double max_step; /* [s] > 0, INFINITY for none; variable step */
 
   baum_workspace *workspace;
   baum_formulation formulation;
-  double step;             /* [s] > 0, or NaN: variable */
-  double rtol;             /* NaN for fixed step */
-  double atol;             /* >= 0 */
-  double tolerance_q;      /* [-] > 0, factors on rtol and atol */
-  double tolerance_v;      /* [-] > 0 */
-  double tolerance_lambda; /* [-] > 0; INFINITY: multipliers are not in the error test */
+  double step;        /* [s] > 0, or NaN: variable */
+  double rtol;        /* NaN for fixed step */
+  double atol;        /* >= 0 */
+  double tolerance_q; /* [-] > 0, factor on rtol and atol for positions */
+  double tolerance_v; /* [-] > 0, the same for velocities */
+  /* [-] > 0, the same for multipliers; INFINITY: they are not in the error test */
+  double tolerance_lambda;
   /* true if explicit methods with variable steps must refuse a step whose end the projection moves
    * far */
   bool distrusts_projection;
@@ -80,7 +82,7 @@ struct baum_integrator {
 
   /* Memory of a run. `open` initializes `memory` zeroed bytes and may fail with every status of a
    * run. `close` frees what `open` has allocated, even if `open` failed. Methods without memory
-   * have none of the three. baum_i_integrator_create() and _destroy() call them. */
+   * leave these three members zero. baum_i_integrator_create() and _destroy() call them. */
   size_t memory;
   baum_status (*open)(void *self, const void *table, const baum_i_problem *problem,
                       const baum_i_state *start);
@@ -141,8 +143,8 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
                                double *tolerance_v);
 
 /* Express the value of each row as a scaled displacement, using J of the workspace, and write the
- * absolute values to workspace->work_c (nc). Returns the largest of them. *row receives its row, or
- * -1 if there is none. */
+ * absolute values to workspace->work_c (nc). Returns the largest of them. *row receives the row of
+ * the largest one, or -1 if there are no rows. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
 /* Return the fraction, <= 1, of rtol and atol that the error test of a method uses. */
@@ -151,8 +153,8 @@ double baum_i_integrator_portion(const baum_integrator *integrator, double rtol)
 /* Tell whether a run uses past steps, so that it must be restarted after jumps. */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
-/* Fail with the message of an evaluation that failed, and add the step of length h from t to it. h
- * is 0 if no step had begun. */
+/* Fail with the message of a failed evaluation, followed by the start t and the length h of the
+ * step. h is 0 if no step had begun. */
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 

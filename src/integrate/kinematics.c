@@ -58,7 +58,7 @@ typedef struct kinematics_run {
   baum_i_configuration *trial;
   baum_i_configuration *spare;
   bool forgotten; /* the next step restarts */
-  double h;       /* [s] > 0, length with which the next step begins */
+  double h;       /* [s] > 0, length that the next step tries first */
   baum_i_statistics statistics;
   baum_i_kept_message evaluation; /* message of the last evaluation that failed */
 } kinematics_run;
@@ -177,8 +177,8 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
     t, resister.text);
 }
 
-/* Fail if the cause of the refusal is a callback, an evaluation or memory. Otherwise return BAUM_OK
- * and analyse the configuration in *at. */
+/* Fail if the cause of the refusal is a callback, an evaluation or memory. Otherwise return
+ * BAUM_OK, and write an analysis of the configuration to *at. */
 static baum_status fail_for_cause(kinematics_run *run, const baum_i_configuration *to,
                                   const baum_i_verdict *verdict, const char *when,
                                   baum_i_impasse *at)
@@ -328,8 +328,8 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
     t);
 }
 
-/* Find the configuration nearest to a state on its branch. It becomes both the start and the end of
- * the last step. */
+/* Find the configuration that is nearest to a given state and on its branch. This configuration
+ * becomes both the start and the end of the last step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;

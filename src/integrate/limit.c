@@ -3,8 +3,9 @@
 
 #include <string.h>
 
-/* [rad] Distance between states. The truncation error of the cubic is about the fourth power of
- * this distance, the rounding error 1e-16 divided by its square. */
+/* [rad] Distance between the states that define the cubic. The truncation error of the cubic is
+ * about the fourth power of this distance. The rounding error is 1e-16 divided by the square of
+ * this distance. */
 static const double APART = 0.003;
 /* Slowest motion for which a limit is computed, relative to the rate 1/T of the problem. Slower
  * motions have no clear direction. */

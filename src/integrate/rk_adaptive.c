@@ -3,9 +3,9 @@
  * Solving Ordinary Differential Equations I, 2nd ed. 1993, sections II.4 to II.6 and the appendix).
  * In the notation of rk.c, with K_(s+1) the rate at the end of the step:
  *
- *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v)
- *                 with a second one of order 3:  |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls
- *                 with h^8 where |E| alone falls with h^6
+ *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v).
+ *                 rk8 has a second estimate E3 of order 3. Its error is then taken as
+ *                 |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls with h^8. |E| alone falls with h^6
  *   interpolant   y + x (F_1 + (1 - x) (F_2 + x (F_3 + (1 - x) (F_4 + ...)))),  x = (t - t_n) / h,
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
@@ -41,7 +41,7 @@ static const double MOST_MOVED = 10.0;
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
- * half of this number suffices from T to the shortest step. */
+ * half of this number of tries shortens a step from the time scale T to the shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
@@ -218,8 +218,8 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
   return status;
 }
 
-/* Project the end and evaluate its rate. A jump of a driver's velocity does not affect the
- * accelerations; only the projection shows it. */
+/* Project the end and evaluate its rate. If the velocity that a driver prescribes jumps, the
+ * accelerations do not show this jump. Only the displacement by the projection shows it. */
 static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double *error)
 {

@@ -22,7 +22,7 @@ typedef struct baum_i_rk_pair {
   int extra;
   const double *extra_c;   /* (extra) */
   const double *extra_a;   /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
-  int dense;               /* number of F_4 ... of the interpolant */
+  int dense;               /* number of terms F_4, F_5, ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 

@@ -12,12 +12,13 @@
 #include "integrate/rk.h"
 
 typedef struct baum_i_rk_crossing {
-  double gap;   /* middle of the widest gap between stages, as a fraction of the step */
-  double ahead; /* [s] from the start of the step to a singular configuration; INFINITY: none is
-                   near */
-  double over;  /* [s] length of a step over a singular configuration */
-  double least; /* [s] a shorter step is replaced by `over`; 0: no singular configuration is near */
-  double pivot; /* at the start of the step, relative to the usual pivot */
+  double gap; /* middle of the widest gap between stages, as a fraction of the step */
+  /* [s] from the start of the step to a singular configuration; INFINITY: none is near */
+  double ahead;
+  double over; /* [s] length of a step over a singular configuration */
+  /* [s] a step shorter than this is lengthened to `over`; 0: no singular configuration is near */
+  double least;
+  double pivot;     /* at the start of the step, relative to the usual pivot */
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
   int held;         /* successive tiny steps near a singular configuration */
@@ -25,7 +26,7 @@ typedef struct baum_i_rk_crossing {
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
-/* Start at t. The rate there must be the last evaluation. */
+/* Start at t. The last evaluation must have been that of the rate at t. */
 void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double t);
 
@@ -33,8 +34,8 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
 void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                              const baum_i_problem *problem, double t);
 
-/* [s] Adjust the length of a step from t. *forced tells that the length was below `least`, so the
- * returned step passes over the configuration. */
+/* Adjust the length of a step from t, and return the new length [s]. *forced is set to true if the
+ * length was below `least`, so that the returned step passes over the configuration. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced);
@@ -43,8 +44,8 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
  * tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* Check the end of a step, which must be the last evaluation. Returns false if the step must not
- * end there. */
+/* Check the end of a step. The last evaluation must have been that of this end. Returns false if
+ * the step must not end there. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
 
 /* Continue after an accepted step. Its end is the start of the next step, which has the length

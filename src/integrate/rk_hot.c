@@ -50,8 +50,8 @@ static void combine(int n, int count, const double *weights, double h, const dou
   }
 }
 
-/* (sum + x) s. The product is not fused with the next sum, so that both versions of this file give
- * the same result. */
+/* (sum + x) s. The product is not fused with the next sum. Both compilations of this file
+ * (base/hot.h) therefore give the same result. */
 BAUM_I_INLINE baum_i_four nest(baum_i_four sum, const double *x, double s)
 {
   sum = baum_i_four_plus(sum, baum_i_four_load(x));

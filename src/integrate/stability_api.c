@@ -52,7 +52,7 @@ static baum_status check_pair(const void *first, const char *first_name, const v
   return check_out(second, second_name);
 }
 
-/* Check two arrays of `capacity` and their count. */
+/* Check the capacity of two arrays, the arrays, and the pointer for the number of their entries. */
 static baum_status check_arrays(int32_t capacity, const void *first, const char *first_name,
                                 const void *second, const char *second_name, const int32_t *count)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Proportional-integral and predictive control (K. Gustafsson, ACM TOMS 17, 1991, and 20, 1994;
- * Hairer, Wanner 1996, sections IV.2 and IV.8). With the error e_n of step n in units of the
- * tolerance, which grows with h^k:
+ * Hairer, Wanner 1996, sections IV.2 and IV.8). e_n is the error of step n in units of the
+ * tolerance, and it grows with h^k. s is a safety factor. The length h' of the next step is
  *
  *   accepted:  h' = h_n s e_n^-(1/k - 3 b/4) e_(n-1)^b,  b = 0.1 / k,  and no more than
  *                   h_n s e_n^-(1/k) (h_n / h_(n-1)) (e_(n-1) / e_n)^(1/k)

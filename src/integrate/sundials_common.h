@@ -68,8 +68,9 @@ void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, do
 /* Set dy to y' at y, with the accelerations workspace->a. */
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
-/* Newton's iterations solve for displacements dx (nv) in place of dq (nq), at a q near the
- * manifold: dq = N dx + n, where n is off the manifold, and n = 0 if q is a vector. */
+/* Newton's iterations solve for displacements dx (nv) instead of dq (nq). At a q near the
+ * configuration manifold, dq = N dx + n. n is the part of dq that points off the manifold, and n =
+ * 0 if q is a vector. */
 
 /* Return dx, which is valid until workspace->work_q is used again. work_q also stores n for
  * baum_i_sundials_join(). */

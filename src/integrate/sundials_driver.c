@@ -73,7 +73,7 @@ static baum_status fail_with_evaluation(const baum_i_sundials *run, double step)
   return baum_i_fail_in_step(run->evaluation, run->message, run->method->name, run->t, step);
 }
 
-/* Fail with the reason of a flag, or of an evaluation that failed. */
+/* Fail with the meaning of a flag, or with the message of an evaluation that failed. */
 static baum_status fail(const baum_i_sundials *run, int flag, double step)
 {
   if (run->evaluation != BAUM_OK) {
@@ -189,8 +189,8 @@ static void give_stop(baum_i_sundials *run)
 /* Fail with BAUM_ERR_STEP if a step between two times of SUNDIALS did not advance. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  /* A first step may be smaller than the rounding of a large t, if the motion during that time is
-   * negligible. */
+  /* A first step may be shorter than the rounding error of a large t. This is permitted if the
+   * motion in a time as short as this rounding error is negligible. */
   double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
   if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;
@@ -204,8 +204,8 @@ static baum_status check_progress(const baum_i_sundials *run, double before, dou
                      run->t, run->method->name, fabs(after - before), run->problem->rtol);
 }
 
-/* Take one step. The target tells SUNDIALS the direction of time. It is 10 T away, because SUNDIALS
- * limits the first step to a tenth of the distance to the target. */
+/* Take one step. The target tells SUNDIALS the direction of time. It is 10 T (T = 1/rate) away,
+ * because SUNDIALS limits the first step to a tenth of the distance to the target. */
 baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_sundials *run = self;
@@ -232,8 +232,9 @@ baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, b
 
 /* ---- inside the last step ---- */
 
-/* Convert t to the time of SUNDIALS. A time outside of the last step by rounding is moved into it.
- * Returns NaN if t is further outside, where IDA would extrapolate. */
+/* Convert t to the time of SUNDIALS. A time that is outside of the last step only by rounding is
+ * moved to the nearest end of the step. Returns NaN if t is further outside, where IDA would
+ * extrapolate. */
 static double find_inside(const baum_i_sundials *run, double t)
 {
   double end = 0.0;

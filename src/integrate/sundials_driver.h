@@ -19,7 +19,7 @@ typedef void baum_i_sundials_complain_fn(int flag, const char *module, const cha
 typedef struct baum_i_sundials_package {
   baum_i_sundials_kind kind;
 
-  /* Calls that differ between CVODE and IDA only in their names: BAUM_I_SUNDIALS_CALLS. */
+  /* Calls that differ between CVODE and IDA only in their names; set by BAUM_I_SUNDIALS_CALLS. */
   int (*set_complain)(void *memory, baum_i_sundials_complain_fn *function, void *user);
   int (*set_user)(void *memory, void *user);
   int (*set_weigh)(void *memory, int (*weigh)(N_Vector y, N_Vector weights, void *user));
@@ -44,8 +44,8 @@ typedef struct baum_i_sundials_package {
   int (*restart)(baum_i_sundials *run);
   /* Take one step towards target. Its end is written to run->y, its time to *tau. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
-  /* Free the allocations of the method's `open` and `attach`, which may not have been called.
-   * run->memory is freed before this call. */
+  /* Free what the method's `open` and `attach` have allocated. After a failure, they may not have
+   * run at all. run->memory is freed before this call. */
   void (*close)(baum_i_sundials *run);
 } baum_i_sundials_package;
 

@@ -155,9 +155,9 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   }
 }
 
-/* Tell whether a solution is accurate enough for Newton's iteration: with rows scaled by their
- * largest entry, the residual of each row must be at most 1e-6 of the largest terms. NaN is not
- * accurate. */
+/* Tell whether a solution is accurate enough for Newton's iteration: with each row divided by its
+ * largest entry, all residuals b - A x must be at most 1e-6 of the largest |b| + |A| |x| of any
+ * row. NaN is not accurate. */
 static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
 {
   sunindextype n = SUNSparseMatrix_Columns(klu->matrix);
@@ -206,7 +206,7 @@ int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Ve
   return flat ? baum_i_sundials_klu_solve(klu, x, b) : solve_displacements(klu, c, x, b);
 }
 
-/* ---- the front ---- */
+/* ---- the linear solver that SUNDIALS calls ---- */
 
 static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
 {

@@ -47,8 +47,9 @@ int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
  * displacements (nv). c is the coefficient of the matrix. */
 int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b);
 
-/* Create a linear solver of SUNDIALS that calls these functions with `content`. Free it with
- * SUNLinSolFree(). Returns NULL if out of memory. */
+/* Create a linear solver of SUNDIALS that consists of the functions `factor` and `solve`. They find
+ * `content` in its member of this name. Free it with SUNLinSolFree(). Returns NULL if out of
+ * memory. */
 SUNLinearSolver baum_i_sundials_front(const baum_i_sundials *sundials, void *content,
                                       int (*factor)(SUNLinearSolver, SUNMatrix),
                                       int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,
