@@ -249,6 +249,13 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
   return BAUM_OK;
 }
 
+/* The second change may be larger than the first, and a change with a kept matrix larger than the
+ * one before. */
+static bool diverges(int k, bool renewed, double size, double before)
+{
+  return !isfinite(size) || (k > 1 && renewed && size > 2.0 * before);
+}
+
 static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
                            double h)
 {
@@ -277,8 +284,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (done) {
       return BAUM_OK;
     }
-    /* The second change may be larger than the first. */
-    if (!isfinite(size) || (k > 1 && renew && size > 2.0 * before)) {
+    if (diverges(k, renew, size, before)) {
       break;
     }
   }
