@@ -185,7 +185,8 @@ static double auto_without_step(const baum_i_gain_context *context, double wante
     print_note(out, context, "");
     return wanted;
   }
-  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: no rate, 1 1/s is used)");
+  baum_i_print(out->note, sizeof out->note,
+               " (nothing moves at start: the rate is taken as 1 1/s)");
   return 1.0;
 }
 

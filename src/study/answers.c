@@ -363,7 +363,7 @@ static void explain(const setting *p, const baum_simulation_options *o, char *wh
   }
   bool fixed = !isnan(o->step);
   const char *unit = fixed ? " s" : "";
-  baum_i_append(why, size, ", between %s %.3g%s with %.2g and %.3g%s with %.2g",
+  baum_i_append(why, size, ", between %s %.3g%s (error %.2g) and %.3g%s (error %.2g)",
                 fixed ? "step" : "rtol", baum_i_setting(&p->coarse->options), unit,
                 p->coarse->out.error, baum_i_setting(&p->fine->options), unit, p->fine->out.error);
 }
@@ -377,8 +377,8 @@ static void add_margin(const baum_study *study, const setting *p, const question
   }
   baum_i_append(
     why, size,
-    "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
-    "of %.2g remains",
+    "; over twice the span, and from nearby starts, %s has an error of %.2g, which leaves a "
+    "margin of a factor of %.2g",
     p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_validated, p->margin);
   add_rival(study, p, *q, why, size);
 }
@@ -537,7 +537,7 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   baum_simulation_options o = options_of(study, &p);
   if (why && size > 0) {
     explain(&p, &o, why, size);
-    baum_i_append(why, size, "; a fifth of %.3g ms is in reserve because times vary",
+    baum_i_append(why, size, "; a fifth of the %.3g ms is kept in reserve, because times vary",
                   1e3 * seconds);
     add_drift(&o, why, size);
   }
