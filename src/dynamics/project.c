@@ -84,7 +84,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
   return stalled ? BAUM_OK
                  : baum_i_fail(BAUM_ERR_CONVERGENCE,
                                "t = %.9g s: projection of the positions does not converge (last "
-                               "change %.3g of the scale): the step is too large, the "
+                               "change %.3g times the scale): the step is too large, the "
                                "mechanism locks up here, or the configuration is near a "
                                "singular one",
                                t, last);

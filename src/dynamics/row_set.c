@@ -142,8 +142,9 @@ static baum_status replace_paths(baum_workspace *w)
   BAUM_I_TRY(w->motion ? baum_i_paths_create(w, &verdict, &made) : BAUM_OK);
   if ((w->path && !made.all) || (w->motion && !made.motion)) {
     baum_i_paths_destroy(&made);
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "the block solver does not suit the other set of rows");
+    return baum_i_fail(
+      BAUM_ERR_UNSUPPORTED,
+      "the block solver is not suitable if these other redundant rows are omitted");
   }
   copy_counters(before.all, made.all);
   copy_counters(before.motion, made.motion);
@@ -301,10 +302,10 @@ static void find_violations(const baum_workspace *w, const double *length, const
 static baum_status fail_contradiction(const baum_workspace *w, int row, double part)
 {
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: no acceleration satisfies all constraints: with the other rows "
-                     "met, a redundant row of %s is off by %.3g of the accelerations; constraints "
-                     "contradict each other, or the velocities in a singular configuration follow "
-                     "no branch",
+                     "t = %.9g s: no acceleration satisfies all constraints: if the other rows are "
+                     "satisfied, a redundant row of %s is violated by %.3g of the accelerations; "
+                     "constraints contradict each other, or the configuration is singular and the "
+                     "velocities follow no branch",
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
