@@ -509,7 +509,7 @@ typedef enum baum_quantity {
   BAUM_JOINT_REACTION = 10,
   /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
-  BAUM_BODY_ACCELERATION = 12, /**< The derivatives of BAUM_BODY_VELOCITY. */
+  BAUM_BODY_ACCELERATION = 12, /**< The time derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] that the driver `joint` exerts on the coordinate it prescribes (1).
    *  The power of the driver is this force or torque times the joint velocity. */
   BAUM_DRIVE_EFFORT = 13,
@@ -654,11 +654,12 @@ typedef struct baum_counters {
   int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
   int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
-  int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
-  double wall;                  /**< [s] wall time inside advance_to, step and sample. */
-  double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
-  double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
-  baum_joint_id max_phi_joint;  /**< The joint with the violation max_phi. */
+  /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
+  int64_t warnings;
+  double wall;                      /**< [s] wall time inside advance_to, step and sample. */
+  double max_phi;                   /**< [m or rad] largest |Phi| over all steps. */
+  double max_phi_rate;              /**< [m/s or rad/s] largest |Phi'| over all steps. */
+  baum_joint_id max_phi_joint;      /**< The joint with the violation max_phi. */
   baum_joint_id max_phi_rate_joint; /**< The joint with the violation max_phi_rate. */
   /** [m or rad] prediction of the steady |Phi| that the gains leave, (alpha/beta^2) h max
    *  |gamma_i|. It is known only for the Euler methods with stable gains of at least 0.1/h,
@@ -780,7 +781,7 @@ typedef struct baum_near_singular {
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval, see above. */
+  /** [-] the smallest p in the interval; the comment of this struct defines p. */
   double pivot;
   /** [-] by how much the velocity after the interval differs from a smooth continuation of the
    *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
