@@ -781,7 +781,8 @@ typedef struct baum_near_singular {
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval; the comment of this struct defines p. */
+  /** [-] the smallest p in the interval. p is the smallest pivot, divided by the largest value that
+   *  this pivot has had in the run so far. */
   double pivot;
   /** [-] by how much the velocity after the interval differs from a smooth continuation of the
    *  motion before the interval, relative to the size of the velocity. NaN: unknown. */

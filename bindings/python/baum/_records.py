@@ -230,7 +230,8 @@ class NearSingular(NamedTuple):
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] the smallest p in the interval; the comment of this struct defines p.
+    pivot: [-] the smallest p in the interval. p is the smallest pivot, divided by the largest
+        value that this pivot has had in the run so far.
     jump: [-] by how much the velocity after the interval differs from a smooth continuation of
         the motion before the interval, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
