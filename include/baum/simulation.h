@@ -114,7 +114,7 @@ BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
 
 /** Name of an integrator.
  *  @param integrator  may be NULL
- *  @return  such as "cvode_adams"; NULL for NULL */
+ *  @return  such as "cvode_adams"; NULL if the argument is NULL */
 BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
 /** Order of accuracy of an integrator at a fixed step.
  *  @param integrator  may be NULL
@@ -142,7 +142,7 @@ typedef enum baum_formulation {
   BAUM_FORMULATION_INDEX2 = 4, /**< The constraints are J v = nu. Phi drifts slowly. */
   /** The constraints are J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
   BAUM_FORMULATION_GGL = 5,
-  BAUM_FORMULATION_INDEX3 = 6 /**< Phi = 0. */
+  BAUM_FORMULATION_INDEX3 = 6 /**< The constraints are Phi = 0. */
 } baum_formulation;
 
 /** Name of a formulation.
@@ -473,11 +473,13 @@ BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const 
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions.
  *  @param simulation  may be NULL
- *  @return  (nq) owned by the run; its values change when the run advances. NULL for NULL */
+ *  @return  (nq) owned by the run; its values change when the run advances. NULL if the argument is
+ *           NULL */
 BAUM_API const double *baum_simulation_q(const baum_simulation *simulation);
 /** Present velocities.
  *  @param simulation  may be NULL
- *  @return  (nv) owned by the run; its values change when the run advances. NULL for NULL */
+ *  @return  (nv) owned by the run; its values change when the run advances. NULL if the argument is
+ *           NULL */
 BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
@@ -857,12 +859,12 @@ BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, 
 /** Explain a run in words: its formulation and integrator, its gains, why they were chosen and
  *  whether they are stable, its solver, redundant rows and tolerances.
  *  @param simulation  may be NULL
- *  @return  text owned by the run; NULL for NULL */
+ *  @return  text owned by the run; NULL if the argument is NULL */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);
 
 /** Message of this run's last failure, stop or warning.
  *  @param simulation  may be NULL
- *  @return  text owned by the run, initially ""; NULL for NULL */
+ *  @return  text owned by the run, initially ""; NULL if the argument is NULL */
 BAUM_API const char *baum_simulation_message(const baum_simulation *simulation);
 
 #ifdef __cplusplus

@@ -215,7 +215,7 @@ BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integr
 
 /** Describe in words what gains do with a method. Methods without a region have such a text, too.
  *  @param integrator  may be NULL
- *  @return  static text; NULL for NULL */
+ *  @return  static text; NULL if the argument is NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
 /** Find the stability limit for gains of a given damping ratio, alpha = damping_ratio x beta: they

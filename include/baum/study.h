@@ -442,7 +442,7 @@ BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, do
 /** State in words how the error is defined.
  *  @param study  may be NULL
  *  @return  such as "largest error of all positions over all samples, lengths divided by 0.51 m,
- *           angles in rad"; NULL for NULL */
+ *           angles in rad"; NULL if the argument is NULL */
 BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
