@@ -57,7 +57,7 @@ void baum_i_crossings_forget(baum_i_crossings *crossings);
 /* Note a state of the run. The last solution must be that of this state. Evaluates nothing. */
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
-/* End the present crossing, because later pivots cannot be compared with those before. crossings
+/* End the present crossing, because later pivots cannot be compared with earlier ones. crossings
  * must not be NULL. */
 void baum_i_crossings_end(baum_simulation *run);
 

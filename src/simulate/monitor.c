@@ -26,7 +26,7 @@ static void observe_row(const baum_simulation *run, const double *rows, double *
     return;
   }
   int row = 0;
-  while (row < m->nc && !(fabs(rows[row]) >= size)) { /* none, if a number is not finite */
+  while (row < m->nc && !(fabs(rows[row]) >= size)) { /* no row matches if a number is not finite */
     row++;
   }
   row = row < m->nc ? row : baum_i_largest(rows, m->nc, &size);

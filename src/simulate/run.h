@@ -47,11 +47,12 @@ struct baum_simulation {
   baum_i_grid grid;
   double origin; /* [s] last restart of the method, which may measure time from there */
   double start_energy;
-  double largest_gamma;       /* over all rows and steps */
-  double rows_looked_at;      /* [s] last check of the redundant rows with KLU or QR; see rows.c */
-  double judged_phi;          /* max_phi when it was last compared with its limit */
-  double judged_phi_rate;     /* max_phi_rate, likewise, for rows of velocity level */
-  int64_t near_singular_seen; /* workspace->near_singular at the last check */
+  double largest_gamma;  /* over all rows and steps */
+  double rows_looked_at; /* [s] last check of the redundant rows with KLU or QR; see rows.c */
+  double judged_phi;     /* max_phi when it was last compared with its limit */
+  /* max_phi_rate when it was last compared, for rows of velocity level */
+  double judged_phi_rate;
+  int64_t near_singular_seen;         /* workspace->near_singular at the last check */
   int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that statuses have announced */
   baum_counters counters;
 
@@ -203,8 +204,8 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Monitor violation, gamma and near-singular configurations of the last velocity stage of the
- * workspace, which was at time t. */
+/* Monitor violation, gamma and near-singular configurations of the state that the workspace
+ * evaluated last, at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
 /* Warn if a force jumps in the step that ends at `end` and is about to be kept. */

@@ -243,9 +243,9 @@ static baum_status check_exact(baum_simulation *run)
 /* ---- velocities that ill-conditioned rows do not determine ---- */
 
 /* Velocities may satisfy ill-conditioned rows up to rounding, although the rows do not determine
- * these velocities accurately. For example, two bodies may be connected by two pins that are a
- * nanometre apart. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s.
- * The accelerations then have errors. Their size is the size of the change of velocities that a
+ * these velocities accurately. Suppose, for example, that two pins a nanometre apart connect two
+ * bodies. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s. The
+ * accelerations then have errors. Their size is the size of the change of velocities that a
  * projection would cause. */
 /* If a projection changes the velocities by more than this, relative to their size, the run
  * warns. */
@@ -321,8 +321,8 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
 
 /* ---- the whole ---- */
 
-/* Set the trial state to the state that the user has given. Velocities that are free become
- * zero. */
+/* Set the trial state to the state that the user has given. Velocities that are not given (NaN)
+ * become zero. */
 static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -436,9 +436,9 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* A state without free velocities belongs to this run if it violates the constraints by no more
- * than earlier states of the run. Tell whether this is so. Such a state is not changed. A run can
- * therefore return exactly to an earlier state. */
+/* A state whose velocities are all given belongs to this run if it violates the constraints by no
+ * more than earlier states of the run. Tell whether this is so. Such a state is not changed. A run
+ * can therefore return exactly to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
