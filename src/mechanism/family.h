@@ -6,7 +6,8 @@
 
 #include "mechanism/model.h"
 
-/* Sums over the elements of a family. The freeze computes them while it numbers these elements. */
+/* Sums over the elements of a family, where nl is the number of local velocities of an element
+ * (baum_i_span). The freeze computes these sums while it numbers the elements. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies or rows of joints; not used for forces */

@@ -232,7 +232,7 @@ static baum_status mark_velocity_rows(baum_mechanism *m)
   return BAUM_OK;
 }
 
-/* Mark the bodies of a spatial element, whose frames in space it reads. */
+/* Mark the bodies of a spatial element, because the element reads their frames in space. */
 static void mark_in_space(baum_mechanism *m, const baum_i_span *span)
 {
   m->spatial = true;

@@ -156,7 +156,7 @@ typedef struct baum_i_body_place {
   int32_t q;        /* first position */
   int32_t v;        /* first velocity */
   int32_t kind;     /* baum_i_frame_kind */
-  int32_t in_space; /* whether its frame in space is needed: it is spatial, or has such elements */
+  int32_t in_space; /* whether its frame in space is needed: it or an element on it is spatial */
 } baum_i_body_place;
 
 typedef struct baum_i_frames_kernel baum_i_frames_kernel;
@@ -384,8 +384,8 @@ typedef struct baum_i_joint_coordinate {
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE, or 0 if its reaction is not a force and a
-   * moment */
+  /* number of columns of a body: BAUM_I_PLANE or BAUM_I_SPACE, or 0 if the reaction of the joint is
+   * not a force and a moment */
   int width;
   bool scleronomic; /* whether Phi never depends on t */
   bool is_pin;      /* whether its rows are exactly those of a pin (planar/lower_pairs.c) */
@@ -490,7 +490,7 @@ struct baum_i_force_type {
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   /* NULL if it never returns true. */
   bool (*power_is_whole)(const baum_i_force *force);
-  baum_i_power whole_class; /* the class of such a power */
+  baum_i_power whole_class; /* the class of the power of a whole force */
   /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
    * each). NULL if forces of the type never jump. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,

@@ -38,8 +38,8 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* Results so far. Each array has one number for each entry of the derivative along one ray
- * (difference.h). */
+/* Results so far. Each array has one number for each entry of the derivative along one ray (a
+ * straight line in (t, q, v), see difference.h). */
 typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value that the previous step gave */

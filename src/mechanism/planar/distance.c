@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint, planar: a massless rod keeps two points at distance L. With d from the point on
- * body_a to the point on body_b, and F, G of separation.h:
+/* Distance joint, planar: a massless rod keeps two points at distance L. With the vector d from the
+ * point on body_a to the point on body_b, the arms p_a and p_b of these points (planar.h), and F
+ * and G of separation.h:
  *
  *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if this is small, and smooth at d = 0
  *   J     = G^T d / L                                (6 columns)

@@ -2,8 +2,8 @@
 /* This file computes the line between two markers, and half of its squared length with first and
  * second derivatives. The distance joint and the spring use it.
  *
- * Let P_a and P_b be the markers, p_a and p_b their arms, and d = P_b - P_a. With the columns x_a
- * y_a angle_a x_b y_b angle_b:
+ * Let P_a and P_b be the markers, p_a and p_b their arms, k the unit vector along z, and d = P_b -
+ * P_a. With the columns x_a y_a angle_a x_b y_b angle_b:
  *
  *   F = d . d / 2,   d' = G v,   G = [ -I   -k x p_a   I   k x p_b ]         (2 x 6)
  *   F_q  = G^T d                                                             (6 columns)

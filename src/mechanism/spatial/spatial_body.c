@@ -3,7 +3,7 @@
  * Here r is the centre of mass in ground axes, p is a unit quaternion, and w is the angular
  * velocity in body axes.
  *
- *   p' = p o (0, w) / 2
+ *   p' = p o (0, w) / 2,  where o is the product of quaternions
  *   M = diag(m E, I), constant; for a particle M = m E
  *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r;   [a]x b = a x b
  *

@@ -37,7 +37,7 @@ typedef struct baum_i_spatial_axis_head {
 
 /* Check the head and the axes of a definition, and set BAUM_I_SPATIAL_NUMBERS parameters from them.
  * Joints with axes use these functions, and so do forces with the same fields. The second pair of
- * functions is for definitions in which x_axis follows the axes. */
+ * functions is for definitions in which the field x_axis follows the axes. */
 baum_status baum_i_spatial_check_axes(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
 baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,
