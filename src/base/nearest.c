@@ -20,7 +20,7 @@ static int smaller(int a, int b)
 
 static int distance_between(const char *a, const char *b)
 {
-  int row[LONGEST + 1]; /* D(i, .) from left of the present place, D(i-1, .) from there on */
+  int row[LONGEST + 1]; /* D(i, .) left of the present place, and D(i-1, .) from this place on */
   const int columns = (int)strlen(b);
   for (int j = 0; j <= columns; j++) {
     row[j] = j;
