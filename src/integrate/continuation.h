@@ -33,7 +33,7 @@ typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */
   int iterations;     /* of Newton's method */
-  double contraction; /* second correction over the first; 0 if there was one only */
+  double contraction; /* ratio of the second correction to the first; 0 if there was only one */
   double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
   int row;            /* violated row, for BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
@@ -42,7 +42,7 @@ typedef struct baum_i_verdict {
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
-  double *distance; /* (nc) norm of each row of J, columns multiplied by the scales */
+  double *distance; /* (nc) norm of each row of J whose columns are multiplied by the scales */
   double *zero;     /* (nv) */
   double *probe;    /* (nv) */
   double *image;    /* (nv) */

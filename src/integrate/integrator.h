@@ -24,7 +24,7 @@ typedef struct baum_i_problem {
   double direction; /* +1 forward, -1 backward in time; multiplies alpha */
   /* [1/s] > 0, 1/T, where T is the time scale of the motion; scale x rate is a typical velocity */
   double rate;
-  double max_step; /* [s] > 0, INFINITY for none; variable step */
+  double max_step; /* [s] > 0, limit for variable steps; INFINITY: no limit */
 
   baum_workspace *workspace;
   baum_formulation formulation;
@@ -77,8 +77,9 @@ struct baum_integrator {
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
-  const char *why_no_projection; /* reason, for the message; NULL: none */
-  bool tests_multipliers;        /* tolerance_lambda may be finite at index 1 */
+  /* reason that messages give if projection is refused; NULL: none */
+  const char *why_no_projection;
+  bool tests_multipliers; /* tolerance_lambda may be finite at index 1 */
 
   /* Memory of a run. `open` initializes `memory` zeroed bytes and may fail with every status of a
    * run. `close` frees what `open` has allocated, even if `open` failed. Methods without memory
@@ -90,9 +91,9 @@ struct baum_integrator {
 
   /* Fixed step: move state from t by h (signed). a is the acceleration at the start of the step
    * (nv), which the caller has evaluated through baum_i_problem_motion(); the caller also sets
-   * state->t. NULL for methods with variable steps only. If a method has both `step` and `advance`,
-   * problem->step selects one. If a method has neither, it needs SUNDIALS, which the build
-   * lacks. */
+   * state->t. NULL for methods that have only variable steps. If a method has both `step` and
+   * `advance`, problem->step selects one. If a method has neither, it needs SUNDIALS, which the
+   * build lacks. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
@@ -100,7 +101,7 @@ struct baum_integrator {
    * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
-  /* Variable step; NULL for methods with fixed steps only. */
+  /* Variable step; NULL for methods that have only fixed steps. */
   /* Take one step in problem->direction, whose length the method chooses. `state` receives the end
    * of the step. After a failure it is the end of the last good step, from which the next call
    * restarts. */

@@ -15,14 +15,14 @@
 typedef struct baum_i_rk_pair {
   const char *name; /* of the integrator, in messages */
   baum_i_rk_table table;
-  int error_order;      /* the estimate grows with h^error_order */
-  int error_count;      /* number of rates in the estimate: s, or s + 1 with the rate at the end */
-  const double *error;  /* (error_count) */
-  const double *error3; /* (error_count) of order 3, or NULL */
-  int extra;
-  const double *extra_c;   /* (extra) */
-  const double *extra_a;   /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
-  int dense;               /* number of terms F_4, F_5, ... of the interpolant */
+  int error_order;       /* the estimate grows with h^error_order */
+  int error_count;       /* number of rates in the estimate: s, or s + 1 with the rate at the end */
+  const double *error;   /* (error_count) weights of the estimate */
+  const double *error3;  /* (error_count) weights of an estimate of order 3, or NULL */
+  int extra;             /* number of extra rates */
+  const double *extra_c; /* (extra) */
+  const double *extra_a; /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
+  int dense;             /* number of terms F_4, F_5, ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 

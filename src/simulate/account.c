@@ -196,9 +196,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potential energies to `works`. If the power of an element was computed
- * from all of its forces, it includes forces that have a potential. Only the potentials of such
- * elements are added here. */
+/* The power of some elements was computed from all of their forces, including forces that have a
+ * potential. Add `factor` times the potentials of these elements to `works`. The potentials of
+ * other elements are not added. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

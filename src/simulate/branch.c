@@ -37,8 +37,8 @@ static const double LARGE_JUMP = 0.3;
  * inaccurate accelerations. None of 2688 correct runs had such a jump. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* For jumps above LARGE_KICK, the smaller multiple LIKELY of the estimated error is enough, because
- * such runs are mostly wrong after the next crossing. The estimated error depends on the steps and
+/* For jumps above LARGE_KICK, the smaller factor LIKELY replaces SURELY, because runs with such
+ * jumps are mostly wrong after the next crossing. The estimated error depends on the steps and
  * therefore on the tolerance. In correct runs it may be more than ten times smaller than the true
  * error. */
 static const double LARGE_KICK = 2e-3;

@@ -11,7 +11,7 @@
 #include "stabilization/gains.h"
 
 enum {
-  BAUM_I_WARNINGS = 24, /* more than the number of kinds */
+  BAUM_I_WARNINGS = 24, /* more than the number of kinds of warnings */
   BAUM_I_EXPLAIN_SIZE = 3072,
   BAUM_I_WORK = 5 /* number of counts that solvers and methods keep, see monitor.c */
 };
@@ -52,8 +52,9 @@ struct baum_simulation {
   double judged_phi;     /* max_phi when it was last compared with its limit */
   /* max_phi_rate when it was last compared, for rows of velocity level */
   double judged_phi_rate;
-  int64_t near_singular_seen;         /* workspace->near_singular at the last check */
-  int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that statuses have announced */
+  int64_t near_singular_seen; /* workspace->near_singular at the last check */
+  /* how many occurrences of each warning a status has announced */
+  int64_t announced[BAUM_I_WARNINGS];
   baum_counters counters;
 
   baum_simulation_options options;
@@ -77,7 +78,7 @@ struct baum_simulation {
   baum_i_schedule schedule; /* of inputs */
   double *memory;           /* memory of the arrays below */
   baum_i_state state;       /* present state, which is reported */
-  baum_i_state ahead;       /* variable step: end of the last internal step */
+  baum_i_state ahead;       /* variable step: end of the last step of the method */
   baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
   baum_i_state spare;       /* used by steps near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
@@ -95,7 +96,7 @@ struct baum_simulation {
   double last_progress; /* [s] */
   double time_limit;    /* [s] largest wall time of a call */
   double deadline;      /* [s] wall time at which the present call stops */
-  bool reporting;       /* within progress() */
+  bool reporting;       /* true while progress() runs */
   double paced_at;      /* [s] time of the last check of the pace of this call */
 };
 

@@ -16,7 +16,7 @@
  * assembly has probably found another branch than the user intended. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
-/* Largest number of steps in which assembly follows the drivers. */
+/* Largest number of steps in which assembly moves the drivers to their initial values. */
 enum { DRIVER_STEPS = 256 };
 static const double EXACT = 1e-9; /* largest violation of an exact start, relative to the scales */
 
@@ -113,8 +113,8 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
 }
 
 /* Find by how much each driver is violated in the design configuration, and write this to the rows
- * of the drivers. The other rows are zero. Return false if no driver is violated. The drivers then
- * begin in the design configuration. */
+ * of the drivers. The other rows are zero. Return false if no driver is violated, which means that
+ * all drivers begin in the design configuration. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
