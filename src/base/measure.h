@@ -14,7 +14,7 @@ typedef struct baum_i_step_samples {
   const double *dq;   /* NULL if q is a vector; otherwise dq without its last term */
   const double *scale;
   double h;
-  double period; /* [s] factor of the errors of v */
+  double period; /* [s] factor by which errors of v are multiplied */
 } baum_i_step_samples;
 
 typedef struct baum_i_measure_kernel {

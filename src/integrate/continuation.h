@@ -20,10 +20,11 @@ typedef struct baum_i_configuration {
 /* Why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
-  BAUM_I_REFUSAL_FAR,      /* Newton's corrections were too large, or hardly decreased */
-  BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
-  BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
-  BAUM_I_REFUSAL_OMITTED,  /* a row that was omitted as redundant is violated */
+  BAUM_I_REFUSAL_FAR, /* Newton's corrections were too large, or hardly decreased */
+  /* J has changed so much that a singular configuration may be in between */
+  BAUM_I_REFUSAL_TURNED,
+  BAUM_I_REFUSAL_SINGULAR,   /* J cannot be factored */
+  BAUM_I_REFUSAL_OMITTED,    /* a row that was omitted as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a user function asks for a smaller step; see baum_message() */
   BAUM_I_REFUSAL_STOP,       /* a user function stops the run, or memory is short */
 } baum_i_refusal;

@@ -8,8 +8,8 @@
 
 typedef struct baum_i_cvode_newton {
   baum_i_sundials_klu klu;
-  SUNLinearSolver solver; /* called by CVODE; it calls klu */
-  double c;               /* [1/s] 1 / gamma for which the matrix was computed */
+  SUNLinearSolver solver; /* CVODE calls it, and it calls klu */
+  double c;               /* [1/s] 1 / gamma of CVODE, for which the matrix was computed */
   double *numbers;        /* memory of all arrays below */
   double *y;              /* (n) q, v, lambda */
   double *dy;             /* (n) q', v', 0 */

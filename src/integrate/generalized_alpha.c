@@ -69,7 +69,8 @@ static const double NUDGE = 4.0 * DBL_EPSILON;
  * roundoff divided by this fraction. */
 static const double SHIFT = 1e-3;
 
-/* a is not scaled if step lengths differ by less than this fraction. */
+/* The variable a of the method is not scaled if successive step lengths differ by less than this
+ * fraction. */
 static const double SAME_STEP = 1e-6;
 
 /* Results of a step that the next step needs. */

@@ -32,9 +32,9 @@
  * predicts an error below the bound after a later correction.
  *
  * IDA's own convergence test does not work for these equations. No fixed tolerance is suitable for
- * multipliers, because they may be zero and their rounding errors grow with c. Without any test
- * they diverge: at order 5 the prediction amplifies an error 63-fold, and an iteration with an
- * older matrix leaves up to a quarter of it. In measurements, multipliers became 1e14 times too
+ * multipliers, because they may be zero and their rounding errors grow with c. Without any test,
+ * multipliers diverge: at order 5 the prediction amplifies an error 63-fold, and an iteration with
+ * an older matrix leaves up to a quarter of it. In measurements, multipliers became 1e14 times too
  * large; their rounding errors then changed q and v, and no step converged. IDA also uses the
  * convergence rate of an earlier step with the same matrix, which shortens steps by a third.
  *

@@ -28,7 +28,7 @@ typedef struct baum_i_problem {
 
   baum_workspace *workspace;
   baum_formulation formulation;
-  double step;        /* [s] > 0, or NaN: variable */
+  double step;        /* [s] > 0 if the step is fixed; NaN: variable */
   double rtol;        /* NaN for fixed step */
   double atol;        /* >= 0 */
   double tolerance_q; /* [-] > 0, factor on rtol and atol for positions */
@@ -63,9 +63,9 @@ struct baum_integrator {
   const void *table;                /* passed to open(), to select one method of a family */
   int order;                        /* 0: variable order */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
+  baum_gain_rule gains;             /* the rule that BAUM_GAINS_DEFAULT means */
   baum_i_method method;             /* amplification of violations */
-  baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
+  baum_i_method_family family;      /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   /* BDF: the fraction of the error of a step that the error test measures */
   double seen;
   /* true for both Euler methods, whose gains lead to a known steady violation: |Phi'| = (h/2)

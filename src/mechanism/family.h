@@ -19,7 +19,7 @@ typedef struct baum_i_totals {
  * baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
-  size_t size;      /* of the struct of an element */
+  size_t size;      /* size of the struct of an element */
   size_t span;      /* offset of the baum_i_span in an element */
   size_t count;     /* offset of the element count (an int) in the mechanism */
   /* element k, counted from 0 without ground */

@@ -73,7 +73,7 @@ static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
   return true;
 }
 
-/* Append the columns of a body to a span. */
+/* Append the velocities (columns) and positions of a body to the span of an element. */
 static void add_columns(const baum_i_body *body, baum_i_span *span)
 {
   for (int j = 0; j < body->nv; j++) {

@@ -45,7 +45,7 @@ typedef struct baum_i_span {
   int nl;         /* number of local velocities */
   int *columns;   /* (nl) indices of the local velocities in v */
   int ql;         /* number of local positions */
-  int *positions; /* (ql) indices of the local positions in q; `columns` owns this memory */
+  int *positions; /* (ql) indices of the local positions in q; in the memory of `columns` */
   bool flat;      /* true if none of the bodies has a manifold */
 } baum_i_span;
 

@@ -173,7 +173,7 @@ static baum_status internal_step(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Make the end of the last internal step the present state. */
+/* Make the end of the method's last step the present state. */
 static void catch_up(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->ahead, &run->state);

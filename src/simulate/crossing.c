@@ -92,7 +92,8 @@ static void set_knot(const baum_mechanism *m, double t, double pivot, const doub
   memcpy(to->q, state, (size_t)(m->nq + m->nv) * sizeof *state);
 }
 
-/* Return a new last knot. If the list is full, remove the first knot. */
+/* Return a new last knot (a stored state of the motion). If the list is full, remove the first
+ * knot. */
 static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 {
   if (*count < most) {
@@ -511,7 +512,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* a restored run may have another tag */
+  if (entry.joint.index1 > 0) { /* a restored run may belong to a mechanism with another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

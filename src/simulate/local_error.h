@@ -21,8 +21,8 @@ typedef struct baum_i_local_error {
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 
-/* Estimate the error of the last step, relative to the scales. Call this at the end of the step,
- * which is the present state, with its acceleration in the workspace. Returns 0 as long as too few
+/* Estimate the error of the last step, relative to the scales. Call this when the end of the step
+ * is the present state and the workspace contains its acceleration. Returns 0 as long as too few
  * accelerations are known. Set known = 0 to discard them. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 

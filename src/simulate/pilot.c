@@ -14,7 +14,7 @@
  * the rate does no harm. All steps cover about the same angle. A short fast phase or a singular
  * configuration therefore has little influence on the mean rate. No step is longer than the time in
  * which gravity turns the mechanism by this angle. If a mechanism starts slowly, the pilot
- * therefore also sees its later motion.
+ * therefore also includes its later motion.
  */
 #include <math.h>
 #include <string.h>

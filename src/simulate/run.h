@@ -47,7 +47,7 @@ struct baum_simulation {
   baum_i_grid grid;
   double origin; /* [s] last restart of the method, which may measure time from there */
   double start_energy;
-  double largest_gamma;  /* over all rows and steps */
+  double largest_gamma;  /* largest |gamma_i| of all rows i and all steps */
   double rows_looked_at; /* [s] last check of the redundant rows with KLU or QR; see rows.c */
   double judged_phi;     /* max_phi when it was last compared with its limit */
   /* max_phi_rate when it was last compared, for rows of velocity level */
@@ -83,11 +83,11 @@ struct baum_simulation {
   baum_i_state spare;       /* used by steps near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
-  baum_i_fingerprint fingerprint; /* of the mechanism */
-  /* work of other processes for the run, minus counts of this process before the run was
-   * restored */
+  baum_i_fingerprint fingerprint; /* fingerprint of the mechanism */
+  /* work that other processes have done for a restored run, minus the counts of this process before
+   * the run was restored */
   int64_t work_before[BAUM_I_WORK];
-  baum_warning warnings[BAUM_I_WARNINGS]; /* one per kind */
+  baum_warning warnings[BAUM_I_WARNINGS]; /* one entry for each kind of warning */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
   baum_i_gain_choice gains;
@@ -270,14 +270,14 @@ baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* Give the run its own copy of the parameters. Before, it uses those of the mechanism. Returns
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Give the run its own copy of the parameters. Before this call, the run uses the parameters of the
+ * mechanism. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- schedule.c ---- */
 
-/* Set inputs that jump between two times to their values at `to`, which may be earlier than
- * `from`. */
+/* Set all inputs that jump between the times `from` and `to` to their values at `to`. `to` may be
+ * earlier than `from`. */
 void baum_i_schedule_move(baum_simulation *run, double from, double to);
 
 /* End the schedule of an input. The input keeps its value. */
@@ -333,7 +333,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run);
 /* Choose the omitted rows for a given state. The caller restarts everything afterwards. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
-/* Omit these rows (nc). Returns the statuses of baum_i_omit_rows(); on failure nothing changes. */
+/* Omit the rows i for which omitted[i] is not 0 (nc entries). Returns the statuses of
+ * baum_i_omit_rows(); on failure nothing changes. */
 baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
 
 /* ---- singular_step.c ---- */

@@ -31,7 +31,7 @@ static int first_angle(const baum_i_body *body)
                                                          : body->nv);
 }
 
-/* The coordinates of a body from i on form one displacement vector or one rotation vector. Return
+/* Coordinate i of a body is the first one of a displacement vector or of a rotation vector. Return
  * the index after the last coordinate of this vector. */
 static int vector_end(const baum_i_body *body, int i)
 {
@@ -168,9 +168,9 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
   return baum_i_message_settle(status, &kept);
 }
 
-/* Add to the message about given velocities v by how much assembly has moved the body that it moved
- * most. Velocities that satisfy the constraints in an inaccurate design configuration do not
- * satisfy them in the assembled one. */
+/* Assembly has moved some body most. Add this body and its displacement to the message about given
+ * velocities v. Velocities that satisfy the constraints in an inaccurate design configuration do
+ * not satisfy them in the assembled one. */
 static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;

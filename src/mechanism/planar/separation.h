@@ -60,8 +60,9 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
 /* Compute F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Return the distance between the points s_a and s_b on the two bodies of a span, in the design
- * configuration. `points` contains s_a and then s_b. */
+/* Return the distance between two points, one on each of the two bodies of a span, in the design
+ * configuration. `points` contains first the point on body_a and then the point on body_b, in body
+ * axes. */
 double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
                                    const double points[4]);
 

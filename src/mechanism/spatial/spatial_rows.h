@@ -129,8 +129,8 @@ void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
 /* Write the point of body_b in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);
 
-/* Return the length |e| in the design configuration. `points` contains s_a and then s_b, in body
- * axes. */
+/* Return the length |e| in the design configuration. `points` contains the point s_a on body_a and
+ * then the point s_b on body_b, in body axes. */
 double baum_i_spatial_design_length(const baum_mechanism *mechanism, const baum_i_span *span,
                                     const double points[6]);
 
