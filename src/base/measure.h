@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops over arrays that the monitors execute after every step. They use vectors of four numbers,
- * because plain loops would take half as long as an evaluation of the accelerations. */
+ * because plain loops would cost half as much time as an evaluation of the accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
 

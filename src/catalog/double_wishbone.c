@@ -48,9 +48,11 @@ typedef const double point[3];
 static point FRONT[2] = {{-0.15, 0.40, 0.20}, {-0.12, 0.45, 0.46}}; /* pivots of both wishbones */
 static point REAR[2] = {{0.20, 0.38, 0.21}, {0.18, 0.47, 0.48}};
 static point BALL[2] = {{-0.01, 0.72, 0.18}, {0.015, 0.68, 0.50}};
-static point TIE_ROD[2] = {{0.15, 0.36, 0.25}, {0.14, 0.70, 0.26}}; /* on rack and upright */
+/* Ends of the tie rod on the rack and on the upright. */
+static point TIE_ROD[2] = {{0.15, 0.36, 0.25}, {0.14, 0.70, 0.26}};
 static point WHEEL = {0.0, 0.76, 0.32};
-static point STRUT[2] = {{0.02, 0.50, 0.70}, {0.0, 0.62, 0.19}}; /* on ground and lower wishbone */
+/* Ends of the strut on the ground and on the lower wishbone. */
+static point STRUT[2] = {{0.02, 0.50, 0.70}, {0.0, 0.62, 0.19}};
 
 /* Amplitude [m] and frequency [rad/s] of the rack and of the plate. */
 static const double WAVE[2][2] = {{0.02, 3.0}, {0.05, 5.0}};

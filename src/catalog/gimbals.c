@@ -71,7 +71,8 @@ static void build(baum_i_parts *parts, const double *p)
   static const char *const names[3] = {"outer ring", "inner ring", "rotor"};
   static const char *const joints[3] = {"post", "trunnion", "axle"};
   static const int axis_of[3] = {2, 0, 1};
-  const double mass[3] = {1.0, p[WEIGHT], p[ROTOR]}; /* that of the outer ring does not matter */
+  /* the mass of the outer ring does not matter */
+  const double mass[3] = {1.0, p[WEIGHT], p[ROTOR]};
   const double inertia[3][3] = {{p[OUTER] / 2, p[OUTER], p[OUTER] / 2},
                                 {p[INNER] / 2, p[INNER] / 2, p[INNER]},
                                 {p[ACROSS], p[AXIAL], p[ACROSS]}};

@@ -75,7 +75,7 @@ struct baum_simulation {
   baum_i_crossings *crossings; /* see crossing.h; NULL: crossings are not monitored */
 
   double *parameters;       /* own copy after a driver law has been set, else NULL */
-  baum_i_schedule schedule; /* of inputs */
+  baum_i_schedule schedule; /* schedule of the inputs */
   double *memory;           /* memory of the arrays below */
   baum_i_state state;       /* present state, which is reported */
   baum_i_state ahead;       /* variable step: end of the last step of the method */

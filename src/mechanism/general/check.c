@@ -198,8 +198,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a field with rearranged entries. Each entry is stored at the index of its derivative,
- * so that messages name the right entry of the derivative. */
+/* Context of a function whose output is rearranged. Each entry is stored at the index of its
+ * derivative, so that messages name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

@@ -41,7 +41,8 @@ typedef struct baum_i_planar_axis_head {
  * (its value is not NaN), both `point` and `axis` are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
-/* Set `along` to the unit vector of an axis, turned back by the angle of cosine c and sine s. */
+/* Set `along` to the unit vector of an axis, rotated back by the angle whose cosine is c and whose
+ * sine is s. */
 void baum_i_axis_turn(const double axis[2], double c, double s, double along[2]);
 
 /* ---- the row; its functions are inline, so that the compiler evaluates common terms once ---- */

@@ -172,7 +172,7 @@ static void normalize(const baum_i_body *body, double *q)
   baum_i_quaternion_normalize(q + 3);
 }
 
-/* From p' = p omega / 2 follows p'' = p omega' / 2 - |omega|^2 p / 4. */
+/* With omega = (0, w), p' = p omega / 2 gives p'' = p omega' / 2 - |omega|^2 p / 4. */
 static void second_rate(const baum_i_body *body, const double *q, const double *v, const double *a,
                         double *ddq)
 {

@@ -216,7 +216,8 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
 
 /* ---- derivatives ---- */
 
-/* Finds the packed columns of the twelve columns of a part; -1 for columns that do not exist. */
+/* Finds the index of each of the twelve columns of a part among the packed columns. The index is -1
+ * if a body does not have the column. */
 static void find_columns(const baum_mechanism *m, const baum_i_span *span, const part *p,
                          int at[COLUMNS])
 {
