@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The distance of two names is the smallest number of characters that must be inserted, deleted or
- * replaced (Levenshtein). With D(i, j) for the first i and the first j characters,
+ * replaced (Levenshtein). Let D(i, j) be the distance of the first i characters of a name a and the
+ * first j characters of a name b. Then
  *
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *

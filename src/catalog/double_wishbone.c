@@ -5,11 +5,11 @@
  * moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
  *
  * Every body follows in closed form from the angle of the lower wishbone and the position of the
- * rack. In each step a part rotates about a known axis until one of its points has a known distance
- * from a point that is known: the upper wishbone until its ball joint has the right distance from
- * that of the lower wishbone, and the upright, about the line through both ball joints, until its
- * steering arm has the distance of the tie rod from the rack. Newton's method finds the angle of
- * the lower wishbone at which the wheel has the height of the plate.
+ * rack. In each step a part rotates about a known axis until one of its points has a given distance
+ * from a known point. The upper wishbone rotates until its ball joint has the right distance from
+ * the ball joint of the lower wishbone. The upright rotates about the line through both ball joints
+ * until the distance of its steering arm from the rack is the length of the tie rod. Newton's
+ * method finds the angle of the lower wishbone at which the wheel has the height of the plate.
  */
 #include <float.h>
 #include <math.h>
@@ -130,7 +130,7 @@ static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *t
   baum_i_axes_turn(axes, 0, 0.0, -apart / gained);
 }
 
-/* Returns axes at the front pivot of a wishbone, whose x axis is the axis of the pivots. */
+/* Returns axes at the front pivot of a wishbone. Their x axis is the axis of the pivots. */
 static baum_i_axes pivot_axes(int arm)
 {
   const baum_i_axes front = baum_i_axes_at(FRONT[arm], baum_i_zeros);
@@ -138,8 +138,8 @@ static baum_i_axes pivot_axes(int arm)
   return baum_i_axes_between(&front, &rear);
 }
 
-/* Returns axes of the upright in the design configuration. They point from the lower to the upper
- * ball joint. */
+/* Returns axes of the upright in the design configuration. Their x axis points from the lower to
+ * the upper ball joint. */
 static baum_i_axes kingpin_axes(void)
 {
   const baum_i_axes lower = baum_i_axes_at(BALL[0], baum_i_zeros);

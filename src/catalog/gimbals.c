@@ -44,7 +44,7 @@ static double solution(const double *p, double t, double *q, double *v)
   return DBL_EPSILON * (fabs(v[0]) + sum) * (1.0 + fabs(t));
 }
 
-/* Computes axes of the outer ring (0), the inner ring (1) or the rotor (2), whose origin is the
+/* Computes axes of the outer ring (0), the inner ring (1) or the rotor (2). Their origin is the
  * centre. */
 static baum_i_axes axes_of(const double *p, const double *q, const double *v, int body)
 {
