@@ -8,10 +8,11 @@
 
 /* A step whose local error is estimated; the equations are in simulate/local_error.c. */
 typedef struct baum_i_step_samples {
-  const double *q[2]; /* at the start and at the end of the step; not used if dq is given */
+  const double *q[2]; /* q at the start and at the end of the step; not used if dq is given */
   const double *v[2];
-  const double *a[5]; /* at the end of the step, at its start, and at the three times before */
-  const double *dq;   /* NULL if q is a vector; otherwise dq without its last term */
+  /* accelerations at the end of the step, at its start, and at the three times before */
+  const double *a[5];
+  const double *dq; /* NULL if q is a vector; otherwise dq without its last term */
   const double *scale;
   double h;
   double period; /* [s] factor by which errors of v are multiplied */

@@ -33,7 +33,7 @@ typedef enum baum_i_refusal {
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */
-  int iterations;     /* of Newton's method */
+  int iterations;     /* number of iterations of Newton's method */
   double contraction; /* ratio of the second correction to the first; 0 if there was only one */
   double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
   int row;            /* violated row, for BAUM_I_REFUSAL_OMITTED */

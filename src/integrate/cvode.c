@@ -173,7 +173,8 @@ static int attach_bdf(baum_i_sundials *sundials)
 {
   const baum_i_cvode_newton *newton = &((cvode_run *)sundials)->newton;
   void *cvode = sundials->memory;
-  /* These two calls return CVLS flags, not CV flags. They can fail only for lack of memory. */
+  /* CVodeSetLinearSolver() and CVodeSetLinSysFn() return CVLS flags, not CV flags. They can fail
+   * only for lack of memory. */
   bool attached = CVodeSetLinearSolver(cvode, newton->solver, newton->klu.matrix) == CVLS_SUCCESS &&
                   CVodeSetLinSysFn(cvode, build) == CVLS_SUCCESS;
   if (!attached) {

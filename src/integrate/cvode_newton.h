@@ -14,7 +14,7 @@ typedef struct baum_i_cvode_newton {
   double *y;              /* (n) q, v, lambda */
   double *dy;             /* (n) q', v', 0 */
   double *mass;           /* block values of M, for which the matrix was computed */
-  double *jacobian;       /* the same for J */
+  double *jacobian;       /* block values of J, for which the matrix was computed */
 } baum_i_cvode_newton;
 
 /* The same rules as for baum_i_sundials_klu_open() and _close() apply. Attach newton->solver to

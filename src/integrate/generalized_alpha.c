@@ -52,8 +52,8 @@ enum { ITERATIONS = 20 };
  * times the scale if that is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped decreasing are treated as rounding errors up to STALLED times the limit
- * that ROUNDINGS gives. */
+/* Changes that have stopped decreasing are treated as rounding errors if they are at most STALLED
+ * times the limit that ROUNDINGS gives. */
 static const double STALLED = 64.0;
 /* Even larger changes that have stopped decreasing may be rounding errors, because the rounding
  * error of a large coordinate may be large relative to the scale of a small coordinate that is
@@ -89,8 +89,8 @@ typedef struct alpha_run {
   bool first;      /* no step has been accepted since the start */
   double step;     /* [s] step length to which now.a belongs */
   double trial;    /* [s] step length to which next.a belongs */
-  alpha_past now;  /* at the present state */
-  alpha_past next; /* at the end of the last trial */
+  alpha_past now;  /* results at the present state */
+  alpha_past next; /* results at the end of the last trial */
   int64_t iterations;
   baum_i_step_matrix *matrix;
   double *memory;   /* memory of all arrays of this struct */

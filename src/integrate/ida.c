@@ -42,7 +42,7 @@
 /* Memory of a run. */
 typedef struct ida_run {
   baum_i_sundials sundials;
-  N_Vector dy;            /* at the end of the last step */
+  N_Vector dy;            /* y' at the end of the last step */
   N_Vector tested;        /* 1 for unknowns in the error test, otherwise 0 */
   SUNLinearSolver solver; /* IDA calls it, and it calls klu */
   baum_i_sundials_klu klu;

@@ -40,9 +40,9 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 
-/* These functions are needed if the matrix was computed for another coefficient c0. The first
- * scales the right-hand side before the solution, and the second scales the solution. ratio is c /
- * c0. */
+/* Adapt the solution to a matrix that was computed for another coefficient c0. The first function
+ * scales the right-hand side before the solution, and the second one scales the solution. ratio is
+ * c / c0. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution);

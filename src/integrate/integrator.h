@@ -52,7 +52,7 @@ typedef struct baum_i_state {
 /* Counts of a variable-step method since its creation. */
 typedef struct baum_i_statistics {
   int64_t rejected;
-  int64_t factorizations;      /* of the method's own matrix */
+  int64_t factorizations;      /* number of factorizations of the method's own matrix */
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t nonlinear_iterations;
   int64_t forced; /* steps over a singular configuration whose error exceeded the tolerance */

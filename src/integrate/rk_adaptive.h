@@ -13,7 +13,7 @@
  * the step, which is also the first rate of the next step. After it come extra rates, which only
  * the interpolant uses. */
 typedef struct baum_i_rk_pair {
-  const char *name; /* of the integrator, in messages */
+  const char *name; /* name of the integrator in messages */
   baum_i_rk_table table;
   int error_order;       /* the estimate grows with h^error_order */
   int error_count;       /* number of rates in the estimate: s, or s + 1 with the rate at the end */

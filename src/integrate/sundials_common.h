@@ -24,7 +24,7 @@ typedef struct baum_i_sundials {
   N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all vectors of a run, allocated together */
   int taken;                                 /* number of vectors in use */
   double *numbers;                           /* memory of the numbers of all vectors */
-  void *memory;                              /* of CVODE or IDA */
+  void *memory;                              /* memory object of CVODE or IDA */
   N_Vector y;                                /* unknowns at the end of the last step */
   N_Vector inside;                           /* unknowns at an interpolated time */
   const double *present;                     /* q of the last evaluation */

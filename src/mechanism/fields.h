@@ -75,9 +75,9 @@ typedef struct baum_i_def_field {
   baum_i_field_kind kind;
   baum_i_rule rule;                    /* rule for numbers and arrays of numbers */
   double value[BAUM_I_FIELD_DEFAULTS]; /* defaults of the first numbers; all others are 0 */
-  /* of an array: the offset of the field that counts its entries */
+  /* for an array: the offset of the field that counts its entries */
   size_t counter;
-  /* of an array: the offset of the count to use if `counter` is 0 */
+  /* for an array: the offset of the count to use if `counter` is 0 */
   size_t instead;
 } baum_i_def_field;
 

@@ -137,8 +137,8 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
 
 enum { BAUM_I_NO_JOINT = -1 };
 
-/* Warn at time t about a joint, or BAUM_I_NO_JOINT. Later warnings of the same kind are only
- * counted, and the text of the first one is kept. */
+/* Warn at time t. `joint` is the joint that the warning is about, or BAUM_I_NO_JOINT. Later
+ * warnings of the same kind are only counted, and the text of the first one is kept. */
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...) BAUM_I_PRINTF(5, 6);
 
@@ -182,7 +182,7 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy);
  * changes of energy count from there. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
-/* Do the same as baum_simulation_set_state(). The counted revolutions are those that are nearest to
+/* Do what baum_simulation_set_state() does. The counted revolutions are those that are nearest to
  * the angles in the workspace, which need not be the angles of the present state. */
 baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q, const double *v);
 
@@ -305,7 +305,8 @@ typedef struct baum_i_break {
  * there is none. */
 baum_i_break baum_i_run_find_break(const baum_simulation *run);
 
-/* Do the same, but return at once if there are no breaks at all, as in most runs. */
+/* Do what baum_i_run_find_break() does, but return at once if there are no breaks at all, as in
+ * most runs. */
 static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 {
   if (run->workspace->mechanism->break_count == 0 && run->schedule.count == 0) {

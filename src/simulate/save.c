@@ -213,8 +213,8 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* These values have been evaluated before. If an evaluation fails now, the known values are
-     * kept. */
+    /* The values of the events have been evaluated before. If an evaluation fails now, the known
+     * values are kept. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }

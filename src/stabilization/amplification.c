@@ -346,7 +346,7 @@ static const baum_i_method *method_of_velocities(const baum_i_method *method)
 
 double baum_i_velocity_limit(const baum_i_method *method)
 {
-  /* this ray has the double root mu = -A */
+  /* with the damping ratio 1, mu = -A is a double root, so the limit is the same */
   return baum_i_stability_limit(method_of_velocities(method), 1.0);
 }
 

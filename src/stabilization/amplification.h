@@ -49,8 +49,9 @@ const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_f
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,
                           baum_amplification *out);
 
-/* The same for rows of velocity level, whose single mode is mu = -alpha h: z[1] is NaN. The second
- * function returns the alpha h up to which the method is stable for them. */
+/* Does what baum_i_amplification() does, for rows of velocity level. Their single mode is mu =
+ * -alpha h, so z[1] is NaN. The second function returns the alpha h up to which the method is
+ * stable for them. */
 void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
                                    baum_amplification *out);
 double baum_i_velocity_limit(const baum_i_method *method);

@@ -48,7 +48,7 @@ typedef struct trial {
   double *error;
   double *quality; /* error of the best difference, relative to the variation of the function */
   double *step;    /* the step that gave the best difference */
-  double *wrong;   /* for how many steps the given value looked wrong */
+  double *wrong;   /* number of steps for which the given value looked wrong */
 } trial;
 
 /* The values that a user function returned for one ray. */
