@@ -2,8 +2,8 @@
 """A cart swings a hanging pole up and balances it. A controller reads the coordinates of the joints
 and sets the force on the cart every millisecond. While the pole hangs, the force increases the
 energy of the pole until it suffices to stand upright. Near the upright position, state feedback
-takes over. It is designed for the linear model, so the end of the motion must decay like the
-slowest pole of this design. The force does all the work that changes the energy."""
+takes over. The feedback is designed for the linear model. At the end, the motion must therefore
+decay at the slowest rate of this design. The energy changes only by the work of the force."""
 
 import sys
 from pathlib import Path
@@ -14,9 +14,9 @@ from baum.typing import Array
 from support.report import Report
 
 CART, POLE, LENGTH, GRAVITY = 1.0, 0.2, 0.6, 9.81  # [kg], [kg], [m], [m/s^2]
-HALF, INERTIA = LENGTH / 2, POLE * LENGTH**2 / 3  # [m], [kg m^2] of the pole about the pin
+HALF, INERTIA = LENGTH / 2, POLE * LENGTH**2 / 3  # [m], [kg m^2] moment of inertia about the pin
 PERIOD, STEPS, COUNT = 1e-3, 2, 9000  # [s] of the controller; steps per period; periods
-DECAY = (1.5, 6, 7, 8)  # [1/s] of the closed loop, in the linear model
+DECAY = (1.5, 6, 7, 8)  # [1/s] decay rates of the closed loop, in the linear model
 NEAR = 0.35  # [rad] tilt at which the state feedback takes over
 
 
@@ -42,13 +42,13 @@ def one_period() -> tuple[Array, Array]:
     """Return A and b of one period of the linear model, x_next = A x + b u. The state x consists of
     the position of the cart, the tilt of the pole to the right, and their velocities."""
     mass = np.array([[CART + POLE, POLE * HALF], [POLE * HALF, INERTIA]])
-    slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # of the forces at (x, u)
+    slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # forces differentiated by (x, u)
     slope[0, 2] = 1
-    rates = np.zeros((5, 5))  # of (x, u), where u is constant
+    rates = np.zeros((5, 5))  # the time derivative of (x, u) is rates (x, u), with constant u
     rates[:2, 2:4] = np.eye(2)
     rates[2:4, [0, 1, 4]] = np.linalg.solve(mass, slope)
     whole: Array = np.eye(5)
-    for k in range(8, 0, -1):  # the exponential function of rates PERIOD
+    for k in range(8, 0, -1):  # Taylor series of exp(rates PERIOD)
         whole = np.eye(5) + PERIOD / k * rates @ whole
     return whole[:4, :4], whole[:4, 4]
 
@@ -115,7 +115,7 @@ def main() -> int:
     work = u[:-1] @ np.diff(x[:, 0]) + u[-1] * (s.get("rail.coordinate")[0] - x[-1, 0])
     change = s.get("energy").sum() - before
     print(f"work of the force {work:.4f} J")
-    report.expect("energy change less this work [J]", abs(change - work), 1e-8)
+    report.expect("energy change minus this work [J]", abs(change - work), 1e-8)
     return report.end()
 
 

@@ -24,8 +24,9 @@ typedef struct loop {
   double crank[2];     /* [rad] angle and [rad/s] angular velocity */
   double work;         /* [J] done by the motor and (negative) by the brake */
   double longest;      /* [s] longest wall time of an interval */
-  double longest_step; /* [s] mean wall time of a step, in the interval where it is longest */
-  /* element k counts intervals of 2^k to 2^(k+1) us; the last counts all longer ones */
+  double longest_step; /* [s] largest value, over all intervals, of the mean wall time of a step */
+  /* Element k counts the intervals that take 2^k to 2^(k+1) us. The last element counts all longer
+   * intervals. */
   long histogram[BINS];
 } loop;
 
@@ -96,8 +97,8 @@ static void tell_times(const loop *l)
     example_number(k == 0 ? 0.0 : ldexp(1.0, k));
     example_number((double)l->histogram[k]);
   }
-  printf("longest interval %.0f us, of an interval's steps %.2f us each\n", 1e6 * l->longest,
-         1e6 * l->longest_step);
+  printf("longest interval %.0f us, longest mean time of a step in an interval %.2f us\n",
+         1e6 * l->longest, 1e6 * l->longest_step);
 }
 
 int main(int argc, char **argv)
@@ -139,7 +140,7 @@ int main(int argc, char **argv)
   example_counters(l.run);
   example_expect("speed change under the brake [rad/s]", speed[4] - speed[3], -2.0);
   example_expect("speed at the end, off by [rad/s]", fabs(speed[ROWS - 1] - SPEED), 0.005 * SPEED);
-  example_expect("energy change less net work [J]", fabs(c.energy_change - l.work), 1.0);
+  example_expect("energy change minus net work [J]", fabs(c.energy_change - l.work), 1.0);
   example_expect("largest violation max|Phi| [m]", c.max_phi, 1e-4);
 
   baum_simulation_destroy(l.run);

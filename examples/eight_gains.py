@@ -16,7 +16,7 @@ from support.report import Report
 
 H = 2e-4  # [s]
 TIMES = H * np.arange(round(8 * np.pi / OMEGA / H) + 1.0)  # [s] four revolutions
-ENLARGED = 10  # how many times
+ENLARGED = 10  # factor by which the violations are enlarged
 PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]  # [m] of the cranks
 
 
@@ -78,11 +78,11 @@ def main() -> int:
     gaps = abs(baum.Workspace(shown).phi(0, q[-1])).reshape(len(GAINS), -1).max(axis=1)
     for (name, (_, phi)), gap in zip(runs.items(), gaps):
         print(f"{name:26}  largest violation {phi.max():.1e} m, at the end {phi[-1]:.1e} m")
-        if gap < 0.1 * R:  # larger gaps rotate bodies too far to be proportional to the violation
+        if gap < 0.1 * R:  # larger gaps are not proportional to the violation
             report.expect("  the gap shown, off by", abs(gap / (ENLARGED * phi[-1]) - 1), 0.1)
         if name != "none":
             ratio = phi[-len(phi) // 4 :].max() / runs["none"][1].max()
-            report.expect("  last revolution against none", ratio, 0.7)
+            report.expect("  last revolution / without gains", ratio, 0.7)
     return report.end()
 
 

@@ -15,7 +15,7 @@ typedef struct method {
   baum_formulation formulation;
   tuning tuned_by;
   double settings[SETTINGS]; /* steps [s] or values of rtol [-] */
-  double error;              /* largest error allowed for the setting of the table */
+  double error;              /* largest error that is allowed for the setting in the table */
 } method;
 
 static const method methods[] = {
@@ -118,7 +118,7 @@ static void tell(outcome outcomes[][SETTINGS], int count)
   }
   example_expect("violation after projection", phi[0], 1e-14);
   example_expect("violation of the others", phi[1], 1e-6);
-  example_expect("not better by a finer setting", worse, 0.0);
+  example_expect("methods that a finer setting made worse", worse, 0.0);
 }
 
 int main(int argc, char **argv)

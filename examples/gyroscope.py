@@ -90,8 +90,8 @@ def main() -> int:
 
     report.expect("azimuth, off by [rad]", abs(azimuth - PRECESSION * times).max(), 1e-7)
     report.expect("tilt, off by [rad]", abs(tilt - TILT).max(), 1e-7)
-    report.expect("support less the weight [N]", abs(support - MASS * GRAVITY).max(), 1e-6)
-    report.expect("with less spin: 0.5 deg / nod [-]", np.radians(0.5) / np.ptp(nodding), 1.0)
+    report.expect("support minus the weight [N]", abs(support - MASS * GRAVITY).max(), 1e-6)
+    report.expect("with less spin: 0.5 deg / nutation [-]", np.radians(0.5) / np.ptp(nodding), 1.0)
     for name, one in ("steady", run), ("with less spin", less):
         energy = one["energy"].sum(axis=1)
         report.expect(f"{name}: energy change [J]", abs(energy - energy[0]).max(), 1e-8)

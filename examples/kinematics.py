@@ -87,11 +87,11 @@ def main() -> int:
     report.expect("its velocity, off by [m/s]", error[1], 1e-11)
     report.expect("its acceleration, off by [m/s^2]", error[2], 1e-9)
     turned = m.simulate(turning_times(), "kinematics")["ram.velocity"][:, 0]
-    report.expect("velocity where it turns round [m/s]", abs(turned).max(), 1e-11)
+    report.expect("velocity where the ram reverses [m/s]", abs(turned).max(), 1e-11)
     # The trapezoidal rule gives means of these periodic values that are exact except for rounding.
     work = OMEGA * effort[1:].mean() * times[-1]
     lost = DAMPING * (ram[1, 1:] ** 2).mean() * times[-1]
-    report.expect("motor's work less the oil's [J]", abs(work - lost), 1e-9 * lost)
+    report.expect("work of the motor minus loss in oil [J]", abs(work - lost), 1e-9 * lost)
     energy = run["energy"].sum(axis=1)
     report.expect("energy after a turn, off by [J]", abs(energy[-1] - energy[0]), 1e-9)
     return report.end()

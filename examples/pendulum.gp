@@ -17,7 +17,7 @@ set key top right horizontal
 plot data index "path" using 1:2 with lines lw 1.5 lc rgb "#0b5fa5" title "x", \
      data index "path" using 1:3 with lines lw 1.5 lc rgb "#d1700b" title "y"
 
-set title "what is off"
+set title "errors"
 set ylabel "[m], [m^2], [J]"
 set logscale y
 set format y "10^{%L}"

@@ -14,7 +14,7 @@ from support.report import Report
 
 SUN, PLANET = 0.03, 0.02  # [m] radii of the pitch circles
 ARM, RING = SUN + PLANET, SUN + 2 * PLANET
-SPEED, LOAD = 10.0, 6.0  # [rad/s] of the sun, [N m] that opposes the arm
+SPEED, LOAD = 10.0, 6.0  # [rad/s] of the sun, [N m] torque that opposes the arm
 BEGIN, END, SPAN = 1.0, 2.0, 3.0  # [s] the ring accelerates from BEGIN to END
 BACK = -SPEED * SUN / RING  # [rad/s] of the ring at the end
 
@@ -88,7 +88,7 @@ def main() -> int:
     for name, radius in ("sun", SUN), ("ring", RING):
         off = abs(efforts[name][steady] - LOAD * radius / (SUN + RING)).max()
         report.expect(f"{name} motor, steady, off by [N m]", off, 1e-12)
-    report.expect("redundant rows, less two", abs(m.mobility().redundant_rows - 2), 0)
+    report.expect("redundant rows minus two", abs(m.mobility().redundant_rows - 2), 0)
     return report.end()
 
 

@@ -115,10 +115,10 @@ int main(int argc, char **argv)
   baum_counters c;
   CHECK(baum_simulation_counters(p.run, &c, sizeof c));
   example_counters(p.run);
-  printf("%ld tries; saving and restoring take %.1f us together\n", p.tries,
+  printf("%ld trials; saving and restoring together take %.1f us per trial\n", p.tries,
          1e6 * p.seconds / (double)p.tries);
   example_expect("speed at the end, off by [rad/s]", fabs(speed - SPEED), 0.03 * SPEED);
-  example_expect("steps that are not of the motion", (double)c.steps - ROWS * INTERVALS * STEPS,
+  example_expect("steps counted beyond the motion", (double)c.steps - ROWS * INTERVALS * STEPS,
                  0.0);
   example_expect("largest violation max|Phi| [m]", c.max_phi, 1e-4);
   free(p.buffer);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A thin disc rolls on a plane without slipping. The joint restricts the height of the disc and two
- * velocities of its contact point, so the disc has three degrees of freedom of velocity, but five
- * of position: rolling around, it can reach every place and every heading.
+ * velocities of its contact point. The disc therefore has three degrees of freedom of velocity, but
+ * five of position: it can roll to every place, and arrive there with every heading.
  *
  * The first disc rolls steadily on a circle. If b is the elevation of its axis, W the angular
  * velocity of its heading, and A and C are the moments of inertia across and along the axis, the
@@ -32,7 +32,7 @@ typedef struct disc {
   baum_joint_id contact;
 } disc;
 
-/* Returns n of the steady motion. */
+/* Returns the angular velocity n of the steady motion. */
 static double steady_rate(void)
 {
   double across = MASS * RADIUS * RADIUS / 4.0;
@@ -143,14 +143,15 @@ int main(int argc, char **argv)
     found[k] = simulate(&d, rate);
     baum_mechanism_destroy(d.mechanism);
   }
-  example_expect("degrees of freedom less 3", fabs(mobility.degrees_of_freedom - 3.0), 0.0);
-  example_expect("those of position less 5", fabs(mobility.position_degrees_of_freedom - 5.0), 0.0);
+  example_expect("degrees of freedom minus 3", fabs(mobility.degrees_of_freedom - 3.0), 0.0);
+  example_expect("position degrees of freedom minus 5",
+                 fabs(mobility.position_degrees_of_freedom - 5.0), 0.0);
   example_expect("steady: off the circle by [m]", found[0].circle, 1e-8);
   example_expect("steady: change of the tilt [rad]", found[0].highest - found[0].lowest, 1e-8);
   double friction = fabs(RADIUS * steady_rate() * TURNING) / GRAVITY;
   example_expect("steady: friction, off by", fabs(found[0].friction - friction), 1e-8);
   double wobble = found[1].highest - found[1].lowest;
-  example_expect("faster: tilt change below 0.02 rad by", fmax(0.0, 0.02 - wobble), 0.0);
+  example_expect("faster: missing tilt change [rad]", fmax(0.0, 0.02 - wobble), 0.0);
   for (int k = 0; k < DISCS; k++) {
     char what[64];
     (void)snprintf(what, sizeof what, "%s: energy change [J]", names[k]);

@@ -84,9 +84,9 @@ def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> No
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
         if row["spectral_radius"] ** 5000 < 0.01:  # violations have decayed after half of the run
-            report.expect(f"{name}, last / 3rd", growth[name], 1.05)
+            report.expect(f"{name}: last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
-    report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)
+    report.expect("largest Phi_3 with / without gains", largest / said["none"]["max_phi3"], 0.1)
     name = "stiff, alpha = beta = 1/h"
     off = said[name]["max_phi"] / runs[name].counters.predicted_phi - 1
     report.expect("stiff: violation against its prediction", abs(off), 0.02)
@@ -107,7 +107,7 @@ def plot(path: str, runs: dict[str, baum.Run]) -> None:
 
 
 def main() -> int:
-    report = Report("slider_crank", plot="draw the third constraint there; needs Matplotlib")
+    report = Report("slider_crank", plot="plot Phi_3 into this file; needs Matplotlib")
     m, times = slider_crank(), H * np.arange(10001.0)
     print(f"{m}: {m.mobility()}\nexplicit Euler, h = {H:g} s, crank at {OMEGA:g} rad/s for 1 s\n")
     with warnings.catch_warnings():

@@ -91,7 +91,8 @@ static void add_joints(slider_crank *s, const double a[3], const double b[3])
   memcpy(ball.point, a, sizeof ball.point);
   CHECK(baum_mechanism_add_spatial_spherical(s->mechanism, &ball, &s->ball));
 
-  baum_spatial_universal_def cross = baum_spatial_universal_def_default(); /* z of the slider */
+  /* The default axis is the z axis of the slider. */
+  baum_spatial_universal_def cross = baum_spatial_universal_def_default();
   cross.body_a = s->slider;
   cross.body_b = s->rod;
   memcpy(cross.point, b, sizeof cross.point);
@@ -168,7 +169,7 @@ int main(int argc, char **argv)
     example_number(hypot(row[REACTION + 1], row[REACTION + 2]));
   }
   example_counters(run);
-  example_expect("degrees of freedom less 1", fabs(mobility.degrees_of_freedom - 1.0), 0.0);
+  example_expect("degrees of freedom minus 1", fabs(mobility.degrees_of_freedom - 1.0), 0.0);
   example_expect("slider against the closed form [m]", place_error, 1e-12);
   example_expect("energy change [J]", energy_error, 1e-8);
   baum_simulation_destroy(run);

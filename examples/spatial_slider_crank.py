@@ -80,7 +80,7 @@ def main() -> int:
     force = np.linalg.norm(run["guide.reaction"][:, 1:3], axis=1)
     report.table("motion", COLUMNS, np.stack([run.t, angle, x, force], axis=1)[::20].tolist())
     energy = run["energy"].sum(axis=1)
-    report.expect("degrees of freedom less 1", abs(m.mobility().degrees_of_freedom - 1), 0)
+    report.expect("degrees of freedom minus 1", abs(m.mobility().degrees_of_freedom - 1), 0)
     report.expect("slider against the closed form [m]", abs(x - slider_at(angle)).max(), 1e-12)
     report.expect("energy change [J]", abs(energy - energy[0]).max(), 1e-8)
     return report.end()

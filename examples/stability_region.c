@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reproduces Fig. 1 of Flores et al. 2008 for every fixed-step integrator: the region of stable
  * gains in the plane of alpha h and beta^2 h^2. The library predicts the boundary of this region,
- * and how fast violations decay inside it; for explicit Euler, the region is the triangle of
+ * and how fast violations decay inside it. For explicit Euler, the region is the triangle of
  * equation (19). The prediction is compared with simulations of a slider-crank that starts with all
  * rows violated. In a simulation, gains count as stable if the largest violation stays bounded and
  * is smaller in the last quarter of the run than in the first. */
@@ -261,8 +261,8 @@ int main(int argc, char **argv)
   example_begin(argc, argv, "stability_region");
   bench b = make_bench();
   printf("stability_region: free slider-crank, 3 bodies, 4 joints; %d x %d pairs of gains\n"
-         "h = %.3g s, %d steps; formulation baumgarte; no integration is needed for what is "
-         "predicted\n\n",
+         "h = %.3g s, %d steps; formulation baumgarte; the prediction needs no "
+         "integration\n\n",
          CELLS, CELLS, H, STEPS);
   for (int k = 0; k < INTEGRATOR_COUNT; k++) {
     all[k] = examine(&b, INTEGRATORS[k](), &astray);
@@ -273,8 +273,8 @@ int main(int argc, char **argv)
   baum_workspace_destroy(b.workspace);
   baum_mechanism_destroy(b.mechanism);
   printf("\n");
-  example_expect("least share of points not as predicted", 1.0 - least / 100.0, 0.03);
-  example_expect("those not next to the boundary", astray, 0.0);
+  example_expect("largest share of wrong predictions", 1.0 - least / 100.0, 0.03);
+  example_expect("wrong ones not next to the boundary", astray, 0.0);
   example_expect("Taylor: change in 1000 steps", change, 0.01);
   return example_end();
 }

@@ -141,11 +141,11 @@ def main() -> int:
     wanted = np.array([wanted_pose(t)[0] for t in times])
     report.expect("platform at the commands, off by [m]", abs(poses[:, :3] - wanted).max(), 1e-12)
     length = abs(np.array([lengths(pose) for pose in poses]) - commands).max()
-    report.expect("inverse of the found poses, off by [m]", length, 1e-12)
+    report.expect("leg lengths of these poses, off by [m]", length, 1e-12)
     between = times[:-1] + np.diff(times) / 2
     off = m.simulate(between, "kinematics", start_time=between[0])["platform.pose"][:, :3]
     off -= np.array([wanted_pose(t)[0] for t in between])
-    report.expect("platform between them, off by [m]", abs(off).max(), 1e-8)
+    report.expect("platform between commands, off by [m]", abs(off).max(), 1e-8)
     # There is no friction, so the actuators do no work in a period. The trapezoidal rule is very
     # accurate for periodic values.
     work = (efforts * rates).sum(axis=1)[1:].mean() * PERIOD

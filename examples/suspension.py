@@ -126,7 +126,7 @@ def main() -> int:
     across, up = (rest["wheel.pose"] - rest["plate.pose"])[0, :2]
     tyre = TYRE * ((RADIUS + 0.02) / np.hypot(across, up) - 1) * up
     weight = 9.81 * (sum(MASSES.values()) - MASSES["plate"])
-    report.expect("tyre at rest, off the weight [N]", abs(tyre - weight), 1e-3)
+    report.expect("tyre force at rest minus weight [N]", abs(tyre - weight), 1e-3)
     return report.end()
 
 

@@ -63,7 +63,7 @@ static void tell_entries(const baum_study *study)
   int32_t front[MOST];
   int32_t count = 0;
   CHECK(baum_study_front(study, BAUM_STUDY_WORK, MOST, front, &count));
-  printf("the front: what no other setting beats in both work and error\n");
+  printf("the Pareto front: settings that no other setting beats in both work and error\n");
   example_table("front", columns, SHOWN, true);
   for (int k = 0; k < count && k < MOST; k++) {
     tell_entry(study, front[k], SHOWN);
@@ -105,7 +105,7 @@ static void recommend(const baum_study *study, const slider_crank *s)
   }
   for (size_t k = 0; k < sizeof wanted / sizeof wanted[0]; k++) {
     char name[64];
-    (void)snprintf(name, sizeof name, "error of what is taken for %.0e", wanted[k]);
+    (void)snprintf(name, sizeof name, "error with the setting for %.0e", wanted[k]);
     example_expect(name, got[k], wanted[k]);
   }
 }

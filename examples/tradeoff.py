@@ -42,7 +42,7 @@ def error_of(m: baum.Mechanism, study: baum.Study, options: baum.Recommendation)
 
 
 def main() -> int:
-    report = Report("tradeoff", page="write the study there, as a page for a browser")
+    report = Report("tradeoff", page="write the study into this file, as a page for a browser")
     m = slider_crank()
     study = baum.study(
         m, 0, SPAN, error=["crank.pose", "rod.pose", "slider.pose"], repeats=2, entry_limit=0.1
@@ -62,10 +62,10 @@ def main() -> int:
     for error, best in wanted.items():
         print(f"for an error of {error:.0e}: {best.why}\n")
     for error, best in wanted.items():
-        report.expect(f"error of what is taken for {error:.0e}", error_of(m, study, best), error)
+        report.expect(f"error with the setting for {error:.0e}", error_of(m, study, best), error)
     exact = [entry.error for entry in entries if not np.isnan(entry.error)]
     least = study.reference.uncertainty
-    report.expect("no entry is graded better than the reference", least, min(exact))
+    report.expect("uncertainty of the reference", least, min(exact))
     if report.options.page:
         study.write(report.options.page, "Slider-crank, released at 150 rad/s")
     return report.end()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A trebuchet throws a stone in three phases. First the sling drags the stone along a trough, until
-the stone lifts off, which an event on the force of the trough finds. Then the stone swings in the
-sling, until it flies upward at 45 degrees and the sling opens. Finally the stone flies. Every phase
-has a mechanism with the same bodies and its own joints, and begins in the last state of the phase
-before."""
+"""A trebuchet throws a stone in three phases. First the sling drags the stone along a trough. An
+event on the force of the trough finds the time at which the stone lifts off. Then the stone swings
+in the sling, until it moves upward at 45 degrees and the sling opens. Finally the stone flies. Each
+phase has a mechanism of its own, with the same bodies but other joints, and begins in the last
+state of the previous phase."""
 
 import sys
 from pathlib import Path
@@ -119,7 +119,7 @@ def main() -> int:
         WEIGHT * GRAVITY * (q[0][m["weight"].columns[0]][1] - release.q[m["weight"].columns[0]][1])
     )
     kinetic = STONE * (vx**2 + vy**2) / 2
-    report.expect("sling: largest pressure [N]", -np.concatenate(sling).min(), 0)
+    report.expect("sling: largest compression [N]", -np.concatenate(sling).min(), 0)
     report.expect("energy of the stone / that of the weight", kinetic / drop, 1.0)
     return report.end()
 

@@ -72,7 +72,7 @@ def main() -> int:
     times, q, _, _ = study.reference_samples()
     error = abs(m.simulate(times, **best).q - q).max()
     report.expect("uncertainty of the reference", study.reference.uncertainty, 1e-9)
-    report.expect("error of what is taken for 1e-06", error, 1e-6)
+    report.expect("error with the setting for 1e-06", error, 1e-6)
     return report.end()
 
 

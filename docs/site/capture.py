@@ -3,8 +3,9 @@
 
 Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this
 title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes
-FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism. Writes the curves of the first
-page that has curves, or the run if its mechanism has no drawing, into the figure FOLDER/NAME_figure.svg."""
+FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism. Also writes the figure
+FOLDER/NAME_figure.svg with the curves of the first page that has curves. If the mechanism has no drawing, the figure
+plots the run."""
 
 import runpy
 import sys

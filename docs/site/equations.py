@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Typesets the plain notation of docs/notation.md on the pages of the site: lambda becomes a Greek letter, J^T gets a
-superscript, Phi_tq a subscript. The name of the file of a page becomes its title, as a link. Code stays as it is, and so
-does the text that the search finds."""
+superscript, and Phi_tq a subscript. Where a text names another page by its file, the title of this page and a link to
+it replace the name. Code does not change, and neither does the text that the search finds."""
 
 import re
 import unicodedata

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: modelling.py XML FOLDER
 
-Writes the pages of the part Modelling into FOLDER, one for each kind of element. Pictures and Python code are those of
-tests/browser/scenes.py, equations those of docs/catalogue.md, fields those of the headers (XML is the output of Doxygen), and
-warnings of mistakes those of elements.md."""
+Writes the pages of the part Modelling into FOLDER, one for each kind of element. A page takes its picture and its Python code
+from tests/browser/scenes.py, its equation from docs/catalogue.md, its fields from the comments of the headers (XML is the
+output of Doxygen), and its section on mistakes from elements.md."""
 
 import ast
 import inspect

@@ -19,7 +19,7 @@ class Report:
 
     def __init__(self, name: str, **options: str) -> None:
         parser = argparse.ArgumentParser(prog=name)
-        for option, explanation in {"json": "write tables and checks there", **options}.items():
+        for option, explanation in {"json": "file for tables and checks", **options}.items():
             parser.add_argument(f"--{option}", metavar="FILE", help=explanation)
         self.options = parser.parse_args()
         self._tables: dict[str, Any] = {"example": name, "version": library_version}

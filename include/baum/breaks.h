@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Break times and schedules. A break time is a time at which a load or a law of the mechanism
- *  jumps. A schedule lists the times at which an input changes, and its values.
+ *  jumps. A schedule lists the times at which an input changes, and the value of the input from
+ *  each of these times on.
  */
 #ifndef BAUM_BREAKS_H
 #define BAUM_BREAKS_H
@@ -29,8 +30,8 @@ extern "C" {
  *  describes how each formulation handles such a violation. baum_kinematics() is an exception:
  *  there the velocities jump to those of the law.
  *  @param     mechanism  not frozen; unchanged on failure
- *  @param[in] times      (count) [s] finite, in any order; added to the break times of earlier
- *                        calls. Copied. NULL if count is 0.
+ *  @param[in] times      (count) [s] finite, in any order. They are added to the break times of
+ *                        earlier calls. Copied. NULL if count is 0.
  *  @param     count      [-] >= 0
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const double *times,
@@ -39,13 +40,13 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
 /** Read the break times.
  *  @param      mechanism  may be NULL
  *  @param[out] count      [-] number of break times. May be NULL.
- *  @return (count) [s] the break times in rising order, each one once; owned by the mechanism. NULL
- *          if there are none */
+ *  @return (count) [s] the break times in rising order, without duplicates; owned by the mechanism.
+ *          NULL if there are none */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
 /** Schedule the values of an input. The input has the value values[k] from times[k] to times[k +
- *  1], and the last value from the last time on. Before times[0] the input keeps the value that it
- *  has when this function is called. The schedule makes the input a function of time: the input
+ *  1]. After the last time, it keeps the last value. Before times[0] the input keeps the value that
+ *  it has when this function is called. The schedule makes the input a function of time: the input
  *  also follows the schedule when the run goes backward in time, and after
  *  baum_simulation_set_state() has moved the run to another time.
  *

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The catalogue: a collection of mechanisms. The motion of almost all of them is known. They serve
- *  as examples, for tests of integration methods, and for comparisons with other programs.
- *  docs/mechanisms.md lists them. The catalogue is a separate library, baum_catalog, which uses
- *  only the public interface of baum.
+ *  The catalogue: a collection of mechanisms, which docs/mechanisms.md lists. Use the mechanisms as
+ *  examples, for tests of integration methods, and for comparisons with other programs. Almost all
+ *  of them have a known motion. The catalogue is a separate library, baum_catalog, which uses only
+ *  the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);
@@ -11,11 +11,11 @@
  *  Units are SI. Angles are counter-clockwise from the x axis unless documented otherwise. Strings
  *  in structs are constant and must not be freed.
  *
- *  The reference of a mechanism is its known motion. It is given either as stored samples or by
- *  formulas (the field `exact` says which). Samples are valid for the default parameters only.
- *  Formulas are valid for all parameters, and for all times at which their rounding errors stay
- *  below the accuracy that `digits_q` and `digits_v` promise. The library refuses a comparison if
- *  the reference is not valid for it.
+ *  The reference of a mechanism is its known motion. This motion is given either as stored samples
+ *  or by formulas (the field `exact` says which). Samples are valid for the default parameters
+ *  only. Formulas are valid for all parameters, and for all times at which their rounding errors
+ *  stay below the accuracy that `digits_q` and `digits_v` promise. The library refuses a comparison
+ *  if the reference is not valid for it.
  *
  *  Threads: every function may be called from any thread. */
 #ifndef BAUM_CATALOG_H
@@ -48,7 +48,7 @@ typedef struct baum_catalog_entry {
   const char *source; /**< Where the data of the mechanism come from. */
   /** How the reference was computed and checked; "" if the mechanism has no reference. */
   const char *provenance;
-  const char *note;        /**< Advice for simulating it; may be "". */
+  const char *note;        /**< Advice for simulating the mechanism; may be "". */
   int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
   int32_t sample_count;    /**< [-] number of stored samples; 0 if there are none. */
   double start_time;       /**< [s] start of the problem and of its reference. */
@@ -66,10 +66,10 @@ typedef struct baum_catalog_parameter {
   size_t struct_size;  /**< Set by the call. */
   const char *name;    /**< Such as "eccentricity". */
   const char *unit;    /**< Such as "kg m^2"; "-" for a pure number. */
-  const char *meaning; /**< What it is. */
+  const char *meaning; /**< What the parameter describes. */
   double value;        /**< [unit] the default. */
-  bool positive;       /**< Must be > 0. */
-  bool whole;          /**< Must be an integer. */
+  bool positive;       /**< The value must be > 0. */
+  bool whole;          /**< The value must be an integer. */
 } baum_catalog_parameter;
 
 /** A value for a parameter. */
@@ -78,7 +78,7 @@ typedef struct baum_catalog_setting {
   double value;     /**< [unit of the parameter] finite. */
 } baum_catalog_setting;
 
-/** Which mechanism of the catalogue to build, with which parameters. */
+/** A choice: which mechanism of the catalogue to build, and with which parameters. */
 typedef struct baum_catalog_choice {
   const char *name;                     /**< Name of the entry. */
   const baum_catalog_setting *settings; /**< (setting_count) NULL if there are none. */
@@ -135,8 +135,8 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 
 /** Compute positions and velocities of the reference at a time.
  *  @param[in]  choice  entry and parameters
- *  @param      t       [s] a time of baum_catalog_times(); if the reference is exact, any finite
- *                      time
+ *  @param      t       [s] a time of baum_catalog_times(). If the reference consists of formulas,
+ *                      any finite time is allowed.
  *  @param[out] q       (nq) positions in the order of the mechanism. May be NULL.
  *  @param[out] v       (nv) velocities. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED
@@ -145,8 +145,8 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
 
-/** A function to pass to baum_study_set_solution(). It returns the reference of a mechanism whose
- *  reference is given by formulas, by calling baum_catalog_reference().
+/** A function to pass to baum_study_set_solution(). It calls baum_catalog_reference() and returns
+ *  the result. Use it for mechanisms whose reference consists of formulas.
  *  @param      t       [s]
  *  @param[out] q,v     (nq), (nv)
  *  @param[out] lambda  not written, because the reference has no multipliers
@@ -160,11 +160,12 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
  *  error of an orientation in space is the rotation that leads from the reference to the state; it
  *  has three components, the rotations about the body axes [rad]. Errors of velocities are scaled
  *  in the same way and then divided by the largest scaled velocity of the reference. The fields
- *  named floor are the uncertainty of the reference. An error below the floor has no meaning. */
+ *  q_floor and v_floor are the uncertainty of the reference. An error that is smaller than this
+ *  uncertainty has no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */
-  double v; /**< [-] the same for velocities; NaN also if v was NULL. */
+  double v; /**< [-] the same for velocities; NaN also if the argument v was NULL. */
   double q_final; /**< [-] error of positions at the last time. */
   double v_final; /**< [-] error of velocities at the last time. */
   double q_time;  /**< [s] time of the largest error of positions. */

@@ -9,10 +9,10 @@
  *    page.channels = &channel, page.channel_count = 1, page.rows = rows;
  *    baum_page_write(mechanism, &page, "slider_crank.html");
  *
- *  The library chooses the shape of each body from the elements of the mechanism: links are bars
- *  between their joints, sliders are blocks, and wheels are discs. The size of other bodies
+ *  The library chooses the shape of each body from the elements of the mechanism. It draws links as
+ *  bars between their joints, sliders as blocks, and wheels as discs. The size of other bodies
  *  corresponds to their inertia. Joints and forces are drawn as symbols. You can give a body
- *  outlines of your own, which replace its shape.
+ *  outlines (shapes of your own), which replace the shape that the library chooses.
  *
  *  Functions that write a file replace an older file of the same name in the way that
  *  baum_study_write() describes. Drawing does not change the mechanism.
@@ -39,13 +39,13 @@ typedef enum baum_outline_form {
   BAUM_OUTLINE_BOX = 2,      /**< A box with edges parallel to the axes of the body. */
   BAUM_OUTLINE_CYLINDER = 3, /**< A circular cylinder from `start` to `end`. */
   BAUM_OUTLINE_SPHERE = 4,   /**< A sphere about `center`. */
-  BAUM_OUTLINE_MESH = 5      /**< Triangles. Both of their sides are visible. */
+  BAUM_OUTLINE_MESH = 5      /**< Triangles, which are visible from both sides. */
 } baum_outline_form;
 
 #define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Largest number of triangles of a mesh. */
 
-/** A shape that is given in the axes of a body. Each form uses only some of the fields below; their
- *  comments name the forms that use them. */
+/** An outline is a shape that is drawn for a body. It is given in the axes of the body. Each form
+ *  uses only some of the fields below; their comments name the forms that use them. */
 typedef struct baum_outline {
   size_t struct_size;     /**< Set by the default. Do not write. */
   baum_outline_form form; /**< Default: BAUM_OUTLINE_POLYGON. */
@@ -66,7 +66,7 @@ typedef struct baum_outline {
   double end[3];
   /** [m] > 0, radius of a circle, cylinder or sphere. Default: 0, must be set. */
   double radius;
-  const char *color; /**< "#rrggbb". Default: NULL, chosen for each body. */
+  const char *color; /**< "#rrggbb". Default: NULL, the library chooses a colour for the body. */
 } baum_outline;
 
 /** Set every field to its default.
@@ -88,8 +88,8 @@ static inline baum_outline baum_outline_default(void)
  *  mechanism have the same outlines. While this function runs, no other thread may draw or copy the
  *  mechanism.
  *  @param     mechanism  unchanged on failure
- *  @param     body       a body of the mechanism; not one of user coordinates, which have no
- *                        position in space
+ *  @param     body       a body of the mechanism, but not a body of user coordinates, because such
+ *                        a body has no position in space
  *  @param[in] outlines   (count) replace all earlier outlines of the body. Copied. NULL if count is
  *                        0.
  *  @param     count      [-] >= 0; with 0 the body is drawn with the shape that the library chooses
@@ -99,13 +99,13 @@ BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum
 
 /** Count the outlines of a body.
  *  @param mechanism  may be NULL
- *  @param body       one of the mechanism
+ *  @param body       a body of the mechanism
  *  @return [-] number of outlines; 0 if there is no such body */
 BAUM_API int32_t baum_mechanism_outline_count(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Read an outline. Its pointers stay valid until the outlines of the body are set again.
  *  @param      mechanism    frozen or not
- *  @param      body         one of the mechanism
+ *  @param      body         a body of the mechanism
  *  @param      k            [-] 0 <= k < baum_mechanism_outline_count()
  *  @param[out] out          receives the outline
  *  @param      caller_size  sizeof *out
@@ -117,9 +117,9 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
 
 /** Draw a mechanism as an SVG picture. A planar mechanism is shown in the x-y plane. A mechanism
  *  with spatial elements is shown in a parallel projection, seen obliquely from above. Red lines
- *  show where the constraints of a joint are violated. They connect points that should coincide, a
- *  point with the line, plane or curve on which it should be (for a distance joint, with a sphere),
- *  and the tips of axes that should be parallel.
+ *  show where the constraints of a joint are violated. A red line connects two points that should
+ *  coincide, or the tips of two axes that should be parallel. It may also connect a point with the
+ *  line, plane or curve on which the point should be; for a distance joint, with a sphere.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -153,34 +153,34 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
-/** What a mark on the time axis stands for; each kind has a colour and a shape. */
+/** What a mark on the time axis stands for. Each kind of mark has its own colour and shape. */
 typedef enum baum_mark_kind {
   BAUM_MARK_WARNING = 0,
   BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
   BAUM_MARK_EVENT = 2
 } baum_mark_kind;
 
-/** What a page shows: samples of a run as baum_simulation_sample() records them. All pointers
- *  belong to the caller and are read only during the call. */
+/** The content of an HTML page: samples of a run as baum_simulation_sample() records them. All
+ *  pointers belong to the caller and are read only during the call. */
 typedef struct baum_page {
   size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *title;   /**< Default: NULL, "Mechanism". */
+  const char *title;   /**< Default: NULL, the title "Mechanism". */
   const double *times; /**< (count) [s] monotone. Default: NULL, must be set. */
-  /** [-] > 0, number of samples. A page keeps at most 600 of them, and among these the samples at
-   *  which a plotted column has its largest and its smallest value. Default: 0, must be set. */
+  /** [-] > 0, number of samples. A page keeps at most 600 samples. It always keeps those at which a
+   *  plotted column has its largest or its smallest value. Default: 0, must be set. */
   int64_t count;
-  /** (channel_count) the channels that each row contains. BAUM_Q must be one of them. Reactions
-   *  (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */
+  /** (channel_count) the channels that each row of `rows` contains. BAUM_Q must be one of them.
+   *  Reactions (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */
   const baum_channel *channels;
   int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
   /** (count x baum_channels_width()) samples. Default: NULL, must be set. */
   const double *rows;
-  /** (count x plot_count) columns to plot over time. This pointer may point into `rows`: `rows` + 9
-   *  plots the columns from index 9 on. Default: NULL, none. */
+  /** (count x plot_count) columns to plot over time. This pointer may point into `rows`; for
+   *  example, `rows` + 9 plots the columns from index 9 on. Default: NULL, none. */
   const double *plots;
   int32_t plot_count; /**< [-] >= 0. Default: 0. */
-  /** [-] how many numbers after the start of a row of `plots` the next row starts. Default: 0,
-   *  plot_count. */
+  /** [-] number of doubles from the start of one row of `plots` to the start of the next row.
+   *  Default: 0, which means plot_count. */
   int32_t plot_stride;
   /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
    *  the same unit are drawn in the same plot. Default: NULL. */
@@ -188,10 +188,12 @@ typedef struct baum_page {
   /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE.
    *  Default: NULL, none. */
   const baum_channel *traces;
-  int32_t trace_count;           /**< [-] >= 0. Default: 0. */
-  const double *mark_times;      /**< (mark_count) [s] of events and warnings. Default: NULL. */
-  const char *const *mark_texts; /**< (mark_count) Default: NULL. */
-  /** (mark_count) values of baum_mark_kind. Default: NULL, all are BAUM_MARK_WARNING. */
+  int32_t trace_count; /**< [-] >= 0. Default: 0. */
+  /** (mark_count) [s] times of the marks, which stand for events and warnings. Default: NULL. */
+  const double *mark_times;
+  const char *const *mark_texts; /**< (mark_count) labels of the marks. Default: NULL. */
+  /** (mark_count) kinds of the marks, as values of baum_mark_kind. Default: NULL, all are
+   *  BAUM_MARK_WARNING. */
   const int32_t *mark_kinds;
   int32_t mark_count; /**< [-] >= 0. Default: 0. */
 } baum_page;

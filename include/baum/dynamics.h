@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Workspaces: evaluation of a frozen mechanism at one state, without a run. They compute
- *  the constraints Phi, the Jacobian J, nu, gamma, the mass matrix M, the forces g, accelerations
- *  and residuals. It can also assemble a mechanism and project a state onto the constraints.
- *  docs/notation.md explains the symbols; the numbers in parentheses are its equations.
+ *  A workspace evaluates a frozen mechanism at one state, without a run. It computes the
+ *  constraints Phi, their Jacobian J, the right-hand sides nu and gamma of their time derivatives,
+ *  the mass matrix M, the forces g, accelerations and residuals. It can also assemble a mechanism
+ *  and project a state onto the constraints. docs/notation.md explains the symbols and lists the
+ *  numbered equations.
  *
  *  Arguments: times t [s], positions q (nq) and velocities v (nv) must be finite. No output may
  *  overlap an input. If a call fails, it does not write its outputs. Dense matrices are row-major.
- *  Columns are in the order in which the bodies were added, and rows in the order of the joints.
- *  The units of results follow from the units of the coordinates.
+ *  Coordinates are in the order in which the bodies were added, and constraint rows are in the
+ *  order in which the joints were added. The units of results follow from the units of the
+ *  coordinates.
  *
  *  Every call returns BAUM_OK or one of these statuses: BAUM_ERR_ARGUMENT (an argument is NULL or
  *  not finite), BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element),
@@ -58,19 +60,23 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
 
 /** Read an input.
  *  @param workspace  may be NULL
- *  @param input      one of the mechanism
+ *  @param input      an input of the mechanism
  *  @return  present value of the input; NaN for NULL and for ids that are not inputs of the
  *           mechanism */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
-/** Set the revolutions of an angle of a spatial joint. Positions determine such an angle only up to
- *  whole revolutions. From then on, the functions of this workspace use the value that is nearest
- *  to the given angle. Before the first such call, this angle is 0.
+/** Choose the number of whole revolutions in an angle of a spatial joint. Positions determine such
+ *  an angle only up to whole revolutions. After this call, the functions of this workspace use the
+ *  value that is nearest to the given angle. Before the first such call, they use the value that is
+ *  nearest to 0.
  *  @param workspace   of the mechanism
  *  @param joint       a spatial joint
- *  @param coordinate  one of its angles; BAUM_COORDINATE_FIRST if this is an angle
+ *  @param coordinate  one of the angles of the joint; BAUM_COORDINATE_FIRST is allowed if the first
+ *                     coordinate of the joint is an angle
  *  @param angle       [rad] finite
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (one of its functions is running) */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (a user function that the workspace is
+ *           calling makes this call)
+ */
 BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
                                               baum_joint_coordinate coordinate, double angle);
 
@@ -100,29 +106,29 @@ BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double
 BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
                                                const double *to, double *dx);
 
-/** Evaluate the constraints Phi(q, t) (1).
+/** Evaluate the constraints Phi(q, t) (equation 1).
  *  @param      workspace,t,q  see the top of this file
  *  @param[out] phi            (nc) [m], [rad] or the unit of a user constraint
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Evaluate the velocity Jacobian J = dPhi/dq N (3). For bodies whose positions form a vector, N is
- *  the identity matrix.
+/** Evaluate the velocity Jacobian J = dPhi/dq N (equation 3). N is the matrix in q' = N v. For
+ *  bodies whose positions form a vector, N is the identity matrix.
  *  @param      workspace,t,q  see the top of this file
  *  @param[out] jacobian       (nc x nv)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                              double *jacobian);
 
-/** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu (3).
+/** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu (equation 3).
  *  @param      workspace,t,q  see the top of this file
  *  @param[out] nu             (nc)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
                                        double *nu);
 
-/** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma (4).
+/** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma (equation 4).
  *  @param      workspace,t,q,v  see the top of this file
  *  @param[out] gamma            (nc)
  *  @return  see the top of this file */
@@ -136,29 +142,32 @@ BAUM_API baum_status baum_workspace_gamma(baum_workspace *workspace, double t, c
 BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q,
                                          double *mass);
 
-/** Evaluate the force vector g: applied forces, gravity and velocity terms.
+/** Evaluate the force vector g, which is the sum of applied forces, gravity and velocity terms
+ *  (such as gyroscopic moments).
  *  @param      workspace,t,q,v  see the top of this file
  *  @param[out] force            (nv)
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *force);
 
-/** Evaluate the kinetic energy and the potential energy. The potential energy is that of gravity,
- *  springs, constant loads and user potentials.
+/** Evaluate the kinetic energy and the potential energy. The potential energy is the sum of the
+ *  potentials of gravity, springs, constant loads and user potentials.
  *  @param      workspace,t,q,v    see the top of this file
  *  @param[out] kinetic,potential  [J] Each may be NULL.
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
                                            const double *v, double *kinetic, double *potential);
 
-/** Solve M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7) for accelerations and
- *  multipliers; alpha = beta = 0 gives (5).
+/** Solve M a + J^T lambda = g and J a = gamma - 2 alpha Phi' - beta^2 Phi (equation 7) for the
+ *  accelerations a and the multipliers lambda. With alpha = beta = 0, this is equation 5, without
+ *  stabilization.
  *
  *  The solution omits redundant rows. Where multipliers are not unique, the function returns the
- *  multipliers of least norm; in this norm, each lambda_i is multiplied by |row i of J M^-1/2|.
- *  These multipliers balance the forces to a relative 1e-9. If the rows that are not omitted become
- *  nearly dependent, the workspace looks for a better choice of omitted rows. A change of this
- *  choice allocates memory. After a change, baum_workspace_residual() omits the same rows.
+ *  multipliers of least norm. In this norm, each lambda_i is multiplied by |row i of J M^-1/2|.
+ *  These multipliers balance the forces with a relative error of at most 1e-9. If the rows that are
+ *  not omitted become nearly dependent, the workspace looks for a better choice of omitted rows. A
+ *  change of this choice allocates memory. After a change, baum_workspace_residual() omits the same
+ *  rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
@@ -175,7 +184,7 @@ BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, doub
  *  reaction is the generalized force -J^T lambda that belongs to the velocities of their bodies.
  *  @param      workspace,t,q  see the top of this file
  *  @param[in]  lambda         (nc)
- *  @param      joint          one of the mechanism
+ *  @param      joint          a joint of the mechanism
  *  @param[out] reaction       (width) with as many numbers as the channel BAUM_JOINT_REACTION has
  *                             columns: 3 for planar joints, 6 for spatial joints
  *  @return  see the top of this file */
@@ -205,8 +214,8 @@ typedef struct baum_dae {
   double beta;         /**< [1/s] finite; used only by index 1. */
 } baum_dae;
 
-/** A sparse matrix in compressed-column form. Within a column, entries are sorted by row. The
- *  caller owns the arrays. */
+/** A sparse square matrix in compressed-column form. Its size is the number of unknowns y. Within a
+ *  column, entries are sorted by row. The caller owns the arrays. */
 typedef struct baum_sparse {
   int32_t *columns; /**< (size + 1) index of the first entry of each column. May be NULL. */
   int32_t *rows;    /**< (nonzeros). May be NULL. */
@@ -221,7 +230,7 @@ typedef struct baum_sparse {
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
- *  @param[out] residual     of the same size
+ *  @param[out] residual     F, of the same size as y
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae,
                                              double t, const double *y, const double *dy,
@@ -265,7 +274,7 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
 
 /** Project a state onto the constraints: change q by the least amount such that Phi = 0, and then v
  *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
- *  M; in it, the axial moment of inertia of a slender rod may be raised.
+ *  M; for this norm, the axial moment of inertia of a slender rod may be increased.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
  *                              unchanged on failure

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Functions that find the elements of a mechanism, by name or by number. Elements are numbered in
- *  the order in which they were added. The mechanism may be frozen or not. These functions are
- *  useful for mechanisms that another program has built, such as those of the catalogue. Here
- *  ground does not count as a body, and drivers and user constraints count as joints.
+ *  the order in which they were added. The mechanism may be frozen or not. Use these functions for
+ *  mechanisms that another program has built, such as the mechanisms of the catalogue. Here ground
+ *  does not count as a body. Drivers and user constraints count as joints.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H
@@ -27,8 +27,7 @@ BAUM_API int32_t baum_mechanism_force_count(const baum_mechanism *mechanism);
 
 /** Find a body by number.
  *  @param mechanism  may be NULL
- *  @param k          number of the body, from 0 to baum_mechanism_body_count() - 1; for other
- *                    elements likewise
+ *  @param k          number of the element, from 0 to the number of elements of its kind minus 1
  *  @return  id of the element; all-zero if there is no such element */
 BAUM_API baum_body_id baum_mechanism_body_at(const baum_mechanism *mechanism, int32_t k);
 
@@ -41,22 +40,22 @@ BAUM_API baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, 
 /** Find an input by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Find the first body with a name; "ground" gives BAUM_GROUND.
+/** Find the first body with the given name. The name "ground" gives BAUM_GROUND.
  *  @param     mechanism  may be NULL
  *  @param[in] name       may be NULL
  *  @return  id of the element; all-zero if there is no such element */
 BAUM_API baum_body_id baum_mechanism_find_body(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first joint with a name. @copydetails baum_mechanism_find_body() */
+/** Find the first joint with the given name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_joint_id baum_mechanism_find_joint(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first force with a name. @copydetails baum_mechanism_find_body() */
+/** Find the first force with the given name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_force_id baum_mechanism_find_force(const baum_mechanism *mechanism, const char *name);
 
-/** Find the first input with a name. @copydetails baum_mechanism_find_body() */
+/** Find the first input with the given name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism, const char *name);
 
-/** Name of a force.
+/** Read the name of a force.
  *  @param mechanism  frozen or not
  *  @param force      one of its forces
  *  @return  text owned by the mechanism; NULL for other ids */

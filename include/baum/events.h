@@ -4,22 +4,22 @@
  *  passes a value.
  *
  *  Detection: after every step, the run evaluates its event functions at the end of the step and at
- *  the quarters of the step. It also evaluates them at the times of outputs. If the sign of a
- *  function has changed, the run searches for the time of the event. The search needs states inside
- *  the step. They are computed as for outputs: variable-step methods interpolate the step, and
- *  fixed-step methods take shorter steps from its start. If a function passes zero twice between
- *  two evaluations, the event is not detected. In this case, reduce max_step or the step.
+ *  one, two and three quarters of the step. It also evaluates them at the times of outputs. If the
+ *  sign of a function has changed, the run searches for the time of the event. The search needs
+ *  states inside the step. They are computed as for outputs: variable-step methods interpolate the
+ *  step, and fixed-step methods take shorter steps from its start. If a function passes zero twice
+ *  between two evaluations, the event is not detected. In this case, reduce max_step or the step.
  *
  *  Zero at the start: an event function may be zero where a run starts, after
- *  baum_simulation_set_state(), or where a run reverses its direction in time. It is not an event
- *  when the function leaves zero there. The next time at which the function passes zero is an
+ *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
+ *  then leaves zero, this is not an event. The next time at which the function passes zero is an
  *  event. A zero shortly after such a start is not an event, either, because it may be a rounding
  *  error of the start. "Shortly" means within 1e-10 T, or within the tolerance of the event if that
  *  is longer. T is 1 / r, where r is the rate of the motion, which baum_simulation_explain()
- *  states. IDA first moves the state onto the constraints; for IDA, "shortly" therefore means 10
- *  rtol T instead of 1e-10 T. baum_simulation_set_input() and baum_simulation_set_driver() trigger
- *  no event. If an event function jumps to the other sign in such a call, the run continues with
- *  the new sign.
+ *  states. For the method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first
+ *  moves the state onto the constraints. baum_simulation_set_input() and
+ *  baum_simulation_set_driver() trigger no event. If such a call changes the sign of an event
+ *  function, the run continues with the new sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
  *  begins a new grid of steps there. */
@@ -43,13 +43,14 @@ typedef struct baum_event_def {
   baum_force_fn *function;
   baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
   double value;        /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
-  /** [-] 1: only when the function rises in time; -1: only when it falls; 0: both. Default: 0. */
+  /** [-] which zeros are events. 1: only those where the function rises in time; -1: only those
+   *  where it falls; 0: both. Default: 0. */
   int32_t direction;
   bool terminal; /**< The run stops at the event (BAUM_STOP_EVENT). Default: true. */
   /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
   double tolerance;
   void *user; /**< Passed to function. Not owned. Default: NULL. */
-  /** [-] which coordinate of joint. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of `joint`. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_event_def;
 
@@ -83,7 +84,7 @@ typedef struct baum_event_record {
   size_t struct_size; /**< Set by baum_simulation_event(). */
   double t;      /**< [s] time of the event; equal for events that cannot be separated in time. */
   int32_t event; /**< [-] number of the event, from baum_simulation_add_event(). */
-  int32_t direction; /**< [-] 1 rising in time, -1 falling. */
+  int32_t direction; /**< [-] 1: the function rises in time; -1: it falls. */
 } baum_event_record;
 
 /** Count the events that have happened since the run was created.

@@ -20,12 +20,12 @@
  *  docs/notation.md lists all symbols.
  *
  *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
- *  Angles are in radians. The comments in the headers give SI units in brackets, where [-] means a
- *  pure number, and the shapes of arrays in parentheses.
+ *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
+ *  number. They give the shapes of arrays in parentheses.
  *
  *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
- *  characteristic length of the mechanism, the scale of an angle is 1, and user coordinates state
- *  their own `scale`.
+ *  characteristic length of the mechanism, and the scale of an angle is 1. For user coordinates,
+ *  the field `scale` gives it.
  *
  *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
  *  rows and lambda are in the order in which the joints were added.
@@ -38,7 +38,8 @@
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
  *  baum_mechanism_set_K(). These functions do the same for every kind. The comments after
- *  baum_coordinates_def describe them once for all kinds.
+ *  baum_coordinates_def describe them once for all kinds. In the comment of a field, "Default:
+ *  NULL, zeros" means that the field is NULL by default, and that NULL stands for zeros.
  *
  *  Versions: new versions of the library add fields only at the end of a struct. `struct_size`
  *  tells the library which fields a program knows. A program that was compiled with an older
@@ -80,8 +81,8 @@ typedef struct baum_body_id {
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_body_id;
 
-/** Identifies a joint, which is anything that adds constraint rows. An all-zero id means no joint,
- *  and functions refuse it.
+/** Identifies a joint, which is any element that adds constraint rows. An all-zero id means no
+ *  joint, and functions refuse it.
  */
 typedef struct baum_joint_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
@@ -106,7 +107,8 @@ static const baum_body_id BAUM_GROUND = {-1, 0};
 /** A function of time and positions.
  *  @param      t     [s] time
  *  @param[in]  q     positions of the named bodies
- *  @param[out] out   the result; the field that holds the function states its shape
+ *  @param[out] out   the result; the comment of the field that holds the function gives the shape
+ *                    of the result
  *  @param      user  the definition's `user`
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_q_fn(double t, const double *q, double *out, void *user);
@@ -165,19 +167,23 @@ typedef struct baum_coordinates_def {
   /** (position_count) positions in the design configuration; they must lie on the configuration
    *  manifold. Copied. Default: NULL, zeros; must be set if `rate` is set. */
   const double *q;
-  /** (size) initial velocities. Where an entry is NaN, the velocity is free, and assembly
-   *  determines it. Copied. Default: NULL, all free. */
+  /** (size) initial velocities. Where an entry is NaN, the velocity is free, which means that
+   *  assembly determines it. Copied. Default: NULL, all free. */
   const double *v;
   /** (size) > 0, the scale of each coordinate: the size of a typical change. Tolerances are
    *  relative to the scale. Copied. Default: NULL, ones. */
   const double *scale;
-  /** out (size x size), symmetric and positive semidefinite. Default: NULL, must be set. */
+  /** The mass matrix: out (size x size), symmetric and positive semidefinite. Default: NULL, must
+   *  be set. */
   baum_q_fn *mass;
-  /** out (size), g including the velocity terms. Default: NULL, must be set. */
+  /** The generalized force g, including the velocity terms: out (size). Default: NULL, must be set.
+   */
   baum_force_fn *force;
-  baum_force_fn *force_q;   /**< out (size x size), dg/dq. Default: NULL, by differences. */
-  baum_force_fn *force_v;   /**< out (size x size), dg/dv. Default: NULL, by differences. */
-  baum_q_fn *potential;     /**< out (1) [J]. Default: NULL, none. */
+  /** dg/dq: out (size x size). Default: NULL, computed by differences. */
+  baum_force_fn *force_q;
+  /** dg/dv: out (size x size). Default: NULL, computed by differences. */
+  baum_force_fn *force_v;
+  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
   bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
   bool held;                /**< Assembly keeps the design positions. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
@@ -185,14 +191,18 @@ typedef struct baum_coordinates_def {
   /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
    *  Default: NULL, ones. */
   const double *position_scale;
-  baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
-  baum_move_fn *move;             /**< Default: NULL; must be set if `rate` is set. */
-  baum_difference_fn *difference; /**< Default: NULL; must be set if `rate` is set. */
-  baum_normalize_fn *normalize;   /**< Not needed if every q is on the manifold. Default: NULL. */
-  int32_t position_count;         /**< [-] number of positions. Default: 0, the same as `size`. */
+  baum_rate_fn *rate; /**< Computes q' = N(q) v. Default: NULL, q' = v. */
+  baum_move_fn *move; /**< Moves q along v. Default: NULL; must be set if `rate` is set. */
+  /** Computes the displacement between two positions. Default: NULL; must be set if `rate` is set.
+   */
+  baum_difference_fn *difference;
+  /** Moves q onto the manifold. Not needed if every q is on the manifold. Default: NULL. */
+  baum_normalize_fn *normalize;
+  int32_t position_count; /**< [-] number of positions. Default: 0, the same as `size`. */
 } baum_coordinates_def;
 
-/** Set every field to its default. Bindings call this; C programs call the function below.
+/** Set every field to its default. Bindings to other languages call this function; C programs call
+ *  the function below.
  *  @param[out] def          NULL is ignored
  *  @param      caller_size  sizeof *def; no byte beyond it is written */
 BAUM_API void baum_coordinates_def_init(baum_coordinates_def *def, size_t caller_size);
@@ -258,16 +268,18 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  /** (body_count) bodies acted on. Copied. Default: NULL, must be set. */
+  /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
   int32_t body_count; /**< [-] > 0. Default: 0, must be set. */
   int32_t row_count;  /**< [-] > 0. Default: 0, must be set. */
-  /** out (row_count). Default: NULL, must be set unless velocity_level. */
+  /** Phi(q, t): out (row_count). Default: NULL, must be set unless velocity_level is true. */
   baum_q_fn *phi;
-  baum_q_fn *jacobian; /**< out (row_count x nv), J. Default: NULL, differences of phi. */
-  baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
-  baum_qv_fn *gamma;   /**< out (row_count), gamma in (4). Default: NULL, differences of phi. */
-  void *user;          /**< Passed to the functions. Not owned. Default: NULL. */
+  baum_q_fn *jacobian; /**< J: out (row_count x nv). Default: NULL, differences of phi. */
+  /** nu = -dPhi/dt: out (row_count). Default: NULL, differences of phi in t. */
+  baum_q_fn *nu;
+  /** gamma in J a = gamma: out (row_count). Default: NULL, differences of phi. */
+  baum_qv_fn *gamma;
+  void *user; /**< Passed to the functions. Not owned. Default: NULL. */
   /** True for constraints J v = nu on velocities, without a Phi. If the function nu is NULL, these
    *  constraints have nu = 0. Default: false. */
   bool velocity_level;
@@ -303,24 +315,24 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT
  *  - prismatic joint, point on a line: DISPLACEMENT
- *  - cylindrical joint: DISPLACEMENT, ANGLE
+ *  - cylindrical joint, screw: DISPLACEMENT, ANGLE
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
  *  An angle of a planar joint grows continuously over several revolutions. An angle of a spatial
  *  joint follows from a single configuration only up to whole revolutions. A run therefore counts
  *  the revolutions. A workspace does not know the past of the motion, so its functions use angles
- *  between -pi and pi, unless baum_workspace_set_angle() has given other ones. */
+ *  between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions. */
 typedef enum baum_joint_coordinate {
-  /** The first coordinate in the list above; most joints have only one. */
+  /** The first coordinate that the list above gives for the joint. Most joints have only one. */
   BAUM_COORDINATE_FIRST = 0,
   /** [m] from body_a's point to body_b's point, along the axis. */
   BAUM_COORDINATE_DISPLACEMENT = 1,
   BAUM_COORDINATE_ANGLE = 2,   /**< [rad] of body_b relative to body_a about the axis. */
-  BAUM_COORDINATE_ANGLE_B = 3, /**< [rad] about axis_b. */
-  /** [m] from body_a's point to body_b's point, along x in the plane. */
+  BAUM_COORDINATE_ANGLE_B = 3, /**< [rad] the second angle of a universal joint, about axis_b. */
+  /** [m] from body_a's point to body_b's point, along the x axis of a spatial planar joint. */
   BAUM_COORDINATE_X = 4,
-  BAUM_COORDINATE_Y = 5 /**< [m] perpendicular to x in the plane. */
+  BAUM_COORDINATE_Y = 5 /**< [m] the same, perpendicular to x in the plane. */
 } baum_joint_coordinate;
 
 /* ---- drivers --------------------------------------------------------------------------------- */
@@ -330,15 +342,16 @@ typedef enum baum_joint_coordinate {
  *  / 2, or a law of your own. If the coordinate is an angle of a spatial joint, whole revolutions
  *  do not count in this row. */
 typedef struct baum_driver_def {
-  size_t struct_size;               /**< Set by the default. Do not write. */
-  const char *name;                 /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
-  double value;                     /**< [rad or m] s at t = 0. Default: 0. */
-  double rate;                      /**< [rad/s or m/s] s' at t = 0. Default: 0. */
-  double acceleration;              /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;                 /**< Replaces the polynomial. Default: NULL. */
-  void *user;                       /**< Passed to law. Not owned. Default: NULL. */
-  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
+  double value;        /**< [rad or m] s at t = 0. Default: 0. */
+  double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
+  double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
+  baum_law_fn *law;    /**< Replaces the polynomial. Default: NULL. */
+  void *user;          /**< Passed to law. Not owned. Default: NULL. */
+  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
 } baum_driver_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -364,11 +377,11 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 
 /** The law of a coupling. x is the coordinate of joint_a [rad or m]. The function writes the value
  *  of the law at x to f[0], its first derivative to f[1] and its second derivative to f[2]. The
- *  library sets f to zero before the call. If x is an angle, it grows over several revolutions,
- *  with one exception: an angle of a spatial joint is between -pi and pi if a workspace calls the
- *  function. Methods that need the third derivative compute it by differences of f[2]. When the
- *  library checks the derivatives, it also calls the law at values of x that the motion does not
- *  reach. The return value has the same meaning as that of baum_q_fn. */
+ *  library sets f to zero before the call. If x is an angle, it grows continuously over several
+ *  revolutions. There is one exception: if a workspace calls the function, an angle of a spatial
+ *  joint is between -pi and pi. Methods that need the third derivative compute it by differences of
+ *  f[2]. When the library checks the derivatives, it also calls the law at values of x that the
+ *  motion does not reach. The return value has the same meaning as that of baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
@@ -392,13 +405,16 @@ typedef struct baum_coupling_def {
   /** A joint with a coordinate. It may be joint_a again, to couple two coordinates of one joint.
    *  Default: none, must be set. */
   baum_joint_id joint_b;
-  double ratio; /**< [unit of b / unit of a] Default: 1. */
-  /** [rad or m] of coordinate_b. Default: NaN, the value in the design configuration. */
+  double ratio; /**< [unit of coordinate_b / unit of coordinate_a] ratio in f(x). Default: 1. */
+  /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
+   *  configuration. */
   double offset;
-  baum_coupling_fn *law;              /**< Replaces ratio and offset. Default: NULL. */
-  void *user;                         /**< Passed to law. Not owned. Default: NULL. */
-  baum_joint_coordinate coordinate_a; /**< [-] Default: BAUM_COORDINATE_FIRST. */
-  baum_joint_coordinate coordinate_b; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
+  void *user;            /**< Passed to law. Not owned. Default: NULL. */
+  /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate_a;
+  /** [-] which coordinate of joint_b. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate_b;
 } baum_coupling_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -430,15 +446,19 @@ BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum
 typedef struct baum_user_force_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  /** (body_count) bodies acted on. Copied. Default: NULL, must be set. */
+  /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count;       /**< [-] > 0. Default: 0, must be set. */
-  baum_force_fn *force;     /**< out (nv). Default: NULL, must be set. */
-  baum_force_fn *force_q;   /**< out (nv x nv). Default: NULL, by differences. */
-  baum_force_fn *force_v;   /**< out (nv x nv). Default: NULL, by differences. */
-  baum_q_fn *potential;     /**< out (1) [J]. Default: NULL, none. */
+  int32_t body_count;   /**< [-] > 0. Default: 0, must be set. */
+  baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
+  /** Derivatives of force along displacements: out (nv x nv). Default: NULL, computed by
+   *  differences. */
+  baum_force_fn *force_q;
+  /** Derivatives of force with respect to v: out (nv x nv). Default: NULL, computed by
+   *  differences. */
+  baum_force_fn *force_v;
+  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< force() reads v. RATTLE requires false. Default: true. */
+  bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
 } baum_user_force_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -486,12 +506,13 @@ typedef int baum_spring_fn(double length, double rate, double out[3], void *user
  *  A run counts the revolutions of an angle of a spatial joint, so the spring winds up further with
  *  each revolution. The functions of a workspace use angles between -pi and pi. */
 typedef struct baum_joint_spring_def {
-  size_t struct_size;               /**< Set by the default. Do not write. */
-  const char *name;                 /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_joint_id joint;              /**< A joint with a coordinate. Default: none, must be set. */
-  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
-  double stiffness;                 /**< [N m/rad or N/m] >= 0. Default: 0. */
-  double damping;                   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
+  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
+  double stiffness; /**< [N m/rad or N/m] >= 0. Default: 0. */
+  double damping;   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;
@@ -568,12 +589,12 @@ BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 /** Copy a mechanism. The copy is not frozen. Ids of the original are valid in the copy, and ids of
  *  the copy in the original, until elements are added to one of the two.
  *
- *  Definitions are copied as they were given. A definition may leave some values to the design
- *  configuration: the place of a joint that is given by `point`, and lengths, angles and offsets
- *  that are not given. In the copy, such values follow from the design configuration of the copy.
- *  If you want to change the position or the angle of a body in the copy and keep these values,
- *  first give point_a, point_b, lengths, angles and offsets as numbers. The copy shares function
- *  pointers and `user` with the original.
+ *  Definitions are copied as they were given. Some values of a definition may follow from the
+ *  design configuration: the place of a joint that is given by `point`, and lengths, angles and
+ *  offsets that are not given. In the copy, these values follow from the design configuration of
+ *  the copy. So they change if you change the position or the angle of a body in the copy. To keep
+ *  them, first give point_a, point_b, lengths, angles and offsets as numbers. The copy shares
+ *  function pointers and `user` with the original.
  *  @param      mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure; release it with
  *                         baum_mechanism_destroy()
@@ -620,7 +641,7 @@ BAUM_API baum_status baum_mechanism_get_characteristic_length(const baum_mechani
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (no bodies), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_freeze(baum_mechanism *mechanism);
 
-/** Whether a mechanism is frozen. @param mechanism  may be NULL @return false for NULL */
+/** Tell whether a mechanism is frozen. @param mechanism  may be NULL @return false for NULL */
 BAUM_API bool baum_mechanism_is_frozen(const baum_mechanism *mechanism);
 
 /** Read the sizes of a mechanism.
@@ -648,20 +669,20 @@ BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_j
 BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
                                             int32_t *first_q, int32_t *first_v);
 
-/** Name of a body.
+/** Read the name of a body.
  *  @param mechanism  frozen or not
  *  @param body       one of its bodies
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body);
 
-/** Name of a joint.
+/** Read the name of a joint.
  *  @param mechanism  frozen or not
  *  @param joint      one of its joints
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
                                                baum_joint_id joint);
 
-/** Name of an input.
+/** Read the name of an input.
  *  @param mechanism  frozen or not
  *  @param input      one of its inputs
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
@@ -683,11 +704,12 @@ typedef struct baum_mobility {
    *  one, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
-  baum_joint_id worst_joint; /**< Joint of worst_phi. */
+  baum_joint_id worst_joint; /**< The joint with the row of worst_phi. */
   char text[1024];           /**< These results in words, with the names of elements. */
   int32_t velocity_rows;     /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] degrees of freedom of position: nv - rank of J without rows of velocity level.
-   *  degrees_of_freedom counts those of velocity, which are fewer if there are such rows. */
+  /** [-] degrees of freedom of position: nv minus the rank of J without rows of velocity level.
+   *  degrees_of_freedom counts the degrees of freedom of velocity instead. These are fewer if there
+   *  are rows of velocity level. */
   int32_t position_degrees_of_freedom;
 } baum_mobility;
 
@@ -720,19 +742,21 @@ typedef struct baum_report {
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;
-  bool constant_mass;     /**< All masses are constant, so they are inverted only once. */
-  bool constant_force;    /**< All forces are constant. */
-  bool blocks;            /**< Solved by blocks (BAUM_SOLVER_BLOCK), otherwise by KLU. */
-  int32_t nodes;          /**< [-] nodes of the block solver, which are pairs of rows; 0 for KLU. */
-  int32_t couplings;      /**< [-] couplings of nodes during elimination; 0 for KLU. */
-  int32_t fill;           /**< [-] couplings that elimination adds; 0 for KLU. */
-  int32_t most_couplings; /**< [-] largest number of couplings of a node; 0 for KLU. */
-  int32_t most_joints;    /**< [-] largest number of joints of a body that is not fixed. */
+  bool constant_mass;  /**< The mass matrix is constant, so it is inverted only once. */
+  bool constant_force; /**< All forces are constant. */
+  bool blocks;         /**< True if BAUM_SOLVER_BLOCK solves the equations, false if KLU does. */
+  /** [-] nodes of the block solver (a node is a pair of rows); 0 for KLU. */
+  int32_t nodes;
+  int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
+  int32_t fill;      /**< [-] pairs that only elimination couples; 0 for KLU. */
+  /** [-] largest number of later nodes with which one node is coupled; 0 for KLU. */
+  int32_t most_couplings;
+  int32_t most_joints;      /**< [-] largest number of joints of a body that is not fixed. */
   baum_body_id most_joined; /**< The body with most joints; none if there are no joints. */
   /** These results in words, with the names of elements and the reasons. */
   char text[2048];
   int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] nv - rank of J without rows of velocity level; -1: not known. */
+  /** [-] nv minus the rank of J without rows of velocity level; -1 if it is not known. */
   int32_t position_degrees_of_freedom;
 } baum_report;
 
@@ -750,14 +774,14 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
  *  baum_simulation_create() makes this check, too.
  *
  *  The check evaluates the functions in the design configuration at t = 0, and in three
- *  configurations near it at t = 0, 0.37 and 1.3. It rejects an entry of a derivative if the error
- *  of the entry exceeds the sum of 1e-6 times the entry and 1e-9 times the largest entry of the
- *  row. Before the entries of a row are compared, each is multiplied by the scale of its
- *  coordinate. It also checks mass(): the matrix must be symmetric, its diagonal must not contain
- *  negative numbers in the design configuration, and it must be constant if constant_mass is true.
- *  Kinks of a function are allowed. The check skips configurations and times at which a function
- *  fails. If a function fails in all configurations, the check returns this failure. Laws of
- *  drivers are an exception: they may fail in all of them.
+ *  configurations near it at the times 0, 0.37 and 1.3. It rejects an entry of a derivative if the
+ *  error of the entry exceeds the sum of 1e-6 times the entry and 1e-9 times the largest entry of
+ *  the row. Before the entries of a row are compared, each is multiplied by the scale of its
+ *  coordinate. The call also checks the function mass() of user coordinates: the matrix must be
+ *  symmetric, its diagonal must not contain negative numbers in the design configuration, and it
+ *  must be constant if constant_mass is true. Kinks of a function are allowed. The check skips
+ *  configurations and times at which a function fails. If a function fails in all configurations,
+ *  the check returns this failure. Laws of drivers are an exception: they may fail in all of them.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

@@ -39,9 +39,10 @@ typedef struct baum_planar_body_def {
   double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
   /** [m] of the centre of mass in the design configuration. Default: (0, 0). */
   double position[2];
-  double angle;            /**< [rad] of the body axes in the design configuration. Default: 0. */
-  double velocity[2];      /**< [m/s] of the centre of mass at the start. Default: NaN, free. */
-  double angular_velocity; /**< [rad/s] at the start. Default: NaN, free. */
+  double angle; /**< [rad] of the body axes in the design configuration. Default: 0. */
+  /** [m/s] of the centre of mass at the start. Default: NaN, assembly determines it. */
+  double velocity[2];
+  double angular_velocity; /**< [rad/s] at the start. Default: NaN, assembly determines it. */
   bool held;               /**< Assembly keeps the design position and angle. Default: false. */
 } baum_planar_body_def;
 
@@ -74,7 +75,7 @@ typedef struct baum_planar_particle_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
-  double velocity[2]; /**< [m/s] at the start. Default: NaN, free. */
+  double velocity[2]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_planar_particle_def;
 
@@ -356,8 +357,9 @@ typedef struct baum_planar_load_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */
-  double force[2];    /**< [N] Default: (0, 0). */
-  double torque;      /**< [N m] counter-clockwise. Default: 0. */
+  /** [N] in ground axes, or in body axes if `follows_body` is true. Default: (0, 0). */
+  double force[2];
+  double torque; /**< [N m] counter-clockwise. Default: 0. */
   /** True if the force rotates with the body. Default: false, the force is in ground axes. */
   bool follows_body;
   baum_input_id input; /**< An input whose value multiplies force and torque. Default: none. */

@@ -169,8 +169,8 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 
 /** The function of a curve F(x, y) = 0: computes F and its derivatives. The derivatives must be
  *  exact near the curve, too, not only on it. Scale F so that |grad F| is about 1 on the curve.
- *  Near the curve, F then is about the distance from the curve, and the tolerances of a run bound
- *  this distance.
+ *  Near the curve, F is then approximately the distance from the curve, so that the tolerances of a
+ *  run bound this distance.
  *  @param[in]  xy    (2) [m] x and y of a point, in the axes of body_a, with body_a's point as
  *                    origin
  *  @param[out] out   (6) F [m], its first derivatives F_x, F_y [-] and its second derivatives F_xx,

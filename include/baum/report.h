@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Reports of a study. A report lists the entries of the study, its Pareto front, its
- *  recommendations and its reference, and describes the machine that ran the study.
+ *  Reports of a study, which compares integration methods on one mechanism (study.h). A report
+ *  lists the entries of the study, its Pareto front, its recommendations and its reference. It also
+ *  describes the machine that ran the study.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
@@ -26,8 +27,8 @@ typedef enum baum_report_form {
   /** Only the entries: one line with the names of the columns, then one line for each entry (RFC
    *  4180). */
   BAUM_REPORT_CSV = 1,
-  /** The whole report. The member "units" states the unit of every key. Later versions keep the
-   *  keys. */
+  /** The whole report. The member "units" states the unit of every key. Later versions of the
+   *  library keep these keys. */
   BAUM_REPORT_JSON = 2,
   /** One HTML page with charts, a sortable table and a picture of the mechanism. The page loads no
    *  other files. Drawing the picture calls functions of the mechanism. */
@@ -41,8 +42,8 @@ typedef enum baum_report_form {
  *  files with several hard links and files of another owner cannot be replaced safely. The function
  *  writes to them directly, so they may be incomplete after a failure.
  *  @param     study  the study
- *  @param     form   the form
- *  @param[in] title  title of a text, JSON or page. NULL: "Study".
+ *  @param     form   form of the report
+ *  @param[in] title  title of the report; CSV has none. NULL: "Study".
  *  @param[in] path   of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message has the system's reason),
  *           BAUM_ERR_MEMORY */
@@ -51,9 +52,9 @@ BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form 
 
 /** Write a report into memory.
  *  @param      study     the study
- *  @param      form      the form
- *  @param[in]  title     title of a text, JSON or page. NULL: "Study".
- *  @param[out] text      (capacity) zero-terminated, cut if too long. NULL if capacity is 0.
+ *  @param      form      form of the report
+ *  @param[in]  title     title of the report; CSV has none. NULL: "Study".
+ *  @param[out] text      (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
  *  @param      capacity  [byte]
  *  @param[out] size      [byte] length of the whole report without the final zero. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY */

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Scenes: mechanisms in the form of a text, which can be saved, sent and compared.
+ *  A scene is a mechanism written as text, which can be saved, sent and compared.
  *
- *  A scene is a JSON text (RFC 8259). It contains everything that was given to build the mechanism:
+ *  The text is in JSON (RFC 8259). It contains everything that was given to build the mechanism:
  *  gravity, characteristic length, break times, inputs, bodies with their outlines, joints and
  *  forces. docs/scenes.md describes the format. Numbers are exact: a mechanism that is read back
  *  moves bit for bit like the original.
  *
  *  A text cannot contain functions. A scene therefore contains names in place of callbacks and
- *  `user` pointers. An array of hooks states which function or pointer has which name. */
+ *  `user` pointers. An array of hooks assigns these names to functions and pointers. */
 #ifndef BAUM_SCENE_H
 #define BAUM_SCENE_H
 
@@ -28,9 +28,11 @@ typedef void baum_hook_fn(void);
 /** A hook: the name of a function, or the name of the data to which a field `user` points. One of
  *  the two members `function` and `user` is NULL. */
 typedef struct baum_hook {
-  const char *name;       /**< Not empty. */
-  baum_hook_fn *function; /**< A callback of a definition. */
-  void *user;             /**< Not owned. */
+  const char *name; /**< The name, which must not be empty. */
+  /** A callback of a definition; NULL if the hook names a pointer `user`. */
+  baum_hook_fn *function;
+  /** A pointer `user` of a definition. Not owned. NULL if the hook names a callback. */
+  void *user;
 } baum_hook;
 
 /** Write a mechanism as a scene.
@@ -80,7 +82,7 @@ BAUM_API baum_status baum_mechanism_read(const char *path, const baum_hook *hook
  *  outlines, functions and `user` pointers. It does not matter whether they are frozen.
  *  @param      a      a mechanism
  *  @param      b      a mechanism
- *  @param[out] equal  whether their scenes are equal
+ *  @param[out] equal  true if the mechanisms are equal
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_compare(const baum_mechanism *a, const baum_mechanism *b,
                                             bool *equal);

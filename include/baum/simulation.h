@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Runs: motions of frozen mechanisms. This header declares baum_simulation (one run), the
- *  integrators, the options of a run, the functions that advance it, and its results.
+ *  Runs: simulations of the motion of frozen mechanisms. This header declares baum_simulation (one
+ *  run), the integrators, the options of a run, the functions that advance it, and its results.
  *
  *  Failure: a run that fails stays at the end of its last successful step. You can still read time,
  *  q and v.
@@ -32,12 +32,14 @@ typedef struct baum_simulation baum_simulation;
  * of the list is the default. If BAUMGARTE is in the list, the rule in parentheses chooses its
  * gains by default. */
 
-/** @return explicit Euler, order 1, fixed step. BAUMGARTE (dead-beat), UNSTABILIZED, PROJECTION */
+/** @return explicit Euler, order 1, fixed step. Formulations: BAUMGARTE (dead-beat), UNSTABILIZED,
+ *          PROJECTION */
 BAUM_API const baum_integrator *baum_euler(void);
 /** @return semi-implicit (symplectic) Euler, order 1, fixed step. It updates the velocities first
  *          and moves the positions with the new velocities. Formulations as baum_euler() */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
-/** @return  explicit midpoint rule, order 2, fixed step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED
+/** @return  explicit midpoint rule, order 2, fixed step. Formulations: PROJECTION, BAUMGARTE
+ *           (auto), UNSTABILIZED
  */
 BAUM_API const baum_integrator *baum_rk2(void);
 /** @return Kutta's third-order method, fixed step. Formulations as baum_rk2() */
@@ -46,8 +48,8 @@ BAUM_API const baum_integrator *baum_rk3(void);
 BAUM_API const baum_integrator *baum_rk4(void);
 /** A good choice for loose tolerances.
  *  @return  the embedded Runge-Kutta pair of Dormand and Prince, orders 5 and 4, explicit, with
- *           rtol or with a fixed step. Six evaluations per step. PROJECTION, BAUMGARTE (auto),
- *           UNSTABILIZED */
+ *           rtol or with a fixed step. Six evaluations per step. Formulations: PROJECTION,
+ *           BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_dp5(void);
 /** The first choice if the forces are not stiff and rtol is 1e-5 or less.
  *  @return  DOP853 (Hairer, Norsett, Wanner 1993), a Runge-Kutta method of order 8 with error
@@ -55,44 +57,46 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           evaluations per step, and three more if the step is interpolated. Formulations as
  *           baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** A method that uses past steps. Where it has no past steps, it takes its first steps with a
- *  Runge-Kutta method. This is so at the start, after baum_simulation_set_state(),
+/** A method that uses past steps. Where there are no past steps that it can use, it takes its first
+ *  steps with a Runge-Kutta method. This happens at the start, after baum_simulation_set_state(),
  *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
  *  in time, and after a requested time that is not on the grid of steps.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
- *           BAUMGARTE (best damping), UNSTABILIZED. It does not offer PROJECTION, because past
- *           steps cannot be projected */
+ *           Formulations: BAUMGARTE (best damping), UNSTABILIZED. The method does not offer
+ *           PROJECTION, because past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
-/** @return three-step Adams-Bashforth method, order 3. In all else it is like baum_ab2() */
+/** @return three-step Adams-Bashforth method, order 3. Otherwise it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab3(void);
-/** @return four-step Adams-Bashforth method, order 4. In all else it is like baum_ab2() */
+/** @return four-step Adams-Bashforth method, order 4. Otherwise it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab4(void);
 /** For long runs without dissipation. The error of the energy stays within a band of width O(h^2).
  *  The angular momentum of a free rigid body in space is conserved to rounding. After every step,
  *  Phi = 0 and Phi' = 0 are satisfied to rounding. The method refuses mass matrices that vary, and
  *  forces that depend on velocities, such as dampers and gyroscopic moments of user coordinates. To
- *  find such user functions, a run calls them at a few states when it is created.
- *  @return  RATTLE, order 2, fixed step, symplectic. INDEX3 */
+ *  find out whether the forces of user functions depend on velocities, a run calls the functions at
+ *  a few states when it is created.
+ *  @return  RATTLE, order 2, fixed step, symplectic. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
 /** For stiff forces, and for comparisons of methods with index 3. After every step, Phi = 0 is
  *  satisfied to rounding, and |Phi'| is of second order in the step.
  *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
- *           INDEX3 */
+ *           Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** This method solves the implicit equations of a step by fixed-point iteration, except the stiff
- *  terms of the gains, for which it uses Newton's method. Stiff forces therefore limit its steps,
- *  but large gains do not. CVODE projects only with BDF.
- *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED */
+/** This method solves the implicit equations of a step by fixed-point iteration. It uses Newton's
+ *  method only for the stiff terms that come from the gains. Stiff forces therefore limit its
+ *  steps, but large gains do not. It does not offer PROJECTION, because CVODE projects only with
+ *  BDF.
+ *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. Formulations: BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** For stiff forces. This method solves the equations of a step by Newton's method, with a sparse
- *  Jacobian that contains the derivatives of all joints and forces. PROJECTION projects inside each
- *  step, before the error test.
- *  @return  SUNDIALS CVODE, BDF, rtol. PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
+ *  Jacobian that contains the derivatives of all joints and forces. With PROJECTION, the method
+ *  projects the state inside each step, before the error test.
+ *  @return  SUNDIALS CVODE, BDF, rtol. Formulations: PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** For stiff forces, and for comparisons. Use INDEX3 only to compare formulations: its error is far
  *  above its tolerance.
- *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
- *           UNSTABILIZED, INDEX2, INDEX3 */
+ *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. Formulations: GGL,
+ *           BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
 /** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
  *  every coordinate. Other mechanisms are refused. At each requested time, the run solves Phi(q, t)
@@ -116,10 +120,11 @@ BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
  *  @param integrator  may be NULL
  *  @return  0 for variable order and for NULL */
 BAUM_API int32_t baum_integrator_order(const baum_integrator *integrator);
-/** Whether an integrator takes `step`. @param integrator  may be NULL @return false for NULL */
+/** Tell whether an integrator takes the option `step`. @param integrator  may be NULL @return false
+ *  for NULL */
 BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
-/** Whether an integrator takes `rtol`. If it takes both `step` and `rtol`, set one of the two
- *  options. baum_kinematics() takes neither.
+/** Tell whether an integrator takes the option `rtol`. If it takes both `step` and `rtol`, set one
+ *  of the two options. baum_kinematics() takes neither.
  *  @param integrator  may be NULL
  *  @return  false for NULL */
 BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
@@ -128,14 +133,16 @@ BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrato
  *  and (7). */
 typedef enum baum_formulation {
   BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
-  /** (5), with J a = gamma. The constraint violation drifts. */
+  /** Equation (5), with J a = gamma. The constraint violation drifts. */
   BAUM_FORMULATION_UNSTABILIZED = 1,
-  BAUM_FORMULATION_BAUMGARTE = 2, /**< (7), with J a = gamma - 2 alpha Phi' - beta^2 Phi. */
-  /** (5), and q and v are projected onto the constraints after each step. */
+  /** Equation (7), with J a = gamma - 2 alpha Phi' - beta^2 Phi. */
+  BAUM_FORMULATION_BAUMGARTE = 2,
+  /** Equation (5). After each step, q and v are projected onto the constraints. */
   BAUM_FORMULATION_PROJECTION = 3,
-  BAUM_FORMULATION_INDEX2 = 4, /**< J v = nu; Phi drifts slowly. */
-  BAUM_FORMULATION_GGL = 5,    /**< J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
-  BAUM_FORMULATION_INDEX3 = 6  /**< Phi = 0. */
+  BAUM_FORMULATION_INDEX2 = 4, /**< The constraints are J v = nu. Phi drifts slowly. */
+  /** The constraints are J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
+  BAUM_FORMULATION_GGL = 5,
+  BAUM_FORMULATION_INDEX3 = 6 /**< Phi = 0. */
 } baum_formulation;
 
 /** Name of a formulation.
@@ -143,7 +150,7 @@ typedef enum baum_formulation {
  *  @return  such as "baumgarte"; NULL for unknown values */
 BAUM_API const char *baum_formulation_name(baum_formulation formulation);
 
-/** Whether an integrator offers a formulation.
+/** Tell whether an integrator offers a formulation.
  *  @param integrator   may be NULL
  *  @param formulation  any value
  *  @return  false for NULL */
@@ -153,9 +160,9 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 /** How a run begins from the design configuration. */
 typedef enum baum_start {
   /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
-   *  the characteristic length, or by more than 1 rad. An exception applies if the initial values
-   *  of drivers differ from the design configuration: before the run is refused, the mechanism is
-   *  assembled with the drivers as in the design configuration, and then the drivers are moved to
+   *  the characteristic length, or by more than 1 rad. There is an exception if the initial values
+   *  of drivers differ from the design configuration. Before the run is refused, the mechanism is
+   *  then assembled with the drivers as in the design configuration, and the drivers are moved to
    *  their initial values in small steps. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse the run if the design configuration or the initial velocities violate the
@@ -171,8 +178,8 @@ typedef enum baum_start {
  *  run uses, and why. The choice does not affect assembly and the multipliers of redundant rows,
  *  which always use KLU and QR. */
 typedef enum baum_solver {
-  /** BLOCK if it is suitable for the mechanism; KLU or QR in configurations where BLOCK is not
-   *  accurate, and for other mechanisms. */
+  /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
+   *  configurations where BLOCK is not accurate. */
   BAUM_SOLVER_AUTO = 0,
   /** Sparse LU factorization of the whole system. It keeps its pivot order as long as the pivots
    *  are large enough. */
@@ -180,10 +187,10 @@ typedef enum baum_solver {
   /** Sparse rank-revealing QR factorization. It is slow; use it for comparisons and for singular
    *  configurations. */
   BAUM_SOLVER_QR = 2,
-  /** Schur complement in blocks of two rows. No other solver takes over where this one is not
-   *  accurate: close to singular configurations the run fails with BAUM_ERR_SINGULAR. The solver is
-   *  refused if a body has more than about 50 joints, if the joints form a dense network, or if the
-   *  mass matrix is not positive definite. */
+  /** Schur complement in blocks of two rows. Close to singular configurations this solver is not
+   *  accurate. No other solver then takes over, and the run fails with BAUM_ERR_SINGULAR. The
+   *  solver is refused if a body has more than about 50 joints, if the joints form a dense network,
+   *  or if the mass matrix is not positive definite. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
@@ -242,8 +249,8 @@ typedef struct baum_simulation_options {
    *  rest, r is sqrt(g/L) instead, or 1 1/s without gravity. baum_simulation_explain() states r
    *  with the tolerances. Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
-  /** Keep the energy account of baum_simulation_energy_account(). Kinematics refuses this option.
-   *  Default: false. */
+  /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
+   *  this option. Default: false. */
   bool energy_account;
   /** [-] (row_gain_count) > 0, a factor f_i for each row i. The gains of row i are then alpha f_i
    *  and beta f_i. Copied. Default: NULL, all 1. */
@@ -329,9 +336,9 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
 
-/** Limit the wall time of calls that advance the run. A call that takes longer returns
- *  BAUM_STOP_TIME after the step that it is taking; it takes at least one step. The next call
- *  continues. Such stops change neither the motion nor the warnings of the run.
+/** Limit the wall time of calls that advance the run. A call that takes longer finishes its present
+ *  step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call continues.
+ *  Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
  *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
@@ -340,7 +347,7 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
 
 /** Replace the time and the state of a run. Multistep methods restart. If the new state does not
  *  violate the constraints more than the run already does, it is used as it is. Otherwise the
- *  option `start` decides whether it is assembled, refused or used as it is.
+ *  option `start` decides whether the new state is assembled, refused or used as it is.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -373,7 +380,7 @@ BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
  *  loops, use a fixed step. If you know the changes in advance, use
  *  baum_simulation_schedule_input().
  *  @param simulation  unchanged on failure
- *  @param input       one of the mechanism
+ *  @param input       an input of the mechanism
  *  @param value       finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CONVERGENCE (IDA),
  *           BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY */
@@ -382,7 +389,7 @@ BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum
 
 /** Read an input.
  *  @param simulation  may be NULL
- *  @param input       one of the mechanism
+ *  @param input       an input of the mechanism
  *  @return  present value of the input; NaN for NULL and for ids that are not inputs of the
  *           mechanism */
 BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
@@ -397,8 +404,8 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  - With PROJECTION the state jumps at the end of the next step, and with GGL and INDEX3 during
  *    the next step.
  *  - With INDEX2 the velocity jumps, but the difference in s remains.
- *  - With BAUMGARTE the gains let the difference decay. If the gains are about 1/h, a jump of s
- *    causes velocities of about the jump divided by h.
+ *  - With BAUMGARTE the gains let the difference decay. If the gains are about 1/h, where h is the
+ *    step, a jump of s causes velocities of about the jump divided by h.
  *  - With UNSTABILIZED the difference remains.
  *  - Kinematics moves to the nearest configuration on its branch, and fails if there is none
  *    nearby.
@@ -406,7 +413,7 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  To avoid a jump of the position, let s be the present coordinate. To avoid a jump of the
  *  velocity, too, let ds be its present velocity, and change only dds.
  *  @param simulation  unchanged on failure
- *  @param driver      one of the mechanism
+ *  @param driver      a driver of the mechanism
  *  @param s           [rad or m] finite
  *  @param ds          [rad/s or m/s] finite
  *  @param dds         [rad/s^2 or m/s^2] finite
@@ -453,7 +460,7 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  the same, and if they keep a state of their own, this state is not saved. The gains and the
  *  choice of redundant rows come from the saved run. Restoring allocates memory in three cases
  *  only: drivers were set in the saved run, its schedules are longer than those of this run, or it
- *  omits other redundant rows than this run.
+ *  omits other redundant rows than this run does.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -479,9 +486,9 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
  *  and s. The units of user coordinates and user constraints are your choice. The unit of a
  *  multiplier is J per unit of its row.
  *
- *  Accelerations, multipliers, reactions and efforts come from one solution of (5) at the present
- *  state, which contains no stabilization terms. The run computes this solution only if a channel
- *  needs it. */
+ *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) at the
+ *  present state. This equation contains no stabilization terms. The run computes this solution
+ *  only if a channel needs it. */
 typedef enum baum_quantity {
   BAUM_Q = 1,        /**< Positions (nq). */
   BAUM_V = 2,        /**< Velocities (nv). */
@@ -517,16 +524,17 @@ typedef enum baum_quantity {
  *  struct_size. */
 typedef struct baum_channel {
   size_t struct_size;     /**< Set by the default. Do not write. */
-  baum_quantity quantity; /**< What it records. Default: 0, must be set. */
-  baum_body_id body;      /**< For the quantities BAUM_BODY_*. Default: none. */
-  /** For the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for LAMBDA, PHI and PHI_RATE.
-   *  Default: none. */
+  baum_quantity quantity; /**< What the channel records. Default: 0, must be set. */
+  baum_body_id body;      /**< The body, for the quantities BAUM_BODY_*. Default: none. */
+  /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for BAUM_LAMBDA,
+   *  BAUM_PHI and BAUM_PHI_RATE. Default: none. */
   baum_joint_id joint;
-  /** [m] in body axes, for the quantities BAUM_BODY_*; z must be 0 for planar bodies. Default: (0,
-   *  0, 0), the centre of mass.
+  /** [m] the point in body axes, for the quantities BAUM_BODY_*; z must be 0 for planar bodies.
+   *  Default: (0, 0, 0), the centre of mass.
    */
   double point[3];
-  /** [-] For BAUM_JOINT_COORDINATE. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of the joint, for BAUM_JOINT_COORDINATE. Default: BAUM_COORDINATE_FIRST.
+   */
   baum_joint_coordinate coordinate;
 } baum_channel;
 
@@ -545,8 +553,8 @@ static inline baum_channel baum_channel_of(baum_quantity quantity)
 }
 
 /** Make a channel of a body.
- *  @param quantity  what it records
- *  @param body      one of the mechanism
+ *  @param quantity  what the channel records
+ *  @param body      a body of the mechanism
  *  @return  the channel */
 static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_body_id body)
 {
@@ -556,8 +564,8 @@ static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_bod
 }
 
 /** Make a channel of a point of a body.
- *  @param quantity  what it records
- *  @param body      one of the mechanism
+ *  @param quantity  what the channel records
+ *  @param body      a body of the mechanism
  *  @param x,y,z     [m] in body axes
  *  @return  the channel */
 static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_body_id body,
@@ -571,8 +579,8 @@ static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_bo
 }
 
 /** Make a channel of a joint.
- *  @param quantity  what it records
- *  @param joint     one of the mechanism
+ *  @param quantity  what the channel records
+ *  @param joint     a joint of the mechanism
  *  @return  the channel */
 static inline baum_channel baum_channel_of_joint(baum_quantity quantity, baum_joint_id joint)
 {
@@ -592,8 +600,8 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 /** Determine which multipliers are unique at the present state. If there are redundant rows, the
  *  joints can share the forces in more than one way, and some multipliers are not unique.
  *  BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then report the multipliers of least
- *  norm; in this norm, each lambda_i is multiplied by |row i of J M^-1/2|. These multipliers
- *  balance the forces to a relative 1e-9.
+ *  norm. In this norm, each lambda_i is multiplied by |row i of J M^-1/2|. These multipliers
+ *  balance the forces with a relative error of at most 1e-9.
  *  @param      simulation  the run
  *  @param[out] unique      (nc) for each row, true if its multiplier is unique
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
@@ -631,17 +639,17 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
 /** What a run has cost since it was created, and how well it has satisfied the constraints. */
 typedef struct baum_counters {
   size_t struct_size; /**< Set by baum_simulation_counters(). */
-  int64_t steps;      /**< [-] accepted. */
+  int64_t steps;      /**< [-] accepted steps. */
   /** [-] steps that were repeated, because an error test or an iteration failed. */
   int64_t rejected;
   /** [-] shorter steps that a fixed-step method took to reach a requested time off its grid. */
   int64_t short_steps;
-  /** [-] evaluations of the equations of motion: solutions of (7), or residuals of an implicit
-   *  method. */
+  /** [-] evaluations of the equations of motion: solutions of equation (7), or residuals of an
+   *  implicit method. */
   int64_t evaluations;
-  /** [-] factorizations of the matrix in (7) and of the matrices of IDA and CVODE. */
+  /** [-] factorizations of the matrix in equation (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
-  /** [-] those of the factorizations that chose new pivots, which may allocate memory. */
+  /** [-] factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
   int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
   int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
@@ -650,8 +658,8 @@ typedef struct baum_counters {
   double wall;                  /**< [s] wall time inside advance_to, step and sample. */
   double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
-  baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
-  baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
+  baum_joint_id max_phi_joint;  /**< The joint with the violation max_phi. */
+  baum_joint_id max_phi_rate_joint; /**< The joint with the violation max_phi_rate. */
   /** [m or rad] prediction of the steady |Phi| that the gains leave, (alpha/beta^2) h max
    *  |gamma_i|. It is known only for the Euler methods with stable gains of at least 0.1/h,
    *  otherwise it is NaN. */
@@ -673,8 +681,9 @@ typedef struct baum_counters {
    *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
    *  spectral_radius is NaN. */
   double damping;
-  int64_t near_singular_intervals; /**< [-] see baum_simulation_near_singular(). */
-  /** [-] near-singular intervals after which the motion is on another branch, or may be. */
+  /** [-] number of near-singular intervals, see baum_simulation_near_singular(). */
+  int64_t near_singular_intervals;
+  /** [-] near-singular intervals after which the motion is, or may be, on another branch. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration. They are accepted although their
    *  error estimate is above the tolerance. */
@@ -706,13 +715,13 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *
  *  The residual is the part of the energy that no work explains; it is the energy error of the
  *  method. It decreases with the step at the order of the method, or with the tolerance. If an
- *  evaluation for the account fails, the account ends with a warning, and its works and the
- *  residual are NaN from then on. The account does not change the motion.
+ *  evaluation for the account fails, the account ends with a warning. Its work terms and the
+ *  residual are then NaN. The account does not change the motion.
  *
- *  The account costs additional evaluations of (7) or (5) in each step. With a fixed step these are
- *  3 evaluations; dp5 needs 18 and rk8 needs 48, because they subdivide the step for the account.
- *  With variable steps they are 4; rk8 needs 7, including those of its interpolant. With BAUMGARTE
- *  there are 2 to 4 more. */
+ *  The account costs additional evaluations of equation (7) or (5) in each step. With a fixed step,
+ *  most methods need 3 evaluations. dp5 needs 18 and rk8 needs 48, because they subdivide the step
+ *  for the account. With variable steps, most methods need 4; rk8 needs 7, including the
+ *  evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations are needed. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
@@ -735,9 +744,10 @@ typedef struct baum_energy_account {
   /** [J] work of the gains. It is already contained in drivers and violation, so do not add it to
    *  them. */
   double gains;
-  double residual; /**< [J] kinetic + potential - start, minus the sum of all works except gains. */
-  /** [-] evaluations of (5) and (7) for the account. The counters of the run do not include
-   *  them. */
+  /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
+  double residual;
+  /** [-] evaluations of equations (5) and (7) for the account. The counters of the run do not
+   *  include them. */
   int64_t evaluations;
 } baum_energy_account;
 
@@ -793,10 +803,12 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  be wrong by far more than its tolerance. Warnings with smaller codes are notes on a correct
  *  result. */
 typedef enum baum_warning_code {
-  BAUM_WARNING_REDUNDANT_ROWS = 1,    /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,             /**< The stability of the gains is not known. */
-  BAUM_WARNING_NOISY_DERIVATIVES = 3, /**< rtol is below the error of difference quotients. */
-  BAUM_WARNING_INDEX3 = 4,            /**< IDA at index 3: for comparison only. */
+  BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
+  BAUM_WARNING_GAINS = 2,          /**< The stability of the gains is not known. */
+  /** rtol is smaller than the error of derivatives that are computed by differences. */
+  BAUM_WARNING_NOISY_DERIVATIVES = 3,
+  /** IDA runs with INDEX3, which is meant only for comparisons. */
+  BAUM_WARNING_INDEX3 = 4,
   /** Ill-conditioned rows determine the velocities only inaccurately. */
   BAUM_WARNING_LOOSE_VELOCITIES = 5,
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
@@ -804,7 +816,7 @@ typedef enum baum_warning_code {
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
   BAUM_WARNING_BRANCH = 100,         /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,      /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102,  /**< Omitted rows no longer follow from the others. */
+  BAUM_WARNING_CONTRADICTION = 102,  /**< Omitted rows no longer follow from the other rows. */
   BAUM_WARNING_ACCURACY = 103,       /**< The estimated error of the motion is large. */
   BAUM_WARNING_SINGULAR_START = 104, /**< Several motions may leave the initial configuration. */
   BAUM_WARNING_BUSHING = 105 /**< The rotation of a bushing passed pi, where its moment jumps. */
@@ -815,18 +827,18 @@ typedef enum baum_warning_code {
  *  @return  such as "branch"; NULL for unknown values */
 BAUM_API const char *baum_warning_name(baum_warning_code code);
 
-/** All warnings of one kind. */
+/** All warnings of one kind in a run. */
 typedef struct baum_warning {
   size_t struct_size;     /**< Set by baum_simulation_warning(). */
-  baum_warning_code code; /**< Kind. */
+  baum_warning_code code; /**< Kind of the warnings. */
   bool doubts_motion;     /**< True if the result may be wrong: code >= 100. */
-  baum_joint_id joint;    /**< Joint of the first warning; all-zero: none. */
+  baum_joint_id joint;    /**< Joint that the first warning names; all-zero if it names none. */
   double first;           /**< [s] time of the first warning. */
   double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
-  /** Message of the first warning, the number of warnings, and at its end the code and the name,
-   *  such as "[warning 104 singular_start]": the heading of its entry in docs/cookbook/warnings.md,
-   *  which tells the meaning and what to do. */
+  /** Message of the first warning, followed by the number of warnings. The text ends with the code
+   *  and the name, such as "[warning 104 singular_start]". Under this heading,
+   *  docs/cookbook/warnings.md explains the warning and says what to do. */
   char text[400];
 } baum_warning;
 
@@ -840,8 +852,8 @@ typedef struct baum_warning {
 BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k,
                                              baum_warning *out, size_t caller_size);
 
-/** Explain a run in words: its formulation, its integrator, its gains and the reason for them,
- *  their stability, the solver, redundant rows and tolerances.
+/** Explain a run in words: its formulation and integrator, its gains, why they were chosen and
+ *  whether they are stable, its solver, redundant rows and tolerances.
  *  @param simulation  may be NULL
  *  @return  text owned by the run; NULL for NULL */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);

@@ -45,9 +45,11 @@ typedef struct baum_spatial_body_def {
   /** [-] unit quaternion w, x, y, z in the design configuration; its norm may differ from 1 by at
    *  most 1e-6. Default: (1, 0, 0, 0). */
   double orientation[4];
-  /** [m/s] of the centre of mass at the start, in ground axes. Default: NaN, free. */
+  /** [m/s] of the centre of mass at the start, in ground axes. Default: NaN, assembly determines
+   *  it. */
   double velocity[3];
-  double angular_velocity[3]; /**< [rad/s] at the start, in body axes. Default: NaN, free. */
+  /** [rad/s] at the start, in body axes. Default: NaN, assembly determines it. */
+  double angular_velocity[3];
   bool held; /**< Assembly keeps the design position and orientation. Default: false. */
 } baum_spatial_body_def;
 
@@ -80,7 +82,7 @@ typedef struct baum_spatial_particle_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[3]; /**< [m] in the design configuration. Default: (0, 0, 0). */
-  double velocity[3]; /**< [m/s] at the start. Default: NaN, free. */
+  double velocity[3]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
   bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_spatial_particle_def;
 
@@ -160,17 +162,18 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 /** A cable, rope or tendon without mass and friction. It runs along straight lines through points
  *  that are fixed in bodies, and slides freely through all of them except the first and the last.
  *  Its length is the sum of the distances between consecutive points. The cable only pulls. With
- *  the stretch s = length - free_length, its tension is
+ *  the stretch s = length - free_length, the tension of the cable is
  *
  *    stiffness s + damping w(s / transition) (d/dt length)   if s > 0 and this sum is positive,
  *
- *  and 0 otherwise. The factor w(x) = x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1 and is 1
- *  above. The tension is therefore continuous when the cable becomes taut or slack. The potential
- *  is stiffness s^2 / 2 for s > 0; all other power is the dissipation of the damper.
+ *  and 0 otherwise. The factor w(x) = x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1, and w(x) =
+ *  1 for x > 1. The tension is therefore continuous when the cable becomes taut or slack. The
+ *  potential energy is stiffness s^2 / 2 for s > 0. The damper dissipates the rest of the power of
+ *  the tension.
  *
  *  Consecutive points may belong to the same body, and points of ground are allowed. Between two
  *  points that coincide the cable has no direction: it exerts no force there, and pulls only along
- *  its other parts. If a point passes through its neighbour, the force jumps. The elements may also
+ *  its other parts. If a point passes through its neighbour, the force jumps. The bodies may also
  *  be planar bodies and planar particles, which stay in the plane z = 0. */
 typedef struct baum_spatial_cable_def {
   size_t struct_size; /**< Set by the default. Do not write. */
@@ -186,8 +189,9 @@ typedef struct baum_spatial_cable_def {
   /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law for the tension [N], which replaces the other numbers; the cable then has no potential
-   *  energy. It must return 0 where the cable is slack. Default: NULL. */
+  /** A law for the tension [N], which replaces stiffness, damping, free_length and transition; the
+   *  cable then has no potential energy. It must return 0 where the cable is slack. Default: NULL.
+   */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */
@@ -225,11 +229,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  positive, it acts on body_b in the direction in which the angle decreases.
  *
  *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
- *  decomposition: if the smallest rotation that makes axis_b parallel to axis is applied to body_b,
- *  a rotation about the axis remains, and the angle is that of this rotation. It is 0 in the design
- *  configuration. Runs count its revolutions. The bodies need not be connected by a joint; for a
- *  coordinate of a joint, use a joint spring. If axis and axis_b point in opposite directions, the
- *  angle is undefined and the torque is zero. */
+ *  decomposition. It is defined as follows: apply to body_b the smallest rotation that makes axis_b
+ *  parallel to axis. Then only a rotation about the axis remains between the bodies, and the angle
+ *  is that of this rotation. The angle is 0 in the design configuration. Runs count its
+ *  revolutions. The bodies need not be connected by a joint; for a coordinate of a joint, use a
+ *  joint spring. If axis and axis_b point in opposite directions, the angle is undefined and the
+ *  torque is zero. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -246,9 +251,10 @@ typedef struct baum_spatial_torsion_spring_def {
   /** [-] the axis on body_b; in ground axes if point is given, otherwise in the axes of body_b.
    *  Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
-  double stiffness;  /**< [N m/rad] >= 0. Default: 0. */
-  double damping;    /**< [N m s/rad] >= 0. Default: 0. */
-  double free_angle; /**< [rad] angle at which the spring is relaxed. Default: NaN, 0. */
+  double stiffness; /**< [N m/rad] >= 0. Default: 0. */
+  double damping;   /**< [N m s/rad] >= 0. Default: 0. */
+  /** [rad] angle at which the spring exerts no torque. Default: NaN, which means 0. */
+  double free_angle;
   /** A law for the torque [N m], which replaces the three numbers above. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
@@ -281,16 +287,16 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
 /* ---- bushing --------------------------------------------------------------------------------- */
 
 /** An elastic connection of two bodies with stiffness and damping in all six directions. The force
- *  depends on the six numbers x = (d, theta) and on x'. They are given in the axes of the bushing
- *  on body_a:
+ *  depends on the six numbers x = (d, theta) and on x'. Both x and x' are given in the axes of the
+ *  bushing on body_a:
  *
  *  - d is the vector from body_a's point to body_b's point [m];
  *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
  *    the rotation, and its length is the angle. theta is 0 in the design configuration, unless
  *    axis_b differs from axis there. The angle must stay below pi, because theta and the moment
- *    jump at pi. A run in which it passes pi warns with BAUM_WARNING_BUSHING.
+ *    jump at pi. If the angle passes pi in a run, the run warns with BAUM_WARNING_BUSHING.
  *
- *  The potential is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
+ *  The potential energy is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -307,13 +313,15 @@ typedef struct baum_spatial_bushing_def {
   /** [-] the z axis on body_b; in ground axes if point is given, otherwise in the axes of body_b.
    *  Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
-  /** [-] the x axis, made perpendicular to axis; in ground axes if point is given, otherwise in the
-   *  axes of body_a. Default: NaN, the ground x axis, or y if axis is along x. */
+  /** [-] the x axis of the bushing, which is made perpendicular to axis; in ground axes if point is
+   *  given, otherwise in the axes of body_a. Default: NaN, the ground x axis, or y if axis is along
+   *  x. */
   double x_axis[3];
   /** [N/m, N or N m/rad] 6 x 6 matrix, row-major, symmetric and positive semidefinite.
    *  Default: all 0. */
   double stiffness[36];
-  /** [N s/m, N s or N m s/rad] 6 x 6 matrix, with the same properties. Default: all 0. */
+  /** [N s/m, N s or N m s/rad] 6 x 6 matrix, with the same properties as stiffness. Default: all 0.
+   */
   double damping[36];
 } baum_spatial_bushing_def;
 
@@ -341,16 +349,17 @@ BAUM_API baum_status baum_mechanism_set_spatial_bushing(baum_mechanism *mechanis
 
 /* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body, and a moment on the body. If `input` is set, its value multiplies
- *  both. */
+/** A force at a point of a body, and a moment on the body. If `input` names an input, the value of
+ *  this input multiplies both. */
 typedef struct baum_spatial_load_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;   /**< Default: none, must be set; must not be ground. */
-  double point[3];     /**< [m] where the force acts, in body axes. Default: (0, 0, 0). */
-  double force[3];     /**< [N]. Default: (0, 0, 0). */
-  double moment[3];    /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
-  baum_input_id input; /**< Default: none. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body;  /**< Default: none, must be set; must not be ground. */
+  double point[3];    /**< [m] where the force acts, in body axes. Default: (0, 0, 0). */
+  double force[3];    /**< [N]. Default: (0, 0, 0). */
+  double moment[3];   /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
+  /** An input whose value multiplies force and moment. Default: none. */
+  baum_input_id input;
   /** True if force and moment are in body axes and rotate with the body, false if they are in
    *  ground axes. Default: false. */
   bool follows_body;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Joints in space that connect two bodies at axes. Joints that guide only a point of a body are in
- *  spatial_points.h, which this header includes. spatial.h explains points and reactions.
+ *  Joints in space that connect points, axes or orientations of two bodies. Joints that guide only
+ *  a point of a body are in spatial_points.h, which this header includes. spatial.h explains points
+ *  and reactions.
  *
  *  Axes: `axis` is an axis of the joint that is fixed in body_a, and `axis_b` is the corresponding
  *  axis that is fixed in body_b. If `point` is given, both vectors are in ground axes and describe
@@ -11,8 +12,8 @@
  *  this.
  *
  *  Angles: a run counts the revolutions of the angles of joints. A workspace does not know the past
- *  of the motion and uses angles between -pi and pi, unless baum_workspace_set_angle() has given
- *  other ones.
+ *  of the motion and uses angles between -pi and pi, unless baum_workspace_set_angle() has chosen
+ *  other revolutions.
  */
 #ifndef BAUM_SPATIAL_JOINTS_H
 #define BAUM_SPATIAL_JOINTS_H
@@ -341,10 +342,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 
 /* ---- screw ----------------------------------------------------------------------------------- */
 
-/** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). Five
- *  rows: two for the directions of the axes [-], and three lengths [m]. The last row, which is that
- *  of the thread, is evaluated modulo the pitch, so it does not depend on the number of
- *  revolutions. Coordinates: displacement and angle, as for the cylindrical joint. */
+/** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). The
+ *  joint has five rows: two make the axes of both bodies parallel [-], and three are lengths [m].
+ *  The last of these rows describes the thread. It is evaluated modulo the pitch, so it does not
+ *  depend on the number of revolutions. The coordinates of the joint are displacement and angle, as
+ *  for the cylindrical joint. */
 typedef struct baum_spatial_screw_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -393,11 +395,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 /* ---- constant-velocity joint ----------------------------------------------------------------- */
 
 /** A constant-velocity joint, such as a Rzeppa joint: two shafts meet at a point and rotate with
- *  equal angular velocities about their axes, at any angle between the axes. Four rows: three for
- *  the points [m], and one for the rotation [-], which keeps the twist of body_b relative to body_a
- *  at 0. The angle between the axes must stay below 180 degrees. The derivatives of the fourth row
- *  are proportional to the cosine of half this angle, so the joint is ill-conditioned close to 180
- *  degrees. */
+ *  equal angular velocities about their axes, at any angle between the axes. The joint has four
+ *  rows: three make the points of both bodies coincide [m], and one [-] keeps the twist of body_b
+ *  relative to body_a (their relative rotation about the shaft axis) at 0. The angle between the
+ *  axes must stay below 180 degrees. The derivatives of the fourth row are proportional to the
+ *  cosine of half this angle, so the joint is ill-conditioned close to 180 degrees. */
 typedef struct baum_spatial_constant_velocity_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

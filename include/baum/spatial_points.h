@@ -211,10 +211,11 @@ typedef struct baum_spatial_rolling_disc_def {
   double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
   /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
   double normal[3];
-  double centre[3];  /**< [m] of the disc, in axes of body_b. Default: (0, 0, 0). */
-  double axis_b[3];  /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
-  double radius;     /**< [m] > 0, largest radius. Default: 0, must be set. */
-  double rim_radius; /**< [m] of the cross-section of the rim, from 0 to radius. Default: 0. */
+  double centre[3]; /**< [m] centre of the disc, in axes of body_b. Default: (0, 0, 0). */
+  double axis_b[3]; /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
+  double radius;    /**< [m] > 0, largest radius. Default: 0, must be set. */
+  /** [m] radius of the cross-section of the rim, from 0 to radius. Default: 0. */
+  double rim_radius;
 } baum_spatial_rolling_disc_def;
 
 /** @copydoc baum_coordinates_def_init() */

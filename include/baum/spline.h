@@ -25,9 +25,11 @@ typedef struct baum_spline_driver_def {
   /** (count) [rad or m] values of s at the times. Copied. Default: NULL, must be set. */
   const double *values;
   int32_t count; /**< [-] >= 3. Default: 0, must be set. */
-  /** The spline repeats; the first and the last value must be equal. Default: false, natural. */
+  /** True: the spline repeats; the first and the last value must then be equal. Default: false, a
+   *  natural spline. */
   bool periodic;
-  baum_joint_coordinate coordinate; /**< [-] Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
 } baum_spline_driver_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -14,7 +14,8 @@
  *  any thread.
  *
  *  Two kinds of integrators have no region of stability: those that always choose their step
- *  themselves (CVODE and IDA), and those that need no gains. "No region" refers to them below. */
+ *  themselves (CVODE and IDA), and those that need no gains. Below, "no region" means that an
+ *  integrator is of one of these kinds. */
 #ifndef BAUM_STABILIZATION_H
 #define BAUM_STABILIZATION_H
 
@@ -35,18 +36,19 @@ typedef struct baum_integrator baum_integrator;
 typedef enum baum_gain_rule {
   /** DEADBEAT for the Euler methods, BEST_DAMPING for AB2 to AB4, otherwise AUTO. */
   BAUM_GAINS_DEFAULT = 0,
-  BAUM_GAINS_FIXED = 1,     /**< alpha and beta are given [1/s]. */
-  BAUM_GAINS_SCALED = 2,    /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
-  BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
+  BAUM_GAINS_FIXED = 1,  /**< alpha and beta are given [1/s]. */
+  BAUM_GAINS_SCALED = 2, /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
+  /** alpha = 1/h, beta = sqrt(2)/h (equations 10 and 11); fixed step only. */
+  BAUM_GAINS_TAYLOR = 3,
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Gains for which both roots z are zero; fixed step only. */
-  /** alpha = beta in proportion to the angular velocity of the motion, up to a limit. */
+  /** alpha = beta, proportional to the angular velocity of the motion up to a limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
 } baum_gain_rule;
 
-/** A gain rule and its numbers. The functions below make one. If all bytes are zero, the rule is
- *  BAUM_GAINS_DEFAULT. */
+/** A gain rule and its numbers. The functions below return such structs. If all bytes are zero, the
+ *  rule is BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
@@ -57,8 +59,9 @@ typedef struct baum_gains {
  * 1 m that is released from the horizontal and runs for 1 s with h = 0.0025 s.
  * docs/theory/gain_rules.md has more measurements. */
 
-/** Gains that you choose. They are stable with a fixed-step method if the point (alpha h, beta^2
- *  h^2) lies in its region, and with a variable-step method if alpha >= 0.618 beta.
+/** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
+ *  h^2) lies in the region of stability of the method. With a variable-step method they are stable
+ *  if alpha >= 0.618 beta.
  *
  *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
  *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
@@ -66,8 +69,8 @@ typedef struct baum_gains {
  *  h at the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
- *  alpha h = 0.3 the gains cause no additional cost. Above, the cost of an explicit variable-step
- *  method grows in proportion to alpha.
+ *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
+ *  variable-step method grows in proportion to alpha.
  *  @param alpha,beta  [1/s] >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
@@ -75,7 +78,7 @@ BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 /** Gains given by the products alpha h and (beta h)^2. They are stable if the point (alpha h, (beta
  *  h)^2) lies in the region of stability of the method. With the two Euler methods, the steady
  *  violations are |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|.
- *  Runge-Kutta methods lose order, because the gains grow when the step is reduced;
+ *  Runge-Kutta methods lose order, because the gains grow when the step is reduced. The comment of
  *  baum_gains_deadbeat() gives the orders.
  *  @param alpha_h   [-] alpha h >= 0
  *  @param beta2_h2  [-] (beta h)^2 >= 0
@@ -114,7 +117,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
 
 /** Gains that suit the speed of the motion. alpha and beta are equal and constant during a run.
  *  They are proportional to the mean angular velocity of the first radians of the motion. This
- *  angular velocity is max(|v|/L, sqrt(|a|/L)), where L is the characteristic length.
+ *  angular velocity is max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L
+ *  is the characteristic length.
  *
  *  The gains are this angular velocity times a factor:
  *
@@ -123,7 +127,7 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *    drivers prescribe the whole motion, it is 0.6 for all of these methods.
  *
  *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
- *    matrices of these methods include the gains, so large gains do not limit their steps.
+ *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
  *  - With explicit methods at variable steps the factor is 0.1, because their steps are longer. If
  *    drivers prescribe the whole motion, it is 2.
@@ -160,7 +164,7 @@ typedef enum baum_stability {
   /** Some violation neither decays nor grows exponentially: radius = 1. */
   BAUM_MARGINAL = 1,
   BAUM_UNSTABLE = 2, /**< Some violation grows exponentially: radius > 1. */
-  /** The method has no region, because it always chooses its step. See
+  /** The method has no region, because it always chooses its step itself. See
    *  baum_stability_statement(). */
   BAUM_VARIABLE_STEP = 3,
   /** The method has no region, because it keeps the constraints without gains. */
@@ -192,8 +196,8 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
-/** Compute the amplification of rows of velocity level, J v = nu. Their equation J a = gamma -
- *  alpha (J v - nu) has a single mode z = R(-alpha h), so z[1] is NaN.
+/** Compute the amplification of rows of velocity level, J v = nu. With gains, their equation is J a
+ *  = gamma - alpha (J v - nu). It has a single mode x, with x' = -alpha x, so z[1] is NaN.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] alpha h, finite
  *  @param[out] out          the result
@@ -203,7 +207,7 @@ BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrato
                                                 baum_amplification *out, size_t caller_size);
 
 /** Find the alpha h up to which rows of velocity level are stable.
- *  @param      integrator  the method; its step is fixed
+ *  @param      integrator  a method with a fixed step
  *  @param[out] alpha_h     [-] the limit
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region of stability) */
 BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integrator,
@@ -278,7 +282,7 @@ BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, d
                                             double beta2_h2, double *good_alpha_h,
                                             double *good_beta2_h2);
 
-/** Compute spectral radii on a rectangular grid of the plane.
+/** Compute spectral radii on a rectangular grid in the plane of (alpha h, beta^2 h^2).
  *  @param      integrator    the method
  *  @param      alpha_h       [-] (2) alpha h of the first and last column, finite
  *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and last row, finite
@@ -304,7 +308,7 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  @param      capacity          [-] of the arrays; >= 0. 2000 is enough for every method here.
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
  *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
- *                                radius is nowhere so small
+ *                                spectral radius is nowhere so small
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                             int32_t capacity, double *alpha_h, double *beta2_h2,

@@ -60,8 +60,8 @@ BAUM_API const char *baum_status_name(baum_status status);
 /** General meaning of a status. @param status  any value @return static text, never NULL */
 BAUM_API const char *baum_status_text(baum_status status);
 
-/** Message of the last call in this thread that returned a status other than 0. It names the
- *  element, the field, its value and its unit. The message of a run also names the time.
+/** Message of the last call in this thread that returned a status other than 0. The message names
+ *  the element, the field, its value and its unit. The message of a run also names the time.
  *  @return  text owned by the library, never NULL, initially ""; valid until this thread's next
  *           failing call */
 BAUM_API const char *baum_message(void);
@@ -69,7 +69,7 @@ BAUM_API const char *baum_message(void);
 /** Set the message of this thread. This function is for libraries that are built on this one, and
  *  for user functions that fail: the library appends the message of the user function to its own.
  *  @param     status   returned unchanged
- *  @param[in] message  copied, cut if very long; NULL: the general meaning of the status
+ *  @param[in] message  copied, truncated if very long; NULL: the general meaning of the status
  *  @return  status, so that you can write `return baum_fail(...)` */
 BAUM_API baum_status baum_fail(baum_status status, const char *message);
 

@@ -143,9 +143,9 @@ typedef struct baum_study_grid {
    *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, from the time scale of the
    *  motion. */
   double coarsest;
-  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13, or 1e-11
-   *  if a user constraint has neither jacobian nor gamma, because finite differences are not more
-   *  accurate than this. */
+  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13. If a
+   *  user constraint has neither jacobian nor gamma, NaN means 1e-11, because finite differences
+   *  are not more accurate than this. */
   double finest;
   /** A smaller grid for a first answer. It costs about a 25th of the default grid. It contains
    *  every integrator with its default gains, and with its default formulation or the one given
@@ -171,9 +171,10 @@ static inline baum_study_grid baum_study_grid_default(void)
  *  follow from the time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
  *  @param[in] grid   NULL: the default
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build has no such integrator with that
- *           formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if
- *           the mechanism cannot be started, the status of baum_simulation_create() */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build fits integrator and
+ *           formulation of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
+ *           BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
+ *           baum_simulation_create() */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
 /** Add stress settings, which are extreme on purpose. Steps range from 1e-1 to 1e-9 of a period of
@@ -190,10 +191,11 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
 
 /* ---- what error means ------------------------------------------------------------------------ */
 
-/** Define what the study reports as error. After this call, the error is the largest |difference
- *  from the reference| / unit of all columns of the given channels. Without this call, the error is
- *  the largest error of all positions, with lengths relative to the characteristic length and
- *  angles in radians. Call this function before the first baum_study_run().
+/** Define what the study reports as error. After this call, the error is the largest value of
+ *  |difference from the reference| / unit over all columns of the given channels. Without this
+ *  call, the error is the largest error of all positions, with lengths relative to the
+ *  characteristic length and angles in radians. Call this function before the first
+ *  baum_study_run().
  *  @param     study     unchanged on failure
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
@@ -206,7 +208,7 @@ BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel 
 /** Give a reference as samples. Errors are then measured at the times of these samples, and the
  *  option samples is ignored. Values that are NaN are not compared. Call this function before the
  *  first baum_study_run(). The study counts the revolutions of angles in space from sample to
- *  sample. Where samples are too far apart for that, it does not compare energies and the channels
+ *  sample. Where samples are too far apart for that, it compares neither energies nor the channels
  *  of baum_study_set_error().
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
@@ -260,8 +262,9 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
  *           BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file belongs to another study; the
- *           message says what differs), BAUM_ERR_CALLBACK (the solution); if no run can be started,
- *           the status of baum_simulation_create() */
+ *           message says what differs), BAUM_ERR_CALLBACK (the function of
+ *           baum_study_set_solution()); if no run can be started, the status of
+ *           baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
 /** Ask baum_study_run() to stop. It then discards the results of entries that are not finished. A
@@ -293,11 +296,11 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  of its row that results if the coordinates change by their scales. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
-  X(baum_status, status, ALWAYS, "", "status of its run")                                        \
+  X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
   X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                  \
   X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")      \
-  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")             \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                          \
+  X(bool, off, ALWAYS, "", "on another motion: error_q above 0.1, or a branch warning")          \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp violations at this step")                 \
   X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                   \
   X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                     \
   X(double, error, DONE, "1", "the error, see baum_study_set_error()")                           \
@@ -312,14 +315,14 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(double, energy_error, DONE, "J", "drift of energy against the reference")                    \
   X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                 \
   X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                        \
-  X(double, error_validated, DONE, "1", "error over twice the span and from perturbed starts")   \
+  X(double, error_validated, DONE, "1", "largest error of the validation, see option validate")  \
   X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")      \
   X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                 \
   X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")  \
   X(double, projection_work, DONE, "J", "change of energy by projections")                       \
   X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                 \
-  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")         \
-  X(double, cpu, DONE, "s", "least CPU time to create and run it, without taking samples")       \
+  X(double, work, DONE, "evaluations", "evaluations, factorizations and implicit iterations")    \
+  X(double, cpu, DONE, "s", "least CPU time to create and run it, without samples")              \
   X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                      \
   X(int32_t, repeats, DONE, "1", "number of runs that measured the CPU time")                    \
   X(int64_t, evaluations, DONE, "1", "evaluations in the run, without those for samples")        \
@@ -342,9 +345,9 @@ typedef struct baum_study_entry {
   const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
   /** Why the entry was refused or failed; otherwise its first warning; "" if there is none. */
   const char *message;
-  const baum_integrator *integrator; /**< Its integrator. */
-  baum_formulation formulation;      /**< Its formulation; never BAUM_FORMULATION_DEFAULT. */
-  baum_gains gains;                  /**< Its gain rule, as given in the options. */
+  const baum_integrator *integrator; /**< The integrator. */
+  baum_formulation formulation;      /**< The formulation; never BAUM_FORMULATION_DEFAULT. */
+  baum_gains gains;                  /**< The gain rule, as given in the options. */
   double step;                       /**< [s] NaN for entries with rtol. */
   double rtol;                       /**< [-] NaN for entries with a step. */
   int32_t method;                    /**< [-] see baum_study_method_at(). */
@@ -381,8 +384,8 @@ BAUM_API baum_status baum_study_entry_options(const baum_study *study, int32_t k
 /** Where the reference comes from. */
 typedef enum baum_study_origin {
   BAUM_STUDY_OWN = 0,     /**< Computed by the study. */
-  BAUM_STUDY_GIVEN = 1,   /**< baum_study_set_reference(). */
-  BAUM_STUDY_SOLUTION = 2 /**< baum_study_set_solution(). */
+  BAUM_STUDY_GIVEN = 1,   /**< Given by baum_study_set_reference(). */
+  BAUM_STUDY_SOLUTION = 2 /**< Given by baum_study_set_solution(). */
 } baum_study_origin;
 
 /** How far the reference can be trusted. */
@@ -533,8 +536,8 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *  @param      cost         how cost is measured
  *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
- *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
- *                           NULL.
+ *  @param[out] why          (size) a message with the measured figures, truncated if too long. May
+ *                           be NULL.
  *  @param      size         [byte] of why
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
  *           entry is accurate enough, or if the uncertainty of the reference is larger than the
@@ -543,15 +546,15 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);
 
-/** Recommend a setting: find the most accurate setting that takes at most a given CPU time. In all
- *  else this function is like baum_study_recommend().
+/** Recommend a setting: find the most accurate setting that takes at most a given CPU time.
+ *  Otherwise this function is like baum_study_recommend().
  *  @param      study        after baum_study_run(); unchanged
  *  @param      seconds      [s] > 0, finite, CPU time of a run over the span of the study on this
  *                           machine
  *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
- *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
- *                           NULL.
+ *  @param[out] why          (size) a message with the measured figures, truncated if too long. May
+ *                           be NULL.
  *  @param      size         [byte] of why
  *  @return  as baum_study_recommend(); BAUM_ERR_ARGUMENT also if no entry is fast enough */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,

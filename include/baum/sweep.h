@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Sweeps: many runs of one mechanism with different numbers, in several threads.
+ *  Sweeps: many runs of one mechanism in several threads. Each run changes the data of the
+ *  mechanism.
  */
 #ifndef BAUM_SWEEP_H
 #define BAUM_SWEEP_H
@@ -24,7 +25,7 @@ typedef baum_status baum_sweep_change_fn(baum_mechanism *copy, int64_t run, void
 typedef struct baum_sweep_def {
   size_t struct_size;           /**< Set by the default. Do not write. */
   int64_t count;                /**< [-] > 0, number of runs. Default: 0, must be set. */
-  baum_sweep_change_fn *change; /**< Default: NULL, must be set. */
+  baum_sweep_change_fn *change; /**< Changes the data of each run. Default: NULL, must be set. */
   void *user;                   /**< Passed to change, not owned. Default: NULL. */
   const double *times;          /**< (time_count) [s] of the samples, monotone. Default: NULL. */
   int64_t time_count;           /**< [-] > 0. Default: 0, must be set. */
@@ -48,8 +49,8 @@ static inline baum_sweep_def baum_sweep_def_default(void)
 /** Execute all runs of a sweep. For each run, this function copies the mechanism, calls `change`
  *  for the copy, and samples the channels like baum_simulation_sample(). The results do not depend
  *  on the number of threads. A run that fails does not stop the others; its samples are NaN from
- *  the failure on. Functions of the user, such as those of the mechanism and the progress function
- *  of the options, are called from all threads.
+ *  the failure on. User functions, such as force functions of the mechanism and the progress
+ *  function of the options, are called from all threads.
  *  @param      mechanism  frozen; it is not modified
  *  @param[in]  options    options of all runs
  *  @param[in]  def        what the sweep computes

@@ -13,17 +13,18 @@
 extern "C" {
 #endif
 
-#define BAUM_VERSION_MAJOR 0       /**< Changes of the interface that break callers. */
-#define BAUM_VERSION_MINOR 1       /**< Additions; before 1.0 also changes that break callers. */
-#define BAUM_VERSION_PATCH 0       /**< Corrections. */
-#define BAUM_VERSION       "0.1.0" /**< The three as text. */
+#define BAUM_VERSION_MAJOR 0 /**< Grows with changes of the interface that break callers. */
+/** Grows with additions; before 1.0 also with changes that break callers. */
+#define BAUM_VERSION_MINOR 1
+#define BAUM_VERSION_PATCH 0       /**< Grows with corrections. */
+#define BAUM_VERSION       "0.1.0" /**< The three numbers as text. */
 
 /** Version of the library that the program has loaded. It may differ from the version of the
  *  headers with which the program was compiled.
  *  @return  static text such as "0.1.0" */
 BAUM_API const char *baum_version(void);
 
-/** Whether an optional part is built in.
+/** Tell whether an optional part of the library is built in.
  *  @param[in] feature  "sundials" (CVODE and IDA); NULL and unknown names give false
  *  @return  true if it can be used */
 BAUM_API bool baum_has(const char *feature);

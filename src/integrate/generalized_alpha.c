@@ -26,8 +26,8 @@
  * slowly.
  *
  * Newton's method uses the exact matrix of step_matrix.h, with dv = gamma / (beta h) dx and scaled
- * multipliers. (If q is not a vector, the matrix has errors of the size of h times the angular
- * velocity, because x is added at q, not at q_1.) */
+ * multipliers. It keeps this matrix while the changes are small. (If q is not a vector, the matrix
+ * has errors of the size of h times the angular velocity, because x is added at q, not at q_1.) */
 #include "integrate/generalized_alpha.h"
 
 #include <float.h>
@@ -52,6 +52,11 @@ enum { ITERATIONS = 20 };
  * times the scale if that is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
+/* The next iterations use the same matrix as long as their changes of the positions are at most
+ * NEAR, and each is below the fraction FAST of the one before. With a matrix of a distant
+ * configuration, changes may become small although the error in a soft direction is still large. */
+static const double NEAR = 1e-6;
+static const double FAST = 0.1;
 /* Changes that have stopped decreasing are treated as rounding errors if they are at most STALLED
  * times the limit that ROUNDINGS gives. */
 static const double STALLED = 64.0;
@@ -186,9 +191,20 @@ static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *s
   }
 }
 
-/* Take one Newton iteration and find the size of its change of the positions. */
+static baum_status factor(alpha_run *run, baum_workspace *w, const baum_i_step_ratios *ratios,
+                          double t)
+{
+  baum_status status = baum_i_step_matrix_factor(run->matrix, w, ratios, t, run->y, run->dy);
+  return status == BAUM_ERR_SINGULAR
+           ? baum_i_fail(status,
+                         "t = %.9g s: generalized_alpha: the matrix of the step is singular", t)
+           : status;
+}
+
+/* Take one Newton iteration and find the size of its change of the positions. If `renew` is false,
+ * use the matrix of an earlier iteration of the same step. */
 static baum_status improve(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
-                           double t, const baum_i_step_ratios *ratios, double *size)
+                           double t, const baum_i_step_ratios *ratios, bool renew, double *size)
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
@@ -197,12 +213,7 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   for (int i = 0; i < run->nv + run->nc; i++) {
     run->x[i] = -(i < run->nv ? ratios->scale : 1.0) * rest[i];
   }
-  baum_status status = baum_i_step_matrix_factor(run->matrix, w, ratios, t, run->y, run->dy);
-  if (status == BAUM_ERR_SINGULAR) {
-    return baum_i_fail(status, "t = %.9g s: generalized_alpha: the matrix of the step is singular",
-                       t);
-  }
-  BAUM_I_TRY(status);
+  BAUM_I_TRY(renew ? factor(run, w, ratios, t) : BAUM_OK);
   baum_i_step_matrix_solve(run->matrix, run->x);
   apply(run, w->mechanism, state, ratios);
   run->iterations++;
@@ -239,6 +250,13 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
   return BAUM_OK;
 }
 
+/* The second change may be larger than the first, and a change with a kept matrix larger than the
+ * one before. */
+static bool diverges(int k, bool renewed, double size, double before)
+{
+  return !isfinite(size) || (k > 1 && renewed && size > 2.0 * before);
+}
+
 static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
                            double h)
 {
@@ -251,10 +269,12 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
   double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
   double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
   double enough = fmax(CONVERGED * BETA * h * h * acceleration, rounding);
+  double before = INFINITY;
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
-    double before = size;
-    BAUM_I_TRY(improve(run, problem, state, state->t + h, &ratios, &size));
+    bool renew = !(size <= NEAR && size < FAST * before);
+    before = size;
+    BAUM_I_TRY(improve(run, problem, state, state->t + h, &ratios, renew, &size));
     bool stalls = size > 0.5 * before;
     bool done = size <= enough || (stalls && size <= STALLED * rounding);
     if (!done && k > 1 && stalls && size <= LARGEST_NOISE) {
@@ -265,8 +285,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (done) {
       return BAUM_OK;
     }
-    /* The second change may be larger than the first. */
-    if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {
+    if (diverges(k, renew, size, before)) {
       break;
     }
   }

@@ -88,6 +88,21 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
 
 /* ---- factor ---- */
 
+/* Find the largest entry of each row, but at least DBL_MIN. */
+static void find_entries(const baum_i_sundials_klu *klu)
+{
+  const sunindextype *indices = SUNSparseMatrix_IndexValues(klu->matrix);
+  const double *values = SUNSparseMatrix_Data(klu->matrix);
+  sunindextype n = SUNSparseMatrix_Columns(klu->matrix);
+  for (sunindextype i = 0; i < n; i++) {
+    klu->entry[i] = DBL_MIN;
+  }
+  for (sunindextype p = 0; p < SUNSparseMatrix_IndexPointers(klu->matrix)[n]; p++) {
+    double x = fabs(values[p]);
+    klu->entry[indices[p]] = x > klu->entry[indices[p]] ? x : klu->entry[indices[p]];
+  }
+}
+
 static int choose_pivots(baum_i_sundials_klu *klu)
 {
   klu->fresh = true;
@@ -105,6 +120,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 {
   sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(klu->solver);
   klu->fresh = false;
+  find_entries(klu);
   if (!numeric || klu->sundials->pivots_forgotten) {
     return choose_pivots(klu);
   }
@@ -119,8 +135,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 
 /* ---- solve ---- */
 
-/* Compute the arrays defect, size and entry of *klu for a solution x. x and b must be different
- * arrays. */
+/* Compute the arrays defect and size of *klu for a solution x. x and b must be different arrays. */
 static void form_residual(const baum_i_sundials_klu *klu, const double *x, const double *b)
 {
   const sunindextype *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
@@ -130,14 +145,12 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   for (sunindextype i = 0; i < n; i++) {
     klu->defect[i] = b[i];
     klu->size[i] = fabs(b[i]);
-    klu->entry[i] = DBL_MIN;
   }
   for (sunindextype j = 0; j < n; j++) {
     for (sunindextype p = starts[j]; p < starts[j + 1]; p++) {
-      sunindextype i = indices[p];
-      klu->defect[i] -= values[p] * x[j];
-      klu->size[i] += fabs(values[p] * x[j]);
-      klu->entry[i] = fmax(klu->entry[i], fabs(values[p]));
+      double term = values[p] * x[j];
+      klu->defect[indices[p]] -= term;
+      klu->size[indices[p]] += fabs(term);
     }
   }
 }
@@ -151,7 +164,8 @@ static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
   form_residual(klu, N_VGetArrayPointer(x), N_VGetArrayPointer(b));
   double largest = 0.0;
   for (sunindextype i = 0; i < n; i++) {
-    largest = fmax(largest, klu->size[i] / klu->entry[i]);
+    double size = klu->size[i] / klu->entry[i];
+    largest = size > largest ? size : largest;
   }
   bool accurate = true;
   for (sunindextype i = 0; i < n; i++) {

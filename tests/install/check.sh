@@ -64,7 +64,7 @@ mkdir -p "$build/by_hand/home"
 ln -s "$(cd "$prefix" && pwd)" "$build/by_hand/home/baum"
 (
   cd "$build/by_hand"
-  export HOME="$PWD/home"
+  export HOME="$PWD/home" CMAKE_GENERATOR=Ninja # make need not be installed
   unset PKG_CONFIG_PATH
   first_block "$project/README.md" c >program.c
   first_block "$project/README.md" text >expected.txt

@@ -23,12 +23,12 @@ class Mobility(NamedTuple):
         rank there than at nearby configurations. Also true if the initial configuration is
         within 1e-5 of a singular one, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
-    worst_joint: Joint of worst_phi.
+    worst_joint: The joint with the row of worst_phi.
     text: These results in words, with the names of elements.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
-    position_degrees_of_freedom: [-] degrees of freedom of position: nv - rank of J without rows
-        of velocity level. degrees_of_freedom counts those of velocity, which are fewer if there
-        are such rows.
+    position_degrees_of_freedom: [-] degrees of freedom of position: nv minus the rank of J
+        without rows of velocity level. degrees_of_freedom counts the degrees of freedom of
+        velocity instead. These are fewer if there are rows of velocity level.
     """
 
     degrees_of_freedom: int
@@ -58,19 +58,19 @@ class Report(NamedTuple):
         count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
-    constant_mass: All masses are constant, so they are inverted only once.
+    constant_mass: The mass matrix is constant, so it is inverted only once.
     constant_force: All forces are constant.
-    blocks: Solved by blocks ("block"), otherwise by KLU.
-    nodes: [-] nodes of the block solver, which are pairs of rows; 0 for KLU.
-    couplings: [-] couplings of nodes during elimination; 0 for KLU.
-    fill: [-] couplings that elimination adds; 0 for KLU.
-    most_couplings: [-] largest number of couplings of a node; 0 for KLU.
+    blocks: True if "block" solves the equations, false if KLU does.
+    nodes: [-] nodes of the block solver (a node is a pair of rows); 0 for KLU.
+    couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
+    fill: [-] pairs that only elimination couples; 0 for KLU.
+    most_couplings: [-] largest number of later nodes with which one node is coupled; 0 for KLU.
     most_joints: [-] largest number of joints of a body that is not fixed.
     most_joined: The body with most joints; none if there are no joints.
     text: These results in words, with the names of elements and the reasons.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
-    position_degrees_of_freedom: [-] nv - rank of J without rows of velocity level; -1: not
-        known.
+    position_degrees_of_freedom: [-] nv minus the rank of J without rows of velocity level; -1
+        if it is not known.
     """
 
     bodies: int
@@ -101,16 +101,15 @@ class Counters(NamedTuple):
     """What a run has cost since it was created, and how well it has kept the constraints. Joints
     are handles or None, and names after unpickling.
 
-    steps: [-] accepted.
+    steps: [-] accepted steps.
     rejected: [-] steps that were repeated, because an error test or an iteration failed.
     short_steps: [-] shorter steps that a fixed-step method took to reach a requested time off
         its grid.
-    evaluations: [-] evaluations of the equations of motion: solutions of (7), or residuals of
-        an implicit method.
-    factorizations: [-] factorizations of the matrix in (7) and of the matrices of IDA and
-        CVODE.
-    full_factorizations: [-] those of the factorizations that chose new pivots, which may
-        allocate memory.
+    evaluations: [-] evaluations of the equations of motion: solutions of equation (7), or
+        residuals of an implicit method.
+    factorizations: [-] factorizations of the matrix in equation (7) and of the matrices of IDA
+        and CVODE.
+    full_factorizations: [-] factorizations that chose new pivots, which may allocate memory.
     nonlinear_iterations: [-] iterations of CVODE, IDA and kinematics.
     restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
@@ -118,8 +117,8 @@ class Counters(NamedTuple):
     wall: [s] wall time inside advance_to, step and sample.
     max_phi: [m or rad] largest |Phi| over all steps.
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
-    max_phi_joint: Joint of max_phi.
-    max_phi_rate_joint: Joint of max_phi_rate.
+    max_phi_joint: The joint with the violation max_phi.
+    max_phi_rate_joint: The joint with the violation max_phi_rate.
     predicted_phi: [m or rad] prediction of the steady |Phi| that the gains leave,
         (alpha/beta^2) h max |gamma_i|. It is known only for the Euler methods with stable gains
         of at least 0.1/h, otherwise it is NaN.
@@ -135,9 +134,9 @@ class Counters(NamedTuple):
     damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
         alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
         violations grow. NaN if spectral_radius is NaN.
-    near_singular_intervals: [-] see near_singular.
-    branch_warnings: [-] near-singular intervals after which the motion is on another branch, or
-        may be.
+    near_singular_intervals: [-] number of near-singular intervals, see near_singular.
+    branch_warnings: [-] near-singular intervals after which the motion is, or may be, on
+        another branch.
     forced_steps: [-] steps of rk8 and dp5 across a singular configuration. They are accepted
         although their error estimate is above the tolerance.
     energy_residual: [J] energy that errors of the method have added so far, according to the
@@ -203,9 +202,9 @@ class EnergyAccount(NamedTuple):
     projection: [J] change of kinetic and potential energy by projections.
     gains: [J] work of the gains. It is already contained in drivers and violation, so do not
         add it to them.
-    residual: [J] kinetic + potential - start, minus the sum of all works except gains.
-    evaluations: [-] evaluations of (5) and (7) for the account. The counters of the run do not
-        include them.
+    residual: [J] kinetic + potential - start, minus the sum of all work terms except gains.
+    evaluations: [-] evaluations of equations (5) and (7) for the account. The counters of the
+        run do not include them.
     """
 
     kinetic: float
@@ -255,18 +254,18 @@ class StudyEntry(NamedTuple):
     name: Such as "rk8 projection, rtol 1e-06".
     message: Why the entry was refused or failed; otherwise its first warning; "" if there is
         none.
-    integrator: Its integrator.
-    formulation: Its formulation; never "default".
-    gains: Its gain rule, as given in the options.
+    integrator: The integrator.
+    formulation: The formulation; never "default".
+    gains: The gain rule, as given in the options.
     step: [s] NaN for entries with rtol.
     rtol: [-] NaN for entries with a step.
     method: [-] see methods.
     state: done, refused, failed, timed_out or waiting
-    status: status of its run
+    status: status of the run of the entry
     at_floor: error is at the uncertainty of the reference
     untrusted: the reference is not trusted, so neither are the errors
-    off: another motion: error_q above 0.1, or a branch warning
-    unstable: its gains do not damp with this step
+    off: on another motion: error_q above 0.1, or a branch warning
+    unstable: its gains do not damp violations at this step
     alpha: [1/s] alpha in use; 0: no gains
     beta: [1/s] beta in use; 0: no gains
     error: [-] the error, see error
@@ -281,14 +280,14 @@ class StudyEntry(NamedTuple):
     energy_error: [J] drift of energy against the reference
     energy_error_final: [J] drift of energy at the last sample
     error_estimate: [-] error_estimate of counters
-    error_validated: [-] error over twice the span and from perturbed starts
+    error_validated: [-] largest error of the validation, see option validate
     max_phi: [m or rad] largest constraint violation |Phi| over all steps
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
     violation_work: [J] work of violated constraints, see energy_account
     projection_work: [J] change of energy by projections
     gains_work: [J] work of the gains, see energy_account
-    work: [evaluations] see "work"; the same on every machine
-    cpu: [s] least CPU time to create and run it, without taking samples
+    work: [evaluations] evaluations, factorizations and implicit iterations
+    cpu: [s] least CPU time to create and run it, without samples
     cpu_spread: [s] second least CPU time minus the least
     repeats: [-] number of runs that measured the CPU time
     evaluations: [-] evaluations in the run, without those for samples
@@ -421,10 +420,10 @@ class CatalogParameter(NamedTuple):
 
     name: Such as "eccentricity".
     unit: Such as "kg m^2"; "-" for a pure number.
-    meaning: What it is.
+    meaning: What the parameter describes.
     value: [unit] the default.
-    positive: Must be > 0.
-    whole: Must be an integer.
+    positive: The value must be > 0.
+    whole: The value must be an integer.
     """
 
     name: str
@@ -443,7 +442,7 @@ class CatalogEntry(NamedTuple):
     source: Where the data of the mechanism come from.
     provenance: How the reference was computed and checked; "" if the mechanism has no
         reference.
-    note: Advice for simulating it; may be "".
+    note: Advice for simulating the mechanism; may be "".
     parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
     sample_count: [-] number of stored samples; 0 if there are none.
     start_time: [s] start of the problem and of its reference.
@@ -476,7 +475,7 @@ class CatalogError(NamedTuple):
     """How far a run is from the reference of the catalogue.
 
     q: [-] largest error of positions over all times; NaN if a state is not finite.
-    v: [-] the same for velocities; NaN also if v was None.
+    v: [-] the same for velocities; NaN also if the argument v was None.
     q_final: [-] error of positions at the last time.
     v_final: [-] error of velocities at the last time.
     q_time: [s] time of the largest error of positions.

@@ -30,8 +30,13 @@ baum_status baum_i_spatial_evaluate(const baum_i_joint *joint, baum_i_point *poi
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);
   for (int i = 0; i < joint->rows; i++) {
-    baum_i_coordinate row;
-    baum_i_spatial_row_at(&pair, type_of(joint)->rows[i], &row);
+    const baum_i_spatial_row vectors = type_of(joint)->rows[i];
+    baum_i_coordinate row = {.gamma = 0.0};
+    if (out->gamma) {
+      baum_i_spatial_row_at(&pair, vectors, &row);
+    } else {
+      row.value = baum_i_spatial_gradient_at(&pair, vectors, out->jacobian ? row.gradient : NULL);
+    }
     if (out->phi) {
       out->phi[joint->row + i] = row.value;
     }

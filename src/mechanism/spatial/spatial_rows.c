@@ -118,11 +118,21 @@ baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double
   return pair;
 }
 
-double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row)
+double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                                  double *gradient)
 {
   const vector x = vector_of(pair, row.x);
   const vector y = vector_of(pair, row.y);
+  if (gradient) {
+    memset(gradient, 0, COLUMNS * sizeof *gradient);
+    add_gradient(pair, 1.0, &x, &y, gradient);
+  }
   return baum_i_dot3(x.value, y.value);
+}
+
+double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row)
+{
+  return baum_i_spatial_gradient_at(pair, row, NULL);
 }
 
 /* The vectors x and y of a product, each with its first and second derivatives along a motion. */
@@ -190,6 +200,22 @@ static void add_first(const baum_i_spatial_pair *pair, const vector *x, const ve
   add_gradient(pair, 1.0, x, &y_w, out);
 }
 
+static bool turns(const vector *u)
+{
+  bool found = false;
+  for (int i = 0; i < 3; i++) {
+    found = found || u->on[0][i] != 0.0 || u->on[1][i] != 0.0;
+  }
+  return found;
+}
+
+/* Tell whether a displacement of a body without rotation may change the gradient of x . y. */
+static bool shifts(const vector *x, const vector *y)
+{
+  bool apart[2] = {x->apart != 0.0, y->apart != 0.0};
+  return (apart[0] && apart[1]) || (apart[0] && turns(y)) || (apart[1] && turns(x));
+}
+
 void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                               baum_i_spatial_second *out)
 {
@@ -206,10 +232,13 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
     memcpy(own, m.v[k], sizeof m.v[k]);
     baum_i_turn_back(pair->frame[k]->axes, m.w[k], own + 3);
   }
+  bool all = shifts(&p.x[0], &p.y[0]);
   for (int i = 0; i < COLUMNS; i++) {
     double *column = out->columns_q + (ptrdiff_t)COLUMNS * i;
     const motion unit = unit_motion(pair, i);
-    add_first(pair, &p.x[0], &p.y[0], &unit, column);
+    if (all || i % BAUM_I_SPACE >= 3) {
+      add_first(pair, &p.x[0], &p.y[0], &unit, column);
+    }
     out->gamma_v[i] = -out->rate_q[i];
     for (int j = 0; j < COLUMNS; j++) {
       out->gamma_v[i] -= column[j] * v[j];

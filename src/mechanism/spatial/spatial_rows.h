@@ -72,6 +72,9 @@ typedef struct baum_i_spatial_row {
 } baum_i_spatial_row;
 
 double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row);
+/* Returns the product, and writes its gradient (12) unless `gradient` is NULL. */
+double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                                  double *gradient);
 /* Evaluates a product, its gradient, its rate, and gamma. */
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out);
