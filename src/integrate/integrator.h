@@ -33,7 +33,7 @@ typedef struct baum_i_problem {
   double atol;        /* >= 0 */
   double tolerance_q; /* [-] > 0, factor on rtol and atol for positions */
   double tolerance_v; /* [-] > 0, the same for velocities */
-  /* [-] > 0, the same for multipliers; INFINITY: they are not in the error test */
+  /* [-] > 0, the same for multipliers; INFINITY excludes them from the error test */
   double tolerance_lambda;
   /* true if explicit methods with variable steps must refuse a step whose end the projection moves
    * far */

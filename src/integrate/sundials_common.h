@@ -39,7 +39,7 @@ typedef struct baum_i_sundials {
   char message[BAUM_I_MESSAGE_SIZE];              /* message of the last evaluation that failed */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last error text of SUNDIALS; "": none */
   bool pivots_forgotten;                          /* KLU must choose new pivots */
-  int64_t full_factorizations;                    /* times KLU chose pivots */
+  int64_t full_factorizations;                    /* number of times that KLU chose pivots */
   baum_i_statistics before;                       /* counts before the last restart */
 } baum_i_sundials;
 

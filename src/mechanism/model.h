@@ -95,7 +95,7 @@ typedef struct baum_i_joint {
   int jacobian;      /* where its rows x nl values begin in the Jacobian */
   int square;        /* where its nl x nl values begin in arrays of second derivatives */
   bool fixed;        /* true if all its bodies are fixed */
-  bool fixes;        /* true for a weld from which the pose of a fixed body follows */
+  bool fixes;        /* true for a weld that determines the pose of a fixed body */
 } baum_i_joint;
 
 typedef struct baum_i_force {

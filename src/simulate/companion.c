@@ -57,8 +57,8 @@ static const double TIGHTER_OF_CHECK = 0.03;
  * tolerance, the difference of both motions would not be mostly the error of the run. */
 static const double LARGEST_PART_OF_CHECK = 0.5;
 static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
-/* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST is for a
- * companion that the user has not requested, so that it does not slow the run down much. FREE
+/* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST applies
+ * if the user has not requested the companion, which must then not slow the run down much. FREE
  * further evaluations are always allowed, because short runs with long steps take only few
  * evaluations. */
 static const double MOST_COST = 2.0;

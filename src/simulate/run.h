@@ -45,7 +45,7 @@ typedef struct baum_i_saved baum_i_saved; /* saved.h */
 struct baum_simulation {
   /* The members before `options` are plain numbers, which are saved. */
   baum_i_grid grid;
-  double origin; /* [s] last restart of the method, which may measure time from there */
+  double origin; /* [s] time of the last restart of the method; the method may use t - origin */
   double start_energy;
   double largest_gamma;  /* largest |gamma_i| of all rows i and all steps */
   double rows_looked_at; /* [s] last check of the redundant rows with KLU or QR; see rows.c */

@@ -353,7 +353,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
 {
   baum_i_saved_identity there = {0};
   if (r->head.size < sizeof(header) + WORD + sizeof there + WORD) {
-    return BAUM_OK; /* check_parts() finds this error */
+    return BAUM_OK; /* check_parts() will report the missing parts */
   }
   memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
   BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));

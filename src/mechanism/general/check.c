@@ -148,8 +148,8 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
-/* Tell whether a value is wrong. It must deviate for the best step and for at least one more,
- * because rounding may affect a single step. */
+/* Tell whether a value is wrong. A value is wrong only if it deviates for the best step and for at
+ * least one other step, because rounding may affect a single step. */
 static bool is_wrong(const column *c, const trial *t, int i)
 {
   double deviation = fabs(given(c, i) - t->value[i]);

@@ -18,7 +18,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters of the joint. The two points precede them. */
+/* Parameters of the joint, which follow its two points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 /* ---- definition ---- */

@@ -97,7 +97,8 @@ typedef struct load {
   bool has_potential;
 } load;
 
-/* Set f, in ground axes and multiplied by the input. Returns the input, or 1 if there is none. */
+/* Set f, which is in ground axes and multiplied by the input. Returns the input, or 1 if there is
+ * none. */
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {

@@ -18,7 +18,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Parameters of the joint. The two points precede them. */
+/* Parameters of the joint, which follow its two points. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
 /* ---- definition ---- */

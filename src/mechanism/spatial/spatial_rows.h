@@ -106,7 +106,7 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
 void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *w, double factor,
                              double *out);
 
-/* Writes the derivatives of a product that a coordinate needs. w has twelve entries. */
+/* Writes those derivatives of the product `row` that a coordinate needs. w has twelve entries. */
 void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
