@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cubic splines. With d = t - t_i, the spline s on the interval of length h_i from t_i to t_i+1 is
  *
- *   s = y_i + b_i d + c_i d^2 + (c_i+1 - c_i) / (3 h_i) d^3,
- *   b_i = (y_i+1 - y_i) / h_i - h_i (2 c_i + c_i+1) / 3.
+ *   s = y_i + b_i d + c_i d^2 + (c_i+1 - c_i) / (3 h_i) d^3
+ *   b_i = (y_i+1 - y_i) / h_i - h_i (2 c_i + c_i+1) / 3
  *
  * The first derivative s' is continuous at t_i if the coefficients c satisfy
  *
  *   h_i-1 c_i-1 + 2 (h_i-1 + h_i) c_i + h_i c_i+1
- *     = 3 ((y_i+1 - y_i) / h_i - (y_i - y_i-1) / h_i-1),
+ *     = 3 ((y_i+1 - y_i) / h_i - (y_i - y_i-1) / h_i-1)
  *
  * Such equations at all inner points form a diagonally dominant system, which needs no pivoting. A
  * natural spline has c = 0 at both ends. A periodic spline has the coefficients c + p z, where c is

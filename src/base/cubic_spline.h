@@ -12,7 +12,7 @@ typedef struct baum_i_cubic_spline {
   int32_t count;        /* >= 3 */
   const double *times;  /* (count) ascending */
   const double *values; /* (count) */
-  double *bends;        /* (count) half of each second derivative */
+  double *bends;        /* (count) half of the second derivative at each time */
 } baum_i_cubic_spline;
 
 /* Find the second derivatives of the spline. At both ends they are zero, or the spline is periodic.

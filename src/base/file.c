@@ -40,7 +40,7 @@ static baum_status write_in_place(const char *path, const char *bytes, size_t si
   return reason ? fail(path, "written", reason) : BAUM_OK;
 }
 
-/* Length of the folder in a path, including its last slash. */
+/* Returns the length of the folder part of a path, including its last slash. */
 static size_t folder_of(const char *path)
 {
   const char *slash = strrchr(path, '/');

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops over arrays that the monitors execute after every step. They use vectors of four numbers,
- * because plain loops would take half as long as an evaluation of the accelerations. */
+ * because plain loops would cost half as much time as an evaluation of the accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
 
@@ -8,13 +8,14 @@
 
 /* A step whose local error is estimated; the equations are in simulate/local_error.c. */
 typedef struct baum_i_step_samples {
-  const double *q[2]; /* at the start and at the end of the step; not used if dq is given */
+  const double *q[2]; /* q at the start and at the end of the step; not used if dq is given */
   const double *v[2];
-  const double *a[5]; /* at the end of the step, at its start, and at the three times before */
-  const double *dq;   /* NULL if q is a vector; otherwise dq without its last term */
+  /* accelerations at the end of the step, at its start, and at the three times before */
+  const double *a[5];
+  const double *dq; /* NULL if q is a vector; otherwise dq without its last term */
   const double *scale;
   double h;
-  double period; /* [s] factor of the errors of v */
+  double period; /* [s] factor by which errors of v are multiplied */
 } baum_i_step_samples;
 
 typedef struct baum_i_measure_kernel {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The distance of two names is the smallest number of characters that must be inserted, deleted or
- * replaced (Levenshtein). With D(i, j) for the first i and the first j characters,
+ * replaced (Levenshtein). Let D(i, j) be the distance of the first i characters of a name a and the
+ * first j characters of a name b. Then
  *
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *
@@ -20,7 +21,7 @@ static int smaller(int a, int b)
 
 static int distance_between(const char *a, const char *b)
 {
-  int row[LONGEST + 1]; /* D(i, .) from left of the present place, D(i-1, .) from there on */
+  int row[LONGEST + 1]; /* D(i, .) left of the present place, and D(i-1, .) from this place on */
   const int columns = (int)strlen(b);
   for (int j = 0; j <= columns; j++) {
     row[j] = j;

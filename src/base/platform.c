@@ -23,7 +23,8 @@
 
 /* ---- clocks ---- */
 
-/* WASI has no clock for the time of a thread, and that of Windows advances by 1/64 s. */
+/* WASI has no clock for the time of a thread, and the clock of Windows advances in steps of 1/64
+ * s. */
 #if defined(__wasi__) || defined(_WIN32)
 #undef CLOCK_THREAD_CPUTIME_ID
 #define CLOCK_THREAD_CPUTIME_ID CLOCK_MONOTONIC

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Disjoint sets of numbers from 0 on. parent[i] <= i is a member of the set of i; it is i for the
- * smallest member, which represents the set. */
+/* Disjoint sets of numbers from 0 on. parent[i] <= i is a member of the set of i. The smallest
+ * member, for which parent[i] is i, represents the set. */
 #ifndef BAUM_I_BASE_SETS_H
 #define BAUM_I_BASE_SETS_H
 

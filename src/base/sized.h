@@ -24,8 +24,9 @@ baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const ch
 
 /* Check `size`, the struct_size of a caller's struct. It must be `present`, which is the size in
  * this version, or a possible size in an older version. Sizes in older versions are multiples of
- * sizeof(size_t) and have room for at least two fields. Messages name the struct by the text `of`,
- * which is " of the options" or "", and the call that sets the defaults by the text `start`. */
+ * sizeof(size_t) and have room for at least two fields. Messages contain the texts `of` and
+ * `start`. `of` names the struct and is " of the options", for example, or "". `start` names the
+ * call that sets the defaults. */
 baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
                                      const char *start);
 

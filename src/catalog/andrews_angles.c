@@ -3,7 +3,7 @@
  * It is a problem of the Bari test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving
  * ODEs II, p. 530 ff).
  * The functions mass(), force() and phi() compute M, f and g of the test set with the same terms.
- * Its equation of motion is M a + G^T lambda = f with G = dg/dq. */
+ * The equation of motion of the test set is M a + G^T lambda = f with G = dg/dq. */
 #include "catalog/andrews.h"
 
 #include <math.h>

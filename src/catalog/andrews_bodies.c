@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism as seven rigid bodies. The geometry below is derived from the
- * equations of the Bari test set. In each line, a is the angle of the body.
+ * equations of the Bari test set. In each line, a is the angle of the body. The lengths, such as rr
+ * and d, are those of andrews.h.
  *
  *   K1 pivots at O = (0, 0), a = beta.                E = rr (cos a, sin a)
  *   K2 pivots at E, a = beta + Theta.                 F = E - d (cos a, sin a)
@@ -11,10 +12,11 @@
  *   K7 pivots at A, a = epsilon.                      H = A + u (sin a, -cos a)
  *   K6 pivots at H, a = Omega + epsilon.              F = H + zf (cos a, sin a)
  *
- * The mass matrix of the test set determines the centres of mass: K1 has its centre at ra from O,
- * K2 at da from E towards F, K4 at e - ea from G towards F, and K6 at zf - fa from H towards F. The
- * centres of K3, K5 and K7 are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and sqrt(ua^2 + ub^2) from the
- * pivots. Without gravity, the directions of these three do not affect the motion.
+ * The mass matrix of the test set determines the centres of mass: K1 has its centre at the distance
+ * ra from O, K2 at the distance da from E towards F, K4 at e - ea from G towards F, and K6 at zf -
+ * fa from H towards F. The centres of K3, K5 and K7 are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and
+ * sqrt(ua^2 + ub^2) from the pivots. Without gravity, the directions of these three do not affect
+ * the motion.
  */
 #include "catalog/andrews.h"
 #include "catalog/catalog.h"
@@ -79,7 +81,8 @@ static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7]
   }
 }
 
-/* Returns a point of body k. Its distance from the pivot is (x, y) in the axes of the body. */
+/* Returns a point of body k. The vector from the pivot to this point is (x, y) in the axes of the
+ * body. */
 static baum_i_spot on(const baum_body_id ids[7], int k, double x, double y)
 {
   return (baum_i_spot){ids[k], {x - CENTRE[k][0], y - CENTRE[k][1]}};

@@ -40,10 +40,10 @@ typedef struct baum_i_catalog_mechanism {
   int parameter_count;
   const baum_i_catalog_parameter *parameters;
   const double *defaults;
-  double end;
-  double digits_q;
-  double digits_v;
-  bool branches;                                       /* whether the motion passes bifurcations */
+  double end;      /* [s] end of the motion and of its reference */
+  double digits_q; /* number of correct digits of the positions of the reference */
+  double digits_v; /* the same for velocities */
+  bool branches;   /* whether the motion passes bifurcations */
   void (*build)(baum_i_parts *parts, const double *p); /* adds all elements of the mechanism */
 
   /* One letter for each coordinate of a body: m for a length, r for an angle, u for a user

@@ -5,7 +5,8 @@
  *
  *   m u' = m D w^2,   (I + m D^2) w' = -m D u w
  *
- * m u^2 + (I + m D^2) w^2 is constant, so with s = k t + e
+ * m u^2 + (I + m D^2) w^2 is constant. With constants U, W, k and e, and with s = k t + e, the
+ * motion is therefore
  *
  *   u = U tanh s,  w = W / cosh s,  k = m D U / (I + m D^2),  U k = D W^2,  angle' = w
  *

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A right front wheel on two wishbones, with steering and a road. x points backwards, y to the
  * right and z up. The wishbones rotate about skew axes on the car, which is the ground. The upright
- * connects their ball joints. A tie rod of constant length connects it to a rack, which a driver
- * moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
+ * connects their ball joints. A tie rod of constant length connects the upright to a rack, which a
+ * driver moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
  *
- * Every body follows in closed form from the angle of the lower wishbone and the position of the
- * rack. In each step a part rotates about a known axis until one of its points has a known distance
- * from a point that is known: the upper wishbone until its ball joint has the right distance from
- * that of the lower wishbone, and the upright, about the line through both ball joints, until its
- * steering arm has the distance of the tie rod from the rack. Newton's method finds the angle of
- * the lower wishbone at which the wheel has the height of the plate.
+ * Closed formulas give the poses of all bodies from the angle of the lower wishbone and the
+ * position of the rack. In each step of these formulas a part rotates about a known axis until one
+ * of its points has a given distance from a known point. The upper wishbone rotates until its ball
+ * joint has the right distance from the ball joint of the lower wishbone. The upright rotates about
+ * the line through both ball joints until the distance of its steering arm from the rack is the
+ * length of the tie rod. Newton's method finds the angle of the lower wishbone at which the wheel
+ * has the height of the plate.
  */
 #include <float.h>
 #include <math.h>
@@ -48,9 +49,11 @@ typedef const double point[3];
 static point FRONT[2] = {{-0.15, 0.40, 0.20}, {-0.12, 0.45, 0.46}}; /* pivots of both wishbones */
 static point REAR[2] = {{0.20, 0.38, 0.21}, {0.18, 0.47, 0.48}};
 static point BALL[2] = {{-0.01, 0.72, 0.18}, {0.015, 0.68, 0.50}};
-static point TIE_ROD[2] = {{0.15, 0.36, 0.25}, {0.14, 0.70, 0.26}}; /* on rack and upright */
+/* Ends of the tie rod on the rack and on the upright. */
+static point TIE_ROD[2] = {{0.15, 0.36, 0.25}, {0.14, 0.70, 0.26}};
 static point WHEEL = {0.0, 0.76, 0.32};
-static point STRUT[2] = {{0.02, 0.50, 0.70}, {0.0, 0.62, 0.19}}; /* on ground and lower wishbone */
+/* Ends of the strut on the ground and on the lower wishbone. */
+static point STRUT[2] = {{0.02, 0.50, 0.70}, {0.0, 0.62, 0.19}};
 
 /* Amplitude [m] and frequency [rad/s] of the rack and of the plate. */
 static const double WAVE[2][2] = {{0.02, 3.0}, {0.05, 5.0}};
@@ -128,7 +131,7 @@ static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *t
   baum_i_axes_turn(axes, 0, 0.0, -apart / gained);
 }
 
-/* Returns axes at the front pivot of a wishbone, whose x axis is the axis of the pivots. */
+/* Returns axes at the front pivot of a wishbone. Their x axis is the axis of the pivots. */
 static baum_i_axes pivot_axes(int arm)
 {
   const baum_i_axes front = baum_i_axes_at(FRONT[arm], baum_i_zeros);
@@ -136,8 +139,8 @@ static baum_i_axes pivot_axes(int arm)
   return baum_i_axes_between(&front, &rear);
 }
 
-/* Returns axes of the upright in the design configuration. They point from the lower to the upper
- * ball joint. */
+/* Returns axes of the upright in the design configuration. Their x axis points from the lower to
+ * the upper ball joint. */
 static baum_i_axes kingpin_axes(void)
 {
   const baum_i_axes lower = baum_i_axes_at(BALL[0], baum_i_zeros);

@@ -45,7 +45,7 @@ static double solution(const double *p, double t, double *q, double *v)
   return DBL_EPSILON * (fabs(v[0]) + sum) * (1.0 + fabs(t));
 }
 
-/* Computes axes of the outer ring (0), the inner ring (1) or the rotor (2), whose origin is the
+/* Computes axes of the outer ring (0), the inner ring (1) or the rotor (2). Their origin is the
  * centre. */
 static baum_i_axes axes_of(const double *p, const double *q, const double *v, int body)
 {
@@ -72,7 +72,8 @@ static void build(baum_i_parts *parts, const double *p)
   static const char *const names[3] = {"outer ring", "inner ring", "rotor"};
   static const char *const joints[3] = {"post", "trunnion", "axle"};
   static const int axis_of[3] = {2, 0, 1};
-  const double mass[3] = {1.0, p[WEIGHT], p[ROTOR]}; /* that of the outer ring does not matter */
+  /* the mass of the outer ring does not matter */
+  const double mass[3] = {1.0, p[WEIGHT], p[ROTOR]};
   const double inertia[3][3] = {{p[OUTER] / 2, p[OUTER], p[OUTER] / 2},
                                 {p[INNER] / 2, p[INNER] / 2, p[INNER]},
                                 {p[ACROSS], p[AXIAL], p[ACROSS]}};

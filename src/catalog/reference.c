@@ -187,8 +187,8 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* The largest values over the coordinates of a state. They are differences and sizes, both divided
- * by the scales, and the uncertainty of the reference. */
+/* Largest values over the coordinates of a state: the differences q and v from the reference and
+ * the size of v, all divided by the scales, and the uncertainties of the reference (floors). */
 typedef struct measure {
   double q;
   double v;

@@ -75,7 +75,7 @@ static void build(baum_i_parts *parts, const double *p)
   for (int k = 0; k < JOINTS; k++) {
     double mass = k < JOINTS - 1 ? MASS[k] : p[PAYLOAD];
     double length = SHARE[k] * p[REACH];
-    /* A cylinder whose length is five times its radius. */
+    /* Each link is a cylinder whose length is five times its radius. */
     double axial = mass * length * length / 50;
     double across = axial / 2 + mass * length * length / 12;
     const double inertia[3] = {k == 0 ? across : axial, across, k == 0 ? axial : across};

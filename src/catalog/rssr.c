@@ -108,7 +108,7 @@ static void build(baum_i_parts *parts, const double *p)
                                       state(p, baum_i_zeros, &p[SPEED], k));
   }
   const double *b = ends[1].r;
-  /* Perpendicular to the coupler and the x axis. */
+  /* This direction is perpendicular to the coupler and the x axis. */
   const double across[3] = {0.0, ends[0].r[2] - b[2], b[1] - ends[0].r[1]};
   baum_joint_id shaft = baum_i_parts_spatial_revolute(
     parts, "shaft", (baum_i_place){BAUM_GROUND, id[0], baum_i_zeros, z});

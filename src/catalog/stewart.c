@@ -127,7 +127,7 @@ static baum_i_axes platform_axes(const double *q, const double *v)
   return at;
 }
 
-/* Finds axes along a leg. Their origins are its foot and its ball. */
+/* Finds two sets of axes along a leg. The origins are the foot and the ball of the leg. */
 static void find_leg(const double *q, const double *v, int leg, baum_i_axes *foot,
                      baum_i_axes *ball)
 {

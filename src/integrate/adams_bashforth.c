@@ -36,7 +36,7 @@ static double *slot(const baum_i_adams *run, int j)
 /* ---- one step ---- */
 
 /* Compute w_j(theta) / theta by Horner's rule. The caller multiplies the result by the actual
- * length of the step, which is theta times the step of the grid, and thus contains the missing
+ * length of the step. This length is theta times the step of the grid, so it provides the missing
  * factor theta. */
 static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
 {

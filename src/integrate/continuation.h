@@ -20,10 +20,11 @@ typedef struct baum_i_configuration {
 /* Why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
-  BAUM_I_REFUSAL_FAR,      /* Newton's corrections were too large, or hardly decreased */
-  BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
-  BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
-  BAUM_I_REFUSAL_OMITTED,  /* a row that was omitted as redundant is violated */
+  BAUM_I_REFUSAL_FAR, /* Newton's corrections were too large, or hardly decreased */
+  /* J has changed so much that a singular configuration may be in between */
+  BAUM_I_REFUSAL_TURNED,
+  BAUM_I_REFUSAL_SINGULAR,   /* J cannot be factored */
+  BAUM_I_REFUSAL_OMITTED,    /* a row that was omitted as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a user function asks for a smaller step; see baum_message() */
   BAUM_I_REFUSAL_STOP,       /* a user function stops the run, or memory is short */
 } baum_i_refusal;
@@ -32,8 +33,8 @@ typedef enum baum_i_refusal {
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */
-  int iterations;     /* of Newton's method */
-  double contraction; /* second correction over the first; 0 if there was one only */
+  int iterations;     /* number of iterations of Newton's method */
+  double contraction; /* ratio of the second correction to the first; 0 if there was only one */
   double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
   int row;            /* violated row, for BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
@@ -42,7 +43,7 @@ typedef struct baum_i_verdict {
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
-  double *distance; /* (nc) norm of each row of J, columns multiplied by the scales */
+  double *distance; /* (nc) norm of each row of J whose columns are multiplied by the scales */
   double *zero;     /* (nv) */
   double *probe;    /* (nv) */
   double *image;    /* (nv) */

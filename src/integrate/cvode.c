@@ -5,10 +5,11 @@
  *   y = (q, v)                                       (nq + nv)
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
- * Adams: Adams-Moulton of orders 1 to 12 with fixed-point iteration. If there are gains, Newton's
- * iteration with their part of the Jacobian is used instead (cvode_embedded.c). BDF: orders 1 to 5
- * with Newton's iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured
- * in the weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
+ * where (5) and (7) are equations of docs/notation.md. Adams: Adams-Moulton of orders 1 to 12 with
+ * fixed-point iteration. If there are gains, Newton's iteration with the part of the Jacobian that
+ * the gains cause is used instead (cvode_embedded.c). BDF: orders 1 to 5 with Newton's iteration,
+ * the exact Jacobian (cvode_newton.c) and projection. Errors are measured in the weighted root mean
+ * square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 
@@ -172,7 +173,8 @@ static int attach_bdf(baum_i_sundials *sundials)
 {
   const baum_i_cvode_newton *newton = &((cvode_run *)sundials)->newton;
   void *cvode = sundials->memory;
-  /* These two calls return CVLS flags, not CV flags. They can fail only for lack of memory. */
+  /* CVodeSetLinearSolver() and CVodeSetLinSysFn() return CVLS flags, not CV flags. They can fail
+   * only for lack of memory. */
   bool attached = CVodeSetLinearSolver(cvode, newton->solver, newton->klu.matrix) == CVLS_SUCCESS &&
                   CVodeSetLinSysFn(cvode, build) == CVLS_SUCCESS;
   if (!attached) {

@@ -137,7 +137,8 @@ int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundial
   if (flag != CV_SUCCESS) {
     return flag;
   }
-  /* This call returns CVLS flags, not CV flags. It can fail only for lack of memory. */
+  /* CVodeSetLinearSolver() returns CVLS flags, not CV flags. It can fail only for lack of
+   * memory. */
   return CVodeSetLinearSolver(cvode, embedded->solver, NULL) == CVLS_SUCCESS ? CV_SUCCESS
                                                                              : CV_MEM_FAIL;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Newton's iteration of CVODE BDF requires the solution d = (dq, dv) of
  *
- *   (I - gamma df/dy) d = r,     f = (N v, a(t, q, v)), a from (5) or (7).
+ *   (I - gamma df/dy) d = r,     f = (N v, a(t, q, v)), a from (5) or (7) of docs/notation.md
  *
  * The residual of index 1 (dae_matrix.c) defines a and the multipliers implicitly:
  *

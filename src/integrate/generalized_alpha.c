@@ -57,8 +57,8 @@ static const double ROUNDINGS = 8.0 * DBL_EPSILON;
  * configuration, changes may become small although the error in a soft direction is still large. */
 static const double NEAR = 1e-6;
 static const double FAST = 0.1;
-/* Changes that have stopped decreasing are treated as rounding errors up to STALLED times the limit
- * that ROUNDINGS gives. */
+/* Changes that have stopped decreasing are treated as rounding errors if they are at most STALLED
+ * times the limit that ROUNDINGS gives. */
 static const double STALLED = 64.0;
 /* Even larger changes that have stopped decreasing may be rounding errors, because the rounding
  * error of a large coordinate may be large relative to the scale of a small coordinate that is
@@ -74,7 +74,8 @@ static const double NUDGE = 4.0 * DBL_EPSILON;
  * roundoff divided by this fraction. */
 static const double SHIFT = 1e-3;
 
-/* a is not scaled if step lengths differ by less than this fraction. */
+/* The variable a of the method is not scaled if successive step lengths differ by less than this
+ * fraction. */
 static const double SAME_STEP = 1e-6;
 
 /* Results of a step that the next step needs. */
@@ -93,8 +94,8 @@ typedef struct alpha_run {
   bool first;      /* no step has been accepted since the start */
   double step;     /* [s] step length to which now.a belongs */
   double trial;    /* [s] step length to which next.a belongs */
-  alpha_past now;  /* at the present state */
-  alpha_past next; /* at the end of the last trial */
+  alpha_past now;  /* results at the present state */
+  alpha_past next; /* results at the end of the last trial */
   int64_t iterations;
   baum_i_step_matrix *matrix;
   double *memory;   /* memory of all arrays of this struct */

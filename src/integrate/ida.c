@@ -42,11 +42,11 @@
 /* Memory of a run. */
 typedef struct ida_run {
   baum_i_sundials sundials;
-  N_Vector dy;            /* at the end of the last step */
+  N_Vector dy;            /* y' at the end of the last step */
   N_Vector tested;        /* 1 for unknowns in the error test, otherwise 0 */
-  SUNLinearSolver solver; /* called by IDA; it calls klu */
+  SUNLinearSolver solver; /* IDA calls it, and it calls klu */
   baum_i_sundials_klu klu;
-  double linearized; /* [1/s] c for which the present matrix was computed */
+  double linearized; /* [1/s] coefficient c for which the matrix dF/dy + c dF/dy' was computed */
   baum_i_ida_newton newton;
   baum_dae dae;
 } ida_run;

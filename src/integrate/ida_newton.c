@@ -32,9 +32,9 @@
  * predicts an error below the bound after a later correction.
  *
  * IDA's own convergence test does not work for these equations. No fixed tolerance is suitable for
- * multipliers, because they may be zero and their rounding errors grow with c. Without any test
- * they diverge: at order 5 the prediction amplifies an error 63-fold, and an iteration with an
- * older matrix leaves up to a quarter of it. In measurements, multipliers became 1e14 times too
+ * multipliers, because they may be zero and their rounding errors grow with c. Without any test,
+ * multipliers diverge: at order 5 the prediction amplifies an error 63-fold, and an iteration with
+ * an older matrix leaves up to a quarter of it. In measurements, multipliers became 1e14 times too
  * large; their rounding errors then changed q and v, and no step converged. IDA also uses the
  * convergence rate of an earlier step with the same matrix, which shortens steps by a third.
  *
@@ -62,8 +62,9 @@
 /* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. From
  * 1e-1 to 1e-4 the number of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
-/* At rtol 1e-13 the resulting tolerance of v is 50 times its rounding error. Errors of the motion
- * are the same as with the factor 0.01, and runs take fewer steps than with the factor 1. */
+/* With this factor, the tolerance of v at rtol 1e-13 is 50 times the rounding error of v. Errors of
+ * the motion are the same as with the factor 0.01, and runs take fewer steps than with the factor
+ * 1. */
 static const double INDEX3_VELOCITY_TOLERANCE = 0.1;
 /* Largest convergence rate, as in IDA. Above it IDA computes a new matrix or takes a smaller
  * step. */

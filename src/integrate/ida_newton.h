@@ -12,7 +12,7 @@ typedef struct baum_i_ida_newton {
   const baum_i_sundials *sundials;
   baum_residual index;
   SUNNonlinearSolver solver;
-  N_Vector displacement; /* (nc) n_i [Phi] of each row, see ida_newton.c */
+  N_Vector displacement; /* (nc) n_i of each row, see ida_newton.c; in units of Phi */
   N_Vector inertia;      /* (nv) M_jj s_j */
   double energy;         /* [J] largest |lambda_i| n_i at the start of the step */
   double momentum_q;     /* [J s^2] largest M_jj s_j tolerance_q_j */
@@ -24,8 +24,9 @@ typedef struct baum_i_ida_newton {
   double first;          /* size of the first correction of the step */
 } baum_i_ida_newton;
 
-/* Make IDA use this test. Set the members sundials, index, displacement and inertia beforehand.
- * Close `newton` after the memory of IDA has been freed. Returns a flag of IDA. */
+/* Make IDA use the convergence test of ida_newton.c. Set the members sundials, index, displacement
+ * and inertia beforehand. Close `newton` after the memory of IDA has been freed. Returns a flag of
+ * IDA. */
 int baum_i_ida_newton_attach(baum_i_ida_newton *newton);
 void baum_i_ida_newton_close(baum_i_ida_newton *newton);
 
@@ -39,9 +40,9 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 
-/* These functions are needed if the matrix was computed for another coefficient c0. The first
- * scales the right-hand side before the solution, and the second scales the solution. ratio is c /
- * c0. */
+/* Adapt the solution to a matrix that was computed for another coefficient c0. The first function
+ * scales the right-hand side before the solution, and the second one scales the solution. ratio is
+ * c / c0. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution);

@@ -24,16 +24,16 @@ typedef struct baum_i_problem {
   double direction; /* +1 forward, -1 backward in time; multiplies alpha */
   /* [1/s] > 0, 1/T, where T is the time scale of the motion; scale x rate is a typical velocity */
   double rate;
-  double max_step; /* [s] > 0, INFINITY for none; variable step */
+  double max_step; /* [s] > 0, limit for variable steps; INFINITY: no limit */
 
   baum_workspace *workspace;
   baum_formulation formulation;
-  double step;        /* [s] > 0, or NaN: variable */
+  double step;        /* [s] > 0 if the step is fixed; NaN: variable */
   double rtol;        /* NaN for fixed step */
   double atol;        /* >= 0 */
   double tolerance_q; /* [-] > 0, factor on rtol and atol for positions */
   double tolerance_v; /* [-] > 0, the same for velocities */
-  /* [-] > 0, the same for multipliers; INFINITY: they are not in the error test */
+  /* [-] > 0, the same for multipliers; INFINITY excludes them from the error test */
   double tolerance_lambda;
   /* true if explicit methods with variable steps must refuse a step whose end the projection moves
    * far */
@@ -52,7 +52,7 @@ typedef struct baum_i_state {
 /* Counts of a variable-step method since its creation. */
 typedef struct baum_i_statistics {
   int64_t rejected;
-  int64_t factorizations;      /* of the method's own matrix */
+  int64_t factorizations;      /* number of factorizations of the method's own matrix */
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t nonlinear_iterations;
   int64_t forced; /* steps over a singular configuration whose error exceeded the tolerance */
@@ -63,9 +63,9 @@ struct baum_integrator {
   const void *table;                /* passed to open(), to select one method of a family */
   int order;                        /* 0: variable order */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;             /* meaning of BAUM_GAINS_DEFAULT */
+  baum_gain_rule gains;             /* the rule that BAUM_GAINS_DEFAULT means */
   baum_i_method method;             /* amplification of violations */
-  baum_i_method_family family;      /* of methods of kind BAUM_I_METHOD_VARIABLE_STEP */
+  baum_i_method_family family;      /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
   /* BDF: the fraction of the error of a step that the error test measures */
   double seen;
   /* true for both Euler methods, whose gains lead to a known steady violation: |Phi'| = (h/2)
@@ -77,8 +77,9 @@ struct baum_integrator {
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
-  const char *why_no_projection; /* reason, for the message; NULL: none */
-  bool tests_multipliers;        /* tolerance_lambda may be finite at index 1 */
+  /* reason that messages give if projection is refused; NULL: none */
+  const char *why_no_projection;
+  bool tests_multipliers; /* tolerance_lambda may be finite at index 1 */
 
   /* Memory of a run. `open` initializes `memory` zeroed bytes and may fail with every status of a
    * run. `close` frees what `open` has allocated, even if `open` failed. Methods without memory
@@ -90,9 +91,9 @@ struct baum_integrator {
 
   /* Fixed step: move state from t by h (signed). a is the acceleration at the start of the step
    * (nv), which the caller has evaluated through baum_i_problem_motion(); the caller also sets
-   * state->t. NULL for methods with variable steps only. If a method has both `step` and `advance`,
-   * problem->step selects one. If a method has neither, it needs SUNDIALS, which the build
-   * lacks. */
+   * state->t. NULL for methods that have only variable steps. If a method has both `step` and
+   * `advance`, problem->step selects one. If a method has neither, it needs SUNDIALS, which the
+   * build lacks. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
@@ -100,7 +101,7 @@ struct baum_integrator {
    * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
-  /* Variable step; NULL for methods with fixed steps only. */
+  /* Variable step; NULL for methods that have only fixed steps. */
   /* Take one step in problem->direction, whose length the method chooses. `state` receives the end
    * of the step. After a failure it is the end of the last good step, from which the next call
    * restarts. */

@@ -23,7 +23,7 @@ double *baum_i_rk_rate(const baum_i_rk *rk, int stage)
   return rk->rates + (size_t)stage * (size_t)rk->size;
 }
 
-/* Store K_stage at (q, v). */
+/* Store the rate K_stage = (N v, a) of a stage at (q, v). */
 static void store_rate(const baum_i_rk *rk, const baum_mechanism *m, int stage, const double *q,
                        const double *v, const double *a)
 {

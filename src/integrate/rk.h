@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta methods: stages and fixed steps, for the table of any method. Embedded
- * pairs, which choose their step, are in rk_adaptive.h. */
+/* Explicit Runge-Kutta methods: functions that compute the stages and take fixed steps, from the
+ * table of any method. Embedded pairs, which choose their step, are in rk_adaptive.h. */
 #ifndef BAUM_I_INTEGRATE_RK_H
 #define BAUM_I_INTEGRATE_RK_H
 
@@ -15,9 +15,9 @@ typedef struct baum_i_rk_table {
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run. Methods that need further memory have this struct as the first member of theirs.
- * Arrays over (q, v) have `size` entries: nq positions, nv velocities, and zeros up to a multiple
- * of BAUM_I_RK_LANES. */
+/* Memory of a run. Methods that need further memory have this struct as the first member of their
+ * own struct. Arrays over (q, v) have `size` entries: nq positions, nv velocities, and zeros up to
+ * a multiple of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
   const baum_i_rk_kernel *kernel;

@@ -13,17 +13,17 @@
  * the step, which is also the first rate of the next step. After it come extra rates, which only
  * the interpolant uses. */
 typedef struct baum_i_rk_pair {
-  const char *name; /* of the integrator, in messages */
+  const char *name; /* name of the integrator in messages */
   baum_i_rk_table table;
-  int error_order;      /* the estimate grows with h^error_order */
-  int error_count;      /* number of rates in the estimate: s, or s + 1 with the rate at the end */
-  const double *error;  /* (error_count) */
-  const double *error3; /* (error_count) of order 3, or NULL */
-  int extra;
-  const double *extra_c;   /* (extra) */
-  const double *extra_a;   /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
-  int dense;               /* number of terms F_4, F_5, ... of the interpolant */
-  const double *dense_row; /* (dense x (s + 1 + extra)) */
+  int error_order;       /* the estimate grows with h^error_order */
+  int error_count;       /* number of rates in the estimate: s, or s + 1 with the rate at the end */
+  const double *error;   /* (error_count) weights of the estimate */
+  const double *error3;  /* (error_count) weights of an estimate of order 3, or NULL */
+  int extra;             /* number of extra rates */
+  const double *extra_c; /* (extra) times of the extra rates, as fractions of the step */
+  const double *extra_a; /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
+  int dense;             /* number of terms F_4, F_5, ... of the interpolant */
+  const double *dense_row; /* (dense x (s + 1 + extra)) weights of the rates in these terms */
 } baum_i_rk_pair;
 
 /* Memory of a run. */
@@ -32,21 +32,21 @@ typedef struct baum_i_rk_adaptive {
   const baum_i_rk_pair *pair;
   baum_i_step_control control;
   double t;        /* start of the last step */
-  double t_end;    /* its end */
-  double h;        /* its signed length */
-  double *end;     /* (size) (q, v) at its end */
+  double t_end;    /* end of the last step */
+  double h;        /* signed length of the last step */
+  double *end;     /* (size) (q, v) at the end of the last step */
   double *weights; /* (size) 1 / tolerance */
   double *dense;   /* ((3 + pair->dense) x size) F_1, F_2, ... of the interpolant */
   bool has_step;   /* the members from t to weights belong to an accepted step */
-  bool has_dense;  /* `dense` belongs to that step */
+  bool has_dense;  /* `dense` belongs to the same step */
   bool unfinished; /* a start or step failed, so the next step restarts */
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
   /* The last evaluation that failed in a try and was followed by a shorter try. */
   baum_status failure;         /* BAUM_OK: none */
-  double failure_t;            /* start of that try */
-  baum_i_kept_message message; /* of that evaluation */
+  double failure_t;            /* start of the try in which it failed */
+  baum_i_kept_message message; /* message of the evaluation that failed */
 } baum_i_rk_adaptive;
 
 /* Members of baum_integrator. `table` points to a baum_i_rk_pair. */

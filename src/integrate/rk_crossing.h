@@ -18,10 +18,10 @@ typedef struct baum_i_rk_crossing {
   double over; /* [s] length of a step over a singular configuration */
   /* [s] a step shorter than this is lengthened to `over`; 0: no singular configuration is near */
   double least;
-  double pivot;     /* at the start of the step, relative to the usual pivot */
-  double pivot_end; /* at its end */
+  double pivot;     /* smallest pivot at the start of the step, relative to the usual pivot */
+  double pivot_end; /* the same at the end of the step */
   double usual;     /* largest pivot so far */
-  int held;         /* successive tiny steps near a singular configuration */
+  int held;         /* number of successive tiny steps near a singular configuration */
 } baum_i_rk_crossing;
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);

@@ -8,9 +8,9 @@
 
 typedef struct baum_i_step_control {
   double order;      /* the estimated error of a step grows with h^order */
-  double step;       /* [s] to try next */
-  double last_step;  /* [s] last accepted step; 0: none yet */
-  double last_error; /* its error */
+  double step;       /* [s] length to try next */
+  double last_step;  /* [s] length of the last accepted step; 0: none yet */
+  double last_error; /* error of the last accepted step */
   bool refused;      /* a try from the present state has been refused */
 } baum_i_step_control;
 

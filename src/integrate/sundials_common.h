@@ -23,12 +23,12 @@ typedef struct baum_i_sundials {
   SUNContext context;
   N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all vectors of a run, allocated together */
   int taken;                                 /* number of vectors in use */
-  double *numbers;                           /* their memory */
-  void *memory;                              /* of CVODE or IDA */
+  double *numbers;                           /* memory of the numbers of all vectors */
+  void *memory;                              /* memory object of CVODE or IDA */
   N_Vector y;                                /* unknowns at the end of the last step */
   N_Vector inside;                           /* unknowns at an interpolated time */
   const double *present;                     /* q of the last evaluation */
-  const baum_i_problem *problem;             /* of the present call */
+  const baum_i_problem *problem;             /* problem of the present call */
   bool unfinished;                           /* a start or step failed, so the next step restarts */
   bool stops;                                /* a stop time is set */
   bool stopped;                              /* an evaluation failed and no smaller step can help */
@@ -36,10 +36,10 @@ typedef struct baum_i_sundials {
   double origin;          /* [s] SUNDIALS' time is t - origin, to keep digits after a late start */
   double t;               /* start of the present step */
   double evaluated_at;    /* start of the step in which that evaluation failed */
-  char message[BAUM_I_MESSAGE_SIZE];              /* of that evaluation */
+  char message[BAUM_I_MESSAGE_SIZE];              /* message of the last evaluation that failed */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last error text of SUNDIALS; "": none */
   bool pivots_forgotten;                          /* KLU must choose new pivots */
-  int64_t full_factorizations;                    /* times KLU chose pivots */
+  int64_t full_factorizations;                    /* number of times that KLU chose pivots */
   baum_i_statistics before;                       /* counts before the last restart */
 } baum_i_sundials;
 
@@ -76,7 +76,7 @@ void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y,
  * baum_i_sundials_join(). */
 const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,
                                     const double *dq);
-/* Set dq = N dx + factor n. */
+/* Set dq = N dx + factor n, where n is the part that baum_i_sundials_split() has stored. */
 void baum_i_sundials_join(const baum_i_sundials *sundials, const double *q, const double *dx,
                           double factor, double *dq);
 

@@ -26,7 +26,7 @@ typedef struct baum_i_sundials_package {
   int (*set_max_step)(void *memory, sunrealtype step);
   int (*set_stop)(void *memory, sunrealtype stop);
   int (*get_time)(void *memory, sunrealtype *t);
-  int (*get_step)(void *memory, sunrealtype *step); /* of the next step */
+  int (*get_step)(void *memory, sunrealtype *step); /* length of the next step */
   int (*get_last_step)(void *memory, sunrealtype *step);
   int (*get_derivative)(void *memory, sunrealtype t, int order, N_Vector out);
   int (*count_error_failures)(void *memory, long *count);
@@ -38,7 +38,8 @@ typedef struct baum_i_sundials_package {
   int (*size)(const baum_i_problem *problem); /* n, length of y */
   /* Complete the start at t. run->y contains (q, v), followed by zeros. NULL: nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
-  void *(*create)(int multistep, SUNContext context); /* run->memory; NULL: out of memory */
+  /* returns run->memory, or NULL if out of memory */
+  void *(*create)(int multistep, SUNContext context);
   int (*init)(baum_i_sundials *run);
   int (*weigh)(N_Vector y, N_Vector weights, void *run);
   int (*restart)(baum_i_sundials *run);
@@ -51,15 +52,15 @@ typedef struct baum_i_sundials_package {
 
 /* An integrator of CVODE or IDA. */
 typedef struct baum_i_sundials_method {
-  const char *name; /* in messages */
+  const char *name; /* name in messages */
   const baum_i_sundials_package *package;
   baum_status (*open)(baum_i_sundials *run); /* creates further memory of a run; NULL: none */
   int multistep;                             /* CVODE: CV_ADAMS or CV_BDF */
   int (*attach)(baum_i_sundials *run);       /* sets solvers and options; called last */
 } baum_i_sundials_method;
 
-/* From version 7 the context has the error handler; in older versions CVODE and IDA each have
- * one. */
+/* From SUNDIALS 7 on, the context has the error handler. In older versions CVODE and IDA each have
+ * an error handler. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 #define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) NULL
 #else

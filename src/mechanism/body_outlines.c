@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The memory of outlines that users give to bodies. src/draw checks and draws them. */
+/* The memory of outlines, which are the shapes that users give to bodies for drawings. src/draw
+ * checks and draws them. */
 #include <baum/draw.h>
 
 #include "base/alloc.h"

@@ -97,8 +97,8 @@ static baum_status fill(baum_i_element *element, const void *def)
   return BAUM_OK;
 }
 
-/* Find the bodies on which an element acts. A body acts only on itself. On failure the span owns no
- * memory. */
+/* Find the bodies on which an element acts, and list them in the span. A body acts only on itself.
+ * On failure the span owns no memory. */
 static baum_status make_span(const baum_mechanism *mechanism, const baum_i_definition *definition,
                              const void *def, int number, baum_i_span *span)
 {

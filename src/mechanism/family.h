@@ -6,7 +6,8 @@
 
 #include "mechanism/model.h"
 
-/* Sums over the elements of a family. The freeze computes them while it numbers these elements. */
+/* Sums over the elements of a family, where nl is the number of local velocities of an element
+ * (baum_i_span). The freeze computes these sums while it numbers the elements. */
 typedef struct baum_i_totals {
   int64_t positions;
   int64_t rows;    /* velocities of bodies or rows of joints; not used for forces */
@@ -18,7 +19,7 @@ typedef struct baum_i_totals {
  * baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
-  size_t size;      /* of the struct of an element */
+  size_t size;      /* size of the struct of an element */
   size_t span;      /* offset of the baum_i_span in an element */
   size_t count;     /* offset of the element count (an int) in the mechanism */
   /* element k, counted from 0 without ground */

@@ -35,10 +35,11 @@ typedef enum baum_i_rule {
  * and counts, then flags, then references, then functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
-  /* array of doubles or NULL, its length in `counter`; used only at the start of a run */
+  /* array of doubles or NULL; `counter` gives its length; used only at the start of a run */
   BAUM_I_FIELD_ARRAY,
   BAUM_I_FIELD_OWN_ARRAY,
-  BAUM_I_FIELD_POINTS,         /* array of points, three doubles each, their number in `counter` */
+  /* array of points, each with three doubles; `counter` gives the number of points */
+  BAUM_I_FIELD_POINTS,
   BAUM_I_FIELD_COUNT,          /* int32_t > 0 that cannot change after the element was added */
   BAUM_I_FIELD_OPTIONAL_COUNT, /* like COUNT, but may be 0 */
   BAUM_I_FIELD_OWN_COUNT,
@@ -47,7 +48,7 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_CLAIM,      /* states whether user functions depend on velocities; true by default */
   BAUM_I_FIELD_BODY,       /* required; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body; ground if it is not given */
-  /* array of body ids, its length in `counter`; ground and repeated bodies are not allowed */
+  /* array of body ids; `counter` gives its length; ground and repeated bodies are not allowed */
   BAUM_I_FIELD_BODIES,
   /* array of at least two body ids; ground and repeated bodies are allowed */
   BAUM_I_FIELD_PATH,
@@ -68,15 +69,15 @@ enum { BAUM_I_FIELD_SIZE_MAX = 36, BAUM_I_FIELD_DEFAULTS = 6 };
 /* One field of a definition. struct_size and name are not in the tables. */
 typedef struct baum_i_def_field {
   const char *name;
-  const char *unit; /* of numbers; "" if the user chooses the unit */
+  const char *unit; /* unit of numbers; "" if the user chooses the unit */
   size_t offset;
   size_t size;
   baum_i_field_kind kind;
-  baum_i_rule rule;                    /* of numbers and arrays of numbers */
+  baum_i_rule rule;                    /* rule for numbers and arrays of numbers */
   double value[BAUM_I_FIELD_DEFAULTS]; /* defaults of the first numbers; all others are 0 */
-  /* of an array: the offset of the field that counts its entries */
+  /* for an array: the offset of the field that counts its entries */
   size_t counter;
-  /* of an array: the offset of the count to use if `counter` is 0 */
+  /* for an array: the offset of the count to use if `counter` is 0 */
   size_t instead;
 } baum_i_def_field;
 
@@ -121,7 +122,7 @@ struct baum_i_point;
  * be NULL. */
 typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
-  size_t size;                    /* of the struct */
+  size_t size;                    /* size of the struct */
   const baum_i_def_field *fields; /* all fields in order; an entry without a name ends the table */
   /* Some older versions of a struct ended with padding, which a later field now uses. For each such
    * version, this list has the offset of the end of its last field. The list ends with 0. NULL if
@@ -185,9 +186,9 @@ baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
-/* Add the flags, the OWN arrays and the inputs of a definition to a digest. The function in
- * fingerprint.c adds bodies and parameters. Fields that are used only at the start of a run are not
- * added. */
+/* Add the flags, the coordinates, the inputs, the arrays of numbers and the paths of bodies of a
+ * definition to a digest. The function in fingerprint.c adds bodies and parameters. Fields that are
+ * used only at the start of a run are not added. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
 /* Find the bodies on which an element acts. These are the bodies that its definition names, and the

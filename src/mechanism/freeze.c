@@ -73,7 +73,7 @@ static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
   return true;
 }
 
-/* Append the columns of a body to a span. */
+/* Append the velocities (columns) and positions of a body to the span of an element. */
 static void add_columns(const baum_i_body *body, baum_i_span *span)
 {
   for (int j = 0; j < body->nv; j++) {
@@ -232,7 +232,7 @@ static baum_status mark_velocity_rows(baum_mechanism *m)
   return BAUM_OK;
 }
 
-/* Mark the bodies of a spatial element, whose frames in space it reads. */
+/* Mark the bodies of a spatial element, because the element reads their frames in space. */
 static void mark_in_space(baum_mechanism *m, const baum_i_span *span)
 {
   m->spatial = true;

@@ -65,8 +65,7 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* Return a label for messages: `ground`, or for example `joint 2 "B"`, where numbers count from
- * 1. */
+/* Return a label for messages: `ground`, or for example `joint 2 "B"`. The numbers start at 1. */
 baum_i_text baum_i_label(const baum_i_element *element);
 /* Return the label of a joint, given the joint or one of its rows. Returns "no joint" if the number
  * is negative. */

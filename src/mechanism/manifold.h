@@ -13,7 +13,8 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; described below at the names without `bodies` ---- */
+/* ---- for mechanisms that are not flat; the functions of the same names without `bodies`, which
+ * are below, describe them ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -100,7 +101,8 @@ static inline const double *baum_i_rates(const baum_mechanism *mechanism, const 
   return room;
 }
 
-/* Return q'' = N(q) a + (N v)_q N v (nq). `room` has 4 nq entries. */
+/* Return q'' = N(q) a + (N v)_q N v (nq), where the subscript q denotes a derivative. `room` has 4
+ * nq entries. */
 static inline const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q,
                                                 const double *v, const double *a, double *room)
 {

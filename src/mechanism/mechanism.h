@@ -72,8 +72,8 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* Compute the power of each class of loads. The point must have velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
-/* Compute the potential of each class. Includes only types whose power() uses the whole force,
- * together with the part that has a potential. The energy account adds the change of these
+/* Compute the potential of each class. Only those types are included whose power() uses the whole
+ * force, including the part that has a potential. The energy account adds the change of these
  * potentials to the integral of the power. The sum is the work of the part that has no potential.
  */
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,

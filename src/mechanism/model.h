@@ -32,8 +32,8 @@ typedef struct baum_i_element {
   const baum_i_definition *definition;
   void *def;     /* the element's own copy of the definition; its `name` is `name` below or NULL */
   char *name;    /* the given name, or "body<k>", "joint<k>" or "force<k>" with k = index */
-  int index;     /* in its family, from 1 */
-  int parameter; /* where its numbers begin in the parameter array; set at freeze */
+  int index;     /* index in its family, from 1 */
+  int parameter; /* where the element's numbers begin in the parameter array; set at freeze */
 } baum_i_element;
 
 /* The bodies on which an element acts, and where their velocities and positions are in v and q. The
@@ -45,7 +45,7 @@ typedef struct baum_i_span {
   int nl;         /* number of local velocities */
   int *columns;   /* (nl) indices of the local velocities in v */
   int ql;         /* number of local positions */
-  int *positions; /* (ql) indices of the local positions in q; `columns` owns this memory */
+  int *positions; /* (ql) indices of the local positions in q; in the memory of `columns` */
   bool flat;      /* true if none of the bodies has a manifold */
 } baum_i_span;
 
@@ -78,8 +78,9 @@ typedef struct baum_i_body {
   int nq;                          /* number of positions */
   int v;                           /* first velocity */
   int nv;                          /* number of velocities */
-  int mass;                        /* where its nv x nv values begin in the mass blocks */
-  bool fixed;                      /* true if welds connect the body to ground */
+  /* where the nv x nv values of the body begin in the mass blocks */
+  int mass;
+  bool fixed; /* true if welds connect the body to ground */
   int outline_count;
   struct baum_outline *outlines; /* (outline_count) given by the user, or NULL */
 } baum_i_body;
@@ -90,11 +91,11 @@ typedef struct baum_i_joint {
   baum_i_span span;
   int row;
   int rows;
-  int velocity_rows; /* how many of its rows, the last ones, are of velocity level: without Phi */
+  int velocity_rows; /* number of rows of velocity level (without Phi), which are its last rows */
   int jacobian;      /* where its rows x nl values begin in the Jacobian */
   int square;        /* where its nl x nl values begin in arrays of second derivatives */
   bool fixed;        /* true if all its bodies are fixed */
-  bool fixes;        /* true for a weld from which the pose of a fixed body follows */
+  bool fixes;        /* true for a weld that determines the pose of a fixed body */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -156,7 +157,7 @@ typedef struct baum_i_body_place {
   int32_t q;        /* first position */
   int32_t v;        /* first velocity */
   int32_t kind;     /* baum_i_frame_kind */
-  int32_t in_space; /* whether its frame in space is needed: it is spatial, or has such elements */
+  int32_t in_space; /* whether its frame in space is needed: it or an element on it is spatial */
 } baum_i_body_place;
 
 typedef struct baum_i_frames_kernel baum_i_frames_kernel;
@@ -176,9 +177,10 @@ typedef struct baum_i_point {
   const double *q;      /* the same as `normalized` if the mechanism is not flat */
   const double *v;      /* NULL if the point has only positions */
   double *normalized;   /* (nq) normalized q; NULL if the mechanism is flat */
-  baum_i_frame *frames; /* (body_count + 1), ground first */
+  baum_i_frame *frames; /* (body_count + 1) frames of all bodies, ground first */
   const baum_i_frames_kernel *kernel;
-  /* (body_count + 1) only those of places with `in_space` are set; NULL if nothing is spatial */
+  /* (body_count + 1) frames in space, set only for bodies whose place has `in_space`; NULL if
+   * nothing is spatial */
   baum_i_spatial_frame *spatial;
   /* Expected angles of spatial joints, see general/coordinate.h. `angles` points to own_angles or
    * to an array of a run. */
@@ -213,8 +215,8 @@ baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism
 /* Set the spatial frames of a point. */
 void baum_i_point_set_spatial(baum_i_point *point);
 
-/* Implement baum_i_point_set(), the first function for flat mechanisms and the second one for all
- * others. */
+/* Implement baum_i_point_set(), the first function for flat mechanisms, in which q is a vector, and
+ * the second one for all others. */
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 
@@ -313,7 +315,8 @@ struct baum_i_body_type {
   baum_i_frame_kind frame;
   bool scleronomic;    /* whether mass and force never depend on t */
   bool constant_force; /* whether the force depends only on parameters */
-  /* the same for all bodies of the type; 0 if size() and positions() return them */
+  /* numbers of positions and velocities, if they are the same for all bodies of the type; 0 if
+   * size() and positions() return them */
   int nq, nv;
   int (*size)(const void *def);      /* nv of a body, or NULL */
   int (*positions)(const void *def); /* nq of a body, or NULL */
@@ -384,8 +387,8 @@ typedef struct baum_i_joint_coordinate {
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  /* columns of a body: BAUM_I_PLANE or BAUM_I_SPACE, or 0 if its reaction is not a force and a
-   * moment */
+  /* number of columns of a body: BAUM_I_PLANE or BAUM_I_SPACE, or 0 if the reaction of the joint is
+   * not a force and a moment */
   int width;
   bool scleronomic; /* whether Phi never depends on t */
   bool is_pin;      /* whether its rows are exactly those of a pin (planar/lower_pairs.c) */
@@ -398,8 +401,9 @@ struct baum_i_joint_type {
   /* Replace the law of a driver by s + s' (t - t0) + s'' (t - t0)^2 / 2. The function stores the
    * new law in the driver's parameters. NULL for joints that are not drivers. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int row_count;                /* the same for all joints of the type; 0 if rows() returns it */
-  int (*rows)(const void *def); /* rows of a joint, or NULL */
+  /* number of rows, the same for all joints of the type; 0 if rows() returns it */
+  int row_count;
+  int (*rows)(const void *def); /* returns the number of rows of a joint; or NULL */
   /* Return how many of the rows of a joint are of velocity level; they are the last ones. Their Phi
    * is 0. NULL: none. */
   int (*velocity_rows)(const void *def);
@@ -473,7 +477,7 @@ struct baum_i_force_type {
                        double *parameters);
   /* Adds the forces of the group to force (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
-  /* NULL if the force never depends on velocities */
+  /* Tell whether the force depends on velocities. NULL if it never does. */
   bool (*depends_on_velocity)(const baum_i_force *force);
   /* Springs have these two members (general/spring_law.h). The first is the offset of the first
    * field of baum_i_spring_def in the definition, and the second returns the present length of a
@@ -488,9 +492,9 @@ struct baum_i_force_type {
   /* Adds the power g^T v of one force to the power of its class. If the force has a potential, the
    * power of the part that derives from it is included only if power_is_whole() returns true. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
-  /* NULL if it never returns true. */
+  /* Tell whether power() returns the power of the whole force. NULL if it never does. */
   bool (*power_is_whole)(const baum_i_force *force);
-  baum_i_power whole_class; /* the class of such a power */
+  baum_i_power whole_class; /* the class of the power of a whole force */
   /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
    * each). NULL if forces of the type never jump. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,

@@ -24,11 +24,11 @@ typedef enum baum_i_json_kind {
 
 typedef struct baum_i_json_node {
   baum_i_json_kind kind;
-  int line;         /* in the text, from 1 */
+  int line;         /* line in the text, counted from 1 */
   int32_t next;     /* index of the next node in the list or object; 0: none */
   int32_t first;    /* lists and objects: index of the first node; 0: none */
   int32_t count;    /* lists and objects: how many nodes they contain */
-  const char *key;  /* in an object, else NULL */
+  const char *key;  /* key of the node in an object, else NULL */
   const char *text; /* UTF-8, zero-terminated */
   double number;    /* finite */
 } baum_i_json_node;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads a scene. The mechanism is built by the calls that a program uses, too. */
+/* Reads a scene, which is a mechanism as a JSON text. It builds the mechanism by the same public
+ * calls that a program uses. */
 #include <string.h>
 
 #include <baum/breaks.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads the values of fields: numbers, references to other elements, and names of hooks. */
+/* Reads the values of fields: numbers, references to other elements, and names of hooks (functions
+ * and pointers of the user). */
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>

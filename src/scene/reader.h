@@ -13,7 +13,7 @@ typedef struct baum_i_scene_reader {
   const baum_hook *hooks;
   int hook_count;
   baum_mechanism *mechanism; /* contains the elements that have been read */
-  baum_i_scene_names names;  /* of bodies; set when all bodies have been read */
+  baum_i_scene_names names;  /* names of bodies; set when all bodies have been read */
 } baum_i_scene_reader;
 
 /* Fail with the message that a node must be `wanted`, which is a text such as "a number". */

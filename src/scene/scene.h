@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What writing and reading scenes have in common. */
+/* Common parts of writing and reading scenes. A scene is a mechanism as a JSON text. */
 #ifndef BAUM_I_SCENE_SCENE_H
 #define BAUM_I_SCENE_SCENE_H
 

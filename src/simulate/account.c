@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the energy account of a run.
  *
- * The kinetic energy is T = v^T M v / 2. From M v' + J^T lambda = g and J v = nu + Phi', equation
- * (3), follows the change of T:
+ * The kinetic energy is T = v^T M v / 2. The change of T follows from M v' + J^T lambda = g and J v
+ * = nu + Phi':
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
  * Forces with a potential V do not change T + V, so they do not count as work. The powers of all
  * other forces are integrated over each step by a Gauss rule. At the nodes of this rule, which are
- * inside the step, lambda is computed from the equations that the run integrates, (5) or (7).
- * Equation (5) is also used for the formulations of index 2 and 3. Motions by these formulations
- * satisfy J v = nu or Phi = 0, and the second line of (5) is the derivative of these equations. The
- * gains of the stabilization change the multipliers. The power of this change is
+ * inside the step, lambda is computed from the equations that the run integrates, (5) or (7) of
+ * docs/notation.md. Equation (5) is also used for the formulations of index 2 and 3. Motions by
+ * these formulations satisfy J v = nu or Phi = 0, and the second line of (5), J a = gamma, is the
+ * derivative of these equations. The gains of the stabilization change the multipliers by lambda_s.
+ * With the matrix S = J M^-1 J^T of (5), the power of this change is
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5).
@@ -22,10 +23,10 @@
  * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
  * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
  * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
- * the end of a shorter step from the same start. The same is done within variable steps after which
- * the projection is large, for example after a start off the constraints. The reason is that the
- * interpolant of a Runge-Kutta pair ends at the projected state and not at the state before the
- * projection.
+ * the end of a shorter step from the same start. States inside a variable step are found in the
+ * same way if the projection after the step is large, for example after a start off the
+ * constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the projected state
+ * and not at the state before the projection.
  *
  * IDA first moves the given initial state onto the constraints of its formulation. The account
  * treats this move as a projection.
@@ -195,9 +196,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* Add `factor` times the potential energies to `works`. If the power of an element was computed
- * from all of its forces, it includes forces that have a potential. Only the potentials of such
- * elements are added here. */
+/* The power of some elements was computed from all of their forces, including forces that have a
+ * potential. Add `factor` times the potentials of these elements to `works`. The potentials of
+ * other elements are not added. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -16,7 +16,7 @@ enum {
   BAUM_I_WORKS
 };
 
-/* Kinetic and potential energy, works, residual. */
+/* Number of columns: kinetic energy, potential energy, the works and the residual. */
 enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 };
 
 /* Create the account of a run, which starts at the trial state of the run. run->problem must

@@ -77,7 +77,7 @@ static baum_status kept_step(baum_simulation *run, double t_next)
   return BAUM_OK;
 }
 
-/* The next step, which ends on the grid or at a break. */
+/* The next step, which ends on the grid or at a break (a time at which functions may jump). */
 typedef struct fixed_step {
   baum_i_break at; /* the next break */
   double on_grid;  /* [s] next time on the grid */
@@ -173,7 +173,7 @@ static baum_status internal_step(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Make the end of the last internal step the present state. */
+/* Make the end of the method's last step the present state. */
 static void catch_up(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->ahead, &run->state);
@@ -280,8 +280,9 @@ static void begin_call(baum_simulation *run, public_call *c)
   c->before = baum_i_message_keep();
 }
 
-/* End a call. Evaluate and monitor its last state, which no step has evaluated. If its time limit
- * has passed, leave this to the next call, so that nothing depends on the speed of the machine. */
+/* End a call. Evaluate and monitor its last state, which no step has evaluated. If the time limit
+ * of the call has passed, the next call does this. Results then do not depend on the speed of the
+ * machine. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
@@ -424,7 +425,7 @@ static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t
   return beside ? advance_beside(run, t, taken, at) : advance(run, t, taken);
 }
 
-/* Fill rows; *done counts them. */
+/* Fill the rows of output. *done counts the filled rows. */
 static baum_status sample_all(baum_simulation *run, const double *times, int64_t n,
                               const baum_channel *channels, int count, double *rows, int64_t *done,
                               int64_t *taken)

@@ -10,7 +10,8 @@
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
  *   error   the same for the difference of two polynomials of degrees 2 m - 1 and 2 m - 3
  *
- * m is chosen so that the error is as small as possible.
+ * m is the number of clear states through which p passes. It is chosen so that the error is as
+ * small as possible.
  *
  * It depends on the mechanism whether its branches really cross. If the branches only come close to
  * each other, the true motion turns sharply from one branch to the other. A step that jumps over
@@ -36,8 +37,8 @@ static const double LARGE_JUMP = 0.3;
  * inaccurate accelerations. None of 2688 correct runs had such a jump. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* For jumps above LARGE_KICK, the smaller multiple LIKELY of the estimated error is enough, because
- * such runs are mostly wrong after the next crossing. The estimated error depends on the steps and
+/* For jumps above LARGE_KICK, the smaller factor LIKELY replaces SURELY, because runs with such
+ * jumps are mostly wrong after the next crossing. The estimated error depends on the steps and
  * therefore on the tolerance. In correct runs it may be more than ten times smaller than the true
  * error. */
 static const double LARGE_KICK = 2e-3;
@@ -52,8 +53,8 @@ static const double SMALL_TURN = 0.4;
  * the violation may have caused the gap. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-/* Violations (as displacements) and smallest pivots up to this do not show a gap. Where branches
- * cross, both are 0. */
+/* A violation (as a displacement) or a smallest pivot up to this value does not show a gap. Where
+ * branches cross, both are 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */

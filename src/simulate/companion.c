@@ -42,19 +42,23 @@ static const double FINE = 0.002;
 /* If the sum of local errors is below this, no companion is necessary. Multiplied by 1e3, such a
  * sum is negligible. Multiplied by 1e4, it does not make the result wrong. */
 static const double NEGLIGIBLE = 1e-5;
-/* Errors may matter before the first local error has been estimated, if (angle of a step)^order is
+/* As long as no local error has been estimated, errors may matter if (angle of a step)^order is
  * above this. */
 static const double COARSE = 1e-3;
 /* Tolerance rtol of rk8 as a companion. Even if errors are multiplied by 1e3 during the motion, the
  * error of the companion stays below 0.01. A result with this error counts as correct. */
 static const double TOLERANCE = 1e-5;
-static const double TOLERANCE_OF_CHECK = 1e-8;
+static const double TOLERANCE_OF_CHECK = 1e-8; /* the same with error_check */
+/* Tolerance of a companion relative to that of a variable-step run, without error_check and with
+ * it. */
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-static const double LARGEST_PART_OF_CHECK = 0.5; /* the difference of both motions is the error */
+/* Largest tolerance of a companion with error_check, relative to that of the run. With a larger
+ * tolerance, the difference of both motions would not be mostly the error of the run. */
+static const double LARGEST_PART_OF_CHECK = 0.5;
 static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
-/* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST is for a
- * companion that the user has not requested, so that it does not slow the run down much. FREE
+/* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST applies
+ * if the user has not requested the companion, which must then not slow the run down much. FREE
  * further evaluations are always allowed, because short runs with long steps take only few
  * evaluations. */
 static const double MOST_COST = 2.0;

@@ -11,10 +11,10 @@ typedef struct standing {
   double *q;      /* (nq) */
   double *v;      /* (nv) */
   double *inputs; /* (input_count) */
-  /* The parameters of elements that this run has changed, or NULL if it uses those of the
-   * mechanism. */
+  /* The run's own copy of the parameters of elements, or NULL if it uses those of the mechanism. */
   double *parameters;
-  double *angles; /* of joints and forces that count revolutions, or NULL if there are none */
+  /* angles of joints and forces that count revolutions, or NULL if there are none */
+  double *angles;
   baum_i_schedule schedule;
 } standing;
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds near-singular intervals of a run.
  *
- * The pivot p of a state is the smallest pivot of the equations there, relative to the largest one
- * of the run so far. Near a singular configuration p is proportional to the square of the distance,
- * so sqrt(p) falls linearly to zero and rises again linearly.
+ * The pivot p of a state is the smallest pivot in the solution of the equations at this state. p is
+ * divided by the largest p of the run so far. Near a singular configuration p is proportional to
+ * the square of the distance, so sqrt(p) falls linearly to zero and rises again linearly.
  *
  * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
  *   last state before it and the first state after it.
  * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
- *   states, and its slopes could reach zero between them, the least p of the motion through the
- *   three states is searched.
+ *   states, and its slopes are so steep that it could be zero between them, the run searches for
+ *   the least p of the motion through the three states.
  * - If the least p < SINGULAR and J loses rank there, the interval is a crossing. The run then
- *   records it, decides which branch the motion has taken (branch.c), and warns. Other intervals
- *   only have worse pivots than usual. */
+ *   records it, decides which branch the motion has taken (branch.c), and warns. In all other
+ *   intervals, pivots are only smaller than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ static const double SINGULAR = 1e-3;
  * another warning. */
 static const double RECORDED = -1.0;
 
-/* [rad] Path length after a singular configuration by which the pivot should have risen. */
+/* [rad] Path length after a singular configuration within which the pivot should have risen. */
 static const double STAY = 0.05;
 
 /* [rad] Least distance between clear states. If they were closer, extrapolation would amplify
@@ -92,7 +92,8 @@ static void set_knot(const baum_mechanism *m, double t, double pivot, const doub
   memcpy(to->q, state, (size_t)(m->nq + m->nv) * sizeof *state);
 }
 
-/* Return a new last knot. If the list is full, remove the first knot. */
+/* Return a new last knot (a stored state of the motion). If the list is full, remove the first
+ * knot. */
 static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 {
   if (*count < most) {
@@ -511,7 +512,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* a restored run may have another tag */
+  if (entry.joint.index1 > 0) { /* a restored run may belong to a mechanism with another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

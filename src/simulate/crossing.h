@@ -31,16 +31,17 @@ struct baum_i_crossings {
   int32_t unseen;      /* 1: the last recent state has not been examined */
   int32_t joint_noted; /* joint of the smallest pivot of that state, or -1 */
 
-  baum_i_knot recent[BAUM_I_RECENT];      /* last states in order of time */
-  baum_i_knot clear[BAUM_I_HERMITE_MOST]; /* clear states: far from singular ones and each other */
-  baum_i_knot at;                         /* scratch: states between others */
+  baum_i_knot recent[BAUM_I_RECENT]; /* last states in order of time */
+  /* clear states, which are far from singular ones and from each other */
+  baum_i_knot clear[BAUM_I_HERMITE_MOST];
+  baum_i_knot at; /* scratch: states between others */
   baum_i_knot other;
   baum_i_knot between;
   baum_i_knot lowest; /* t, pivot and q of the lowest pivot of the present crossing */
   baum_near_singular kept[BAUM_I_NEAR_SINGULAR_KEPT];
 };
 
-/* The last recent state, which must exist. */
+/* Return the last recent state. There must be one. */
 static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossings)
 {
   return &crossings->recent[crossings->recent_count - 1];
@@ -57,12 +58,12 @@ void baum_i_crossings_forget(baum_i_crossings *crossings);
 /* Note a state of the run. The last solution must be that of this state. Evaluates nothing. */
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
-/* End the present crossing, because later pivots cannot be compared with those before. crossings
+/* End the present crossing, because later pivots cannot be compared with earlier ones. crossings
  * must not be NULL. */
 void baum_i_crossings_end(baum_simulation *run);
 
-/* Find the pivots of the last states again, because later pivots belong to other rows. An open
- * interval stays open. crossings must not be NULL. */
+/* Find the pivots of the last states again after other rows have been omitted. They can then be
+ * compared with later pivots. An open interval stays open. crossings must not be NULL. */
 void baum_i_crossings_renew(baum_simulation *run);
 
 /* Examine the state that was noted last. May evaluate. Failures of user functions are not

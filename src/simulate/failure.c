@@ -77,7 +77,7 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Add the facts about the run for which no solution is needed. */
+/* Add the facts about the run for which no solution of the equations is needed. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;

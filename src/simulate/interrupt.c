@@ -12,7 +12,7 @@
 #include "simulate/run.h"
 
 enum { PACE_STEPS = 10000 };
-static const double SLOWEST = 1e-9; /* smallest mean step times rate */
+static const double SLOWEST = 1e-9; /* smallest allowed mean length of a step, times rate */
 
 void baum_simulation_cancel(baum_simulation *simulation)
 {
@@ -79,8 +79,8 @@ static bool progress_cancels(baum_simulation *run)
   return answer != 0;
 }
 
-/* Tell whether the last PACE_STEPS steps of this call were too short. Checked once every
- * PACE_STEPS. Fixed steps are not checked, because the user chose them. */
+/* Tell whether the last PACE_STEPS steps of this call were too short. This is checked once every
+ * PACE_STEPS steps. Fixed steps are not checked, because the user chose them. */
 static bool creeps(baum_simulation *run, int64_t taken)
 {
   if (baum_i_run_has_fixed_step(run) || taken % PACE_STEPS != 0) {

@@ -17,12 +17,12 @@ typedef struct baum_i_local_error {
 } baum_i_local_error;
 
 /* The first function returns how many numbers the arrays of a baum_i_local_error need. The second
- * places the arrays in memory for so many numbers. */
+ * function places the arrays in memory for this many numbers. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 
-/* Estimate the error of the last step, relative to the scales. Call this at the end of the step,
- * which is the present state, with its acceleration in the workspace. Returns 0 as long as too few
+/* Estimate the error of the last step, relative to the scales. Call this when the end of the step
+ * is the present state and the workspace contains its acceleration. Returns 0 as long as too few
  * accelerations are known. Set known = 0 to discard them. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 

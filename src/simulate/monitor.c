@@ -26,7 +26,7 @@ static void observe_row(const baum_simulation *run, const double *rows, double *
     return;
   }
   int row = 0;
-  while (row < m->nc && !(fabs(rows[row]) >= size)) { /* none, if a number is not finite */
+  while (row < m->nc && !(fabs(rows[row]) >= size)) { /* no row matches if a number is not finite */
     row++;
   }
   row = row < m->nc ? row : baum_i_largest(rows, m->nc, &size);
@@ -57,8 +57,8 @@ static void observe_singular(baum_simulation *run, double t)
 /* Omitted rows depend on the others only if the constraints do not contradict each other and the
  * motion stays on its branch. At a distance d from a configuration in which the active rows alone
  * are singular, the violation of the omitted rows may be 1/d times that of the active rows. Very
- * close to this configuration it may be the square root of that of the active rows. A larger
- * violation is a contradiction. */
+ * close to this configuration, the violation of the omitted rows may be the square root of that of
+ * the active rows. A larger violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pilot is a short run that finds the mean rate of a motion over its first radians.
+/* A pilot is a short run that finds the mean rate of a motion over its first radians. |v| / L and
+ * |a| / L are the scaled sizes of the velocities and accelerations:
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
@@ -13,7 +14,7 @@
  * the rate does no harm. All steps cover about the same angle. A short fast phase or a singular
  * configuration therefore has little influence on the mean rate. No step is longer than the time in
  * which gravity turns the mechanism by this angle. If a mechanism starts slowly, the pilot
- * therefore also sees its later motion.
+ * therefore also includes its later motion.
  */
 #include <math.h>
 #include <string.h>

@@ -11,7 +11,7 @@
 #include "stabilization/gains.h"
 
 enum {
-  BAUM_I_WARNINGS = 24, /* more than the number of kinds */
+  BAUM_I_WARNINGS = 24, /* more than the number of kinds of warnings */
   BAUM_I_EXPLAIN_SIZE = 3072,
   BAUM_I_WORK = 5 /* number of counts that solvers and methods keep, see monitor.c */
 };
@@ -45,14 +45,16 @@ typedef struct baum_i_saved baum_i_saved; /* saved.h */
 struct baum_simulation {
   /* The members before `options` are plain numbers, which are saved. */
   baum_i_grid grid;
-  double origin; /* [s] last restart of the method, which may measure time from there */
+  double origin; /* [s] time of the last restart of the method; the method may use t - origin */
   double start_energy;
-  double largest_gamma;       /* over all rows and steps */
-  double rows_looked_at;      /* [s] last check of the redundant rows with KLU or QR; see rows.c */
-  double judged_phi;          /* max_phi when it was last compared with its limit */
-  double judged_phi_rate;     /* max_phi_rate, likewise, for rows of velocity level */
+  double largest_gamma;  /* largest |gamma_i| of all rows i and all steps */
+  double rows_looked_at; /* [s] last check of the redundant rows with KLU or QR; see rows.c */
+  double judged_phi;     /* max_phi when it was last compared with its limit */
+  /* max_phi_rate when it was last compared, for rows of velocity level */
+  double judged_phi_rate;
   int64_t near_singular_seen; /* workspace->near_singular at the last check */
-  int64_t announced[BAUM_I_WARNINGS]; /* occurrences of each warning that statuses have announced */
+  /* how many occurrences of each warning a status has announced */
+  int64_t announced[BAUM_I_WARNINGS];
   baum_counters counters;
 
   baum_simulation_options options;
@@ -73,19 +75,19 @@ struct baum_simulation {
   baum_i_crossings *crossings; /* see crossing.h; NULL: crossings are not monitored */
 
   double *parameters;       /* own copy after a driver law has been set, else NULL */
-  baum_i_schedule schedule; /* of inputs */
+  baum_i_schedule schedule; /* schedule of the inputs */
   double *memory;           /* memory of the arrays below */
   baum_i_state state;       /* present state, which is reported */
-  baum_i_state ahead;       /* variable step: end of the last internal step */
+  baum_i_state ahead;       /* variable step: end of the last step of the method */
   baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
   baum_i_state spare;       /* used by steps near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
-  baum_i_fingerprint fingerprint; /* of the mechanism */
-  /* work of other processes for the run, minus counts of this process before the run was
-   * restored */
+  baum_i_fingerprint fingerprint; /* fingerprint of the mechanism */
+  /* work that other processes have done for a restored run, minus the counts of this process before
+   * the run was restored */
   int64_t work_before[BAUM_I_WORK];
-  baum_warning warnings[BAUM_I_WARNINGS]; /* one per kind */
+  baum_warning warnings[BAUM_I_WARNINGS]; /* one entry for each kind of warning */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
   baum_i_gain_choice gains;
@@ -94,7 +96,7 @@ struct baum_simulation {
   double last_progress; /* [s] */
   double time_limit;    /* [s] largest wall time of a call */
   double deadline;      /* [s] wall time at which the present call stops */
-  bool reporting;       /* within progress() */
+  bool reporting;       /* true while progress() runs */
   double paced_at;      /* [s] time of the last check of the pace of this call */
 };
 
@@ -135,8 +137,8 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
 
 enum { BAUM_I_NO_JOINT = -1 };
 
-/* Warn at time t about a joint, or BAUM_I_NO_JOINT. Later warnings of the same kind are only
- * counted, and the text of the first one is kept. */
+/* Warn at time t. `joint` is the joint that the warning is about, or BAUM_I_NO_JOINT. Later
+ * warnings of the same kind are only counted, and the text of the first one is kept. */
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...) BAUM_I_PRINTF(5, 6);
 
@@ -180,7 +182,7 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy);
  * changes of energy count from there. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
-/* Do the same as baum_simulation_set_state(). The counted revolutions are those that are nearest to
+/* Do what baum_simulation_set_state() does. The counted revolutions are those that are nearest to
  * the angles in the workspace, which need not be the angles of the present state. */
 baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q, const double *v);
 
@@ -203,8 +205,8 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Monitor violation, gamma and near-singular configurations of the last velocity stage of the
- * workspace, which was at time t. */
+/* Monitor violation, gamma and near-singular configurations of the state that the workspace
+ * evaluated last, at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
 /* Warn if a force jumps in the step that ends at `end` and is about to be kept. */
@@ -268,14 +270,14 @@ baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* Give the run its own copy of the parameters. Before, it uses those of the mechanism. Returns
- * BAUM_OK or BAUM_ERR_MEMORY. */
+/* Give the run its own copy of the parameters. Before this call, the run uses the parameters of the
+ * mechanism. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- schedule.c ---- */
 
-/* Set inputs that jump between two times to their values at `to`, which may be earlier than
- * `from`. */
+/* Set all inputs that jump between the times `from` and `to` to their values at `to`. `to` may be
+ * earlier than `from`. */
 void baum_i_schedule_move(baum_simulation *run, double from, double to);
 
 /* End the schedule of an input. The input keeps its value. */
@@ -303,7 +305,8 @@ typedef struct baum_i_break {
  * there is none. */
 baum_i_break baum_i_run_find_break(const baum_simulation *run);
 
-/* Do the same, but return at once if there are no breaks at all, as in most runs. */
+/* Do what baum_i_run_find_break() does, but return at once if there are no breaks at all, as in
+ * most runs. */
 static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 {
   if (run->workspace->mechanism->break_count == 0 && run->schedule.count == 0) {
@@ -331,7 +334,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run);
 /* Choose the omitted rows for a given state. The caller restarts everything afterwards. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
-/* Omit these rows (nc). Returns the statuses of baum_i_omit_rows(); on failure nothing changes. */
+/* Omit the rows i for which omitted[i] is not 0 (nc entries). Returns the statuses of
+ * baum_i_omit_rows(); on failure nothing changes. */
 baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
 
 /* ---- singular_step.c ---- */

@@ -31,7 +31,7 @@
 enum { WORD = 8 };
 
 static const char MAGIC[WORD + 1] = "baumsave";
-static const double NUMBER = 0x1.123456789abcdp+42; /* all bytes differ */
+static const double NUMBER = 0x1.123456789abcdp+42; /* its bytes all differ from each other */
 
 typedef struct header {
   char magic[WORD];
@@ -109,7 +109,7 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
 
 /* ---- the list ---- */
 
-/* List the named parts, in the order of the enum. */
+/* List the parts that have names in the enum of saved.h, in its order. */
 static void list_named(baum_simulation *run, baum_i_saved *list)
 {
   baum_workspace *w = run->workspace;
@@ -213,8 +213,8 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    /* These values have been evaluated before. If an evaluation fails now, the known values are
-     * kept. */
+    /* The values of the events have been evaluated before. If an evaluation fails now, the known
+     * values are kept. */
     if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
@@ -263,7 +263,7 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
   baum_i_kept_message kept = baum_i_message_keep();
   restart_for_save(simulation);
   baum_i_run_count(simulation);
-  baum_i_saved_list(simulation, &list); /* their sizes may have changed */
+  baum_i_saved_list(simulation, &list); /* the sizes of the parts may have changed */
   *size = write_all(simulation, &list, buffer);
   return baum_i_run_end_call(simulation, BAUM_OK, &kept);
 }
@@ -295,7 +295,7 @@ static baum_status check_header(reader *r)
   if (memcmp(h->magic, MAGIC, WORD) != 0) {
     return refuse("was not written by baum_simulation_save()");
   }
-  if (h->number != NUMBER) { /* also if it is NaN */
+  if (h->number != NUMBER) { /* also true if it is NaN */
     return refuse("was written on a machine with another byte order or another format of numbers, "
                   "or is damaged");
   }
@@ -354,7 +354,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
 {
   baum_i_saved_identity there = {0};
   if (r->head.size < sizeof(header) + WORD + sizeof there + WORD) {
-    return BAUM_OK; /* check_parts() finds this error */
+    return BAUM_OK; /* check_parts() will report the missing parts */
   }
   memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
   BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));

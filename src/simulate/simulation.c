@@ -146,7 +146,7 @@ static baum_status accept_start(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Prepare all parts of a run. Each call uses the results of those before. */
+/* Prepare all parts of a run. Each call uses the results of the calls before it. */
 static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
 {
   const baum_simulation_options *o = &run->options;
@@ -201,7 +201,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   return BAUM_OK;
 }
 
-/* Tell whether the run is calling a user function. The run may not be complete yet. */
+/* Tell whether the run is calling a user function. The run may still be incomplete. */
 static bool is_in_use(const baum_simulation *run)
 {
   bool asks = run->workspace && run->workspace->point.asking;

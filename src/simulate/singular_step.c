@@ -53,7 +53,8 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   return skips ? BAUM_OK : status;
 }
 
-/* Return the pivot of the present state, which is usually known. */
+/* Return the pivot of the present state. It is computed if the last knot is not the present
+ * state. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

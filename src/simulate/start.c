@@ -16,7 +16,7 @@
  * assembly has probably found another branch than the user intended. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
-/* Largest number of steps in which assembly follows the drivers. */
+/* Largest number of steps in which assembly moves the drivers to their initial values. */
 enum { DRIVER_STEPS = 256 };
 static const double EXACT = 1e-9; /* largest violation of an exact start, relative to the scales */
 
@@ -31,7 +31,7 @@ static int first_angle(const baum_i_body *body)
                                                          : body->nv);
 }
 
-/* The coordinates of a body from i on form one displacement vector or one rotation vector. Return
+/* Coordinate i of a body is the first one of a displacement vector or of a rotation vector. Return
  * the index after the last coordinate of this vector. */
 static int vector_end(const baum_i_body *body, int i)
 {
@@ -113,8 +113,8 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
 }
 
 /* Find by how much each driver is violated in the design configuration, and write this to the rows
- * of the drivers. The other rows are zero. Return false if no driver is violated. The drivers then
- * begin in the design configuration. */
+ * of the drivers. The other rows are zero. Return false if no driver is violated, which means that
+ * all drivers begin in the design configuration. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
@@ -168,9 +168,9 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
   return baum_i_message_settle(status, &kept);
 }
 
-/* Add to the message about given velocities v by how much assembly has moved the body that it moved
- * most. Velocities that satisfy the constraints in an inaccurate design configuration do not
- * satisfy them in the assembled one. */
+/* Assembly has moved some body most. Add this body and its displacement to the message about given
+ * velocities v. Velocities that satisfy the constraints in an inaccurate design configuration do
+ * not satisfy them in the assembled one. */
 static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -243,9 +243,9 @@ static baum_status check_exact(baum_simulation *run)
 /* ---- velocities that ill-conditioned rows do not determine ---- */
 
 /* Velocities may satisfy ill-conditioned rows up to rounding, although the rows do not determine
- * these velocities accurately. For example, two bodies may be connected by two pins that are a
- * nanometre apart. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s.
- * The accelerations then have errors. Their size is the size of the change of velocities that a
+ * these velocities accurately. Suppose, for example, that two pins a nanometre apart connect two
+ * bodies. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s. The
+ * accelerations then have errors. Their size is the size of the change of velocities that a
  * projection would cause. */
 /* If a projection changes the velocities by more than this, relative to their size, the run
  * warns. */
@@ -321,8 +321,8 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
 
 /* ---- the whole ---- */
 
-/* Set the trial state to the state that the user has given. Velocities that are free become
- * zero. */
+/* Set the trial state to the state that the user has given. Velocities that are not given (NaN)
+ * become zero. */
 static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -436,9 +436,9 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* A state without free velocities belongs to this run if it violates the constraints by no more
- * than earlier states of the run. Tell whether this is so. Such a state is not changed. A run can
- * therefore return exactly to an earlier state. */
+/* A state whose velocities are all given belongs to this run if it violates the constraints by no
+ * more than earlier states of the run. Tell whether this is so. Such a state is not changed. A run
+ * can therefore return exactly to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;

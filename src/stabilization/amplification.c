@@ -97,7 +97,7 @@ static number polynomial_increment(const baum_i_method *method, number mu)
   return w;
 }
 
-/* Does the same for real mu. */
+/* Computes w = R(mu) - 1 for real mu. */
 static double real_increment(const baum_i_method *method, double mu)
 {
   double w = 0.0;
@@ -159,7 +159,8 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* Returns |p| at point number k of a circle about 0 with this radius. */
+/* Returns |p|, where p is the characteristic polynomial, at point number k of a circle about 0 with
+ * this radius. */
 static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -345,7 +346,8 @@ static const baum_i_method *method_of_velocities(const baum_i_method *method)
 
 double baum_i_velocity_limit(const baum_i_method *method)
 {
-  return baum_i_stability_limit(method_of_velocities(method), 1.0); /* mu = -A, twice */
+  /* with the damping ratio 1, mu = -A is a double root, so the limit is the same */
+  return baum_i_stability_limit(method_of_velocities(method), 1.0);
 }
 
 void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,

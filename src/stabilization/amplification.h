@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The factor by which one step of a method amplifies a constraint violation that satisfies
  * Phi'' + 2 alpha Phi' + beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta
- * h)^2. */
+ * h)^2. Below, mu is one of the roots of mu^2 + 2 A mu + B = 0, and z is a factor of one step. */
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H
 
@@ -29,7 +29,8 @@ typedef enum baum_i_method_family {
 
 enum { BAUM_I_METHOD_DEGREE = 12 };
 
-/* How stable a method is. This struct is a member of its integrator. */
+/* The data that determine the stability of a method. This struct is a member of the method's
+ * integrator. */
 typedef struct baum_i_method {
   baum_i_method_kind kind;
   int degree; /* degree of R, or number k of steps */
@@ -48,8 +49,9 @@ const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_f
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,
                           baum_amplification *out);
 
-/* The same for rows of velocity level, whose single mode is mu = -alpha h: z[1] is NaN. The second
- * function returns the alpha h up to which the method is stable for them. */
+/* Does what baum_i_amplification() does, for rows of velocity level. Their single mode is mu =
+ * -alpha h, so z[1] is NaN. The second function returns the alpha h up to which the method is
+ * stable for them. */
 void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
                                    baum_amplification *out);
 double baum_i_velocity_limit(const baum_i_method *method);

@@ -14,14 +14,14 @@
  * gains are the smallest. Only zeros with negative Re mu are possible, because alpha must be
  * positive.
  *
- * Adams-Bashforth methods use the past of the motion. They therefore have no dead-beat point. Their
- * spectral radius is smallest at a pair of complex mu or at a double mu, for the following reason.
- * If the two mu are real and different, one of them has the larger |z|, which is the spectral
- * radius. A double mu at the place of the other one has a spectral radius that is not larger. The
- * point is searched on a lattice in the chart (chart.h). The lattice is refined around the best
- * point found so far, which at first is the best point with critical damping. The largest of
- * several |z| is, as a function of the point, a surface with sharp valleys. A descent method would
- * stop in such a valley. A search on a lattice does not. */
+ * Adams-Bashforth methods use past steps. They therefore have no dead-beat point. Their spectral
+ * radius is smallest at a pair of complex mu or at a double mu, for the following reason. If the
+ * two mu are real and different, one of them has the larger |z|, which is the spectral radius. If
+ * this mu is moved onto the other one, the spectral radius does not become larger. The point is
+ * searched on a lattice in the chart (chart.h). The lattice is refined around the best point found
+ * so far, which at first is the best point with critical damping. The largest of several |z| is, as
+ * a function of the point, a surface with sharp valleys. A descent method would stop in such a
+ * valley. A search on a lattice does not. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -33,7 +33,7 @@ static const double ZERO = 1e-10;
 /* Radii that differ by less than this are considered equal, because the radius of AB2 has a
  * plateau. */
 static const double EQUAL = 1e-12;
-static const double CLOSE_IN = 0.6;
+static const double CLOSE_IN = 0.6; /* size of each search window relative to the one before */
 static const double FARTHEST = 1e3; /* how far the lattice extends if the region is unbounded */
 enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 30 };
 

@@ -14,7 +14,7 @@
 
 #include "stabilization/amplification.h"
 
-/* A rectangle [s] x [m] of the chart. */
+/* A rectangle of the chart: the smallest and largest s, and the smallest and largest m. */
 typedef struct baum_i_chart_window {
   double s[2];
   double m[2];

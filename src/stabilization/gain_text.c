@@ -29,8 +29,8 @@ static baum_i_text radius_text(double radius)
 }
 
 /* The point of the gains lies on a ray that starts at 0. Returns the largest alpha h up to which
- * this ray is stable. Returns NaN if alpha or beta is 0, and if alpha = beta, because messages
- * state the limit of that ray anyway. */
+ * this ray is stable. Returns NaN if alpha or beta is 0. Also returns NaN if alpha = beta, because
+ * messages always state the limit for this ray. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);

@@ -36,7 +36,8 @@ void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
 
-/* The same for rows of velocity level. */
+/* Fails with BAUM_ERR_UNSTABLE because rows of velocity level are unstable. The message gives the
+ * requested point and the limit of stability. */
 baum_status baum_i_gain_refuse_velocities(const baum_i_gain_context *context,
                                           const baum_i_gain_draft *gains,
                                           const baum_amplification *velocities);

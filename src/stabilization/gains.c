@@ -18,7 +18,7 @@
  * (docs/theory/gain_rules.md). If drivers prescribe all degrees of freedom, the violation is the
  * only error. Then c is as large as possible without additional cost.
  *
- * Rows of velocity level have one mode, exp(-alpha t), and must be stable for the same alpha.
+ * Rows of velocity level have one mode, exp(-alpha t), which must be stable for the same alpha.
  *
  * About variable steps: the step of an explicit method is limited so that (alpha h, beta^2 h^2) is
  * in the region of stability. BDF of order 5 is A(51.84 degrees)-stable. The ratio alpha / beta is

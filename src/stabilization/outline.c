@@ -15,7 +15,7 @@
 
 #include "stabilization/chart.h"
 
-/* Reduce the width 1/160 of a cell to a few rounding errors. */
+/* This number of bisections reduces the width 1/160 of a cell to a few rounding errors. */
 enum { BISECTIONS = 42 };
 /* The lattice has one node beyond the chart on every side. */
 enum { CELLS = 160, NODES = CELLS + 3 };
@@ -26,7 +26,7 @@ typedef struct march {
   const baum_i_method *method;
   double growth;
   double extent;
-  unsigned char node[NODES][NODES]; /* INSIDE and ENTERED, added */
+  unsigned char node[NODES][NODES]; /* sum of INSIDE and ENTERED, as far as they apply */
   baum_i_outline *out;
 } march;
 

@@ -38,8 +38,8 @@ static const double row_tolerance = 1e-9;
 
 /* ---- one derivative ---- */
 
-/* Results so far. Each array has one number for each entry of the derivative along one ray
- * (difference.h). */
+/* Results so far. Each array has one number for each entry of the derivative along one ray (a
+ * straight line in (t, q, v), see difference.h). */
 typedef struct trial {
   baum_i_estimate now;
   double *previous; /* value that the previous step gave */
@@ -48,7 +48,7 @@ typedef struct trial {
   double *error;
   double *quality; /* error of the best difference, relative to the variation of the function */
   double *step;    /* the step that gave the best difference */
-  double *wrong;   /* for how many steps the given value looked wrong */
+  double *wrong;   /* number of steps for which the given value looked wrong */
 } trial;
 
 /* The values that a user function returned for one ray. */
@@ -148,8 +148,8 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
-/* Tell whether a value is wrong. It must deviate for the best step and for at least one more,
- * because rounding may affect a single step. */
+/* Tell whether a value is wrong. A value is wrong only if it deviates for the best step and for at
+ * least one other step, because rounding may affect a single step. */
 static bool is_wrong(const column *c, const trial *t, int i)
 {
   double deviation = fabs(given(c, i) - t->value[i]);
@@ -198,8 +198,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a field with rearranged entries. Each entry is stored at the index of its derivative,
- * so that messages name the right entry of the derivative. */
+/* Context of a function whose output is rearranged. Each entry is stored at the index of its
+ * derivative, so that messages name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

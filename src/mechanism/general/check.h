@@ -15,10 +15,11 @@ typedef struct baum_i_claim {
   const double *given; /* the values that the function returned at this point */
 } baum_i_claim;
 
-/* Compare a claim with differences of a field along a ray (difference.h). The stencil determines
- * whether these are first or second derivatives. Returns BAUM_OK if the values agree, or if the
- * differences are too inaccurate to decide. Otherwise returns BAUM_ERR_ARGUMENT with a message like
- * `joint 2 "circle": gamma()[0] is 3 but finite differences of phi give 2`. */
+/* Compare a claim with differences of a field (function) along a ray (straight line), see
+ * difference.h. The stencil (difference formula) determines whether these are first or second
+ * derivatives. Returns BAUM_OK if the values agree, or if the differences are too inaccurate to
+ * decide. Otherwise returns BAUM_ERR_ARGUMENT with a message like `joint 2 "circle": gamma()[0] is
+ * 3 but finite differences of phi give 2`. */
 baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
                                const baum_i_field *field, const baum_i_ray *ray,
                                const baum_i_local *at);

@@ -54,8 +54,8 @@ static const baum_i_def_field fields[] = {
  * 1000. No gear has as many teeth. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
-/* Gradients that cancel up to this part of their size are equal up to rounding. The part is that
- * below which rows are dependent (redundancy.c). */
+/* Gradients that cancel up to this part of their size are equal up to rounding. redundancy.c uses
+ * the same limit to decide whether rows are dependent. */
 static const double CANCELLED = 1e-10;
 
 /* ---- definition ---- */

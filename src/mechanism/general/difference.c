@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives by central differences of sixth order.
+/* Derivatives by central differences of sixth order. f(s) is the function F along a straight line
+ * (difference.h), and h is the step:
  *
  *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h             c = 3/4, -3/20, 1/60,   error h^6 f^(7)/140
  *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2  c = 3/2, -3/20, 1/90,   error h^6 f^(8)/560
@@ -44,8 +45,8 @@ const baum_i_stencil baum_i_stencil_first = {
   .agreement = 1e-9,
 };
 
-/* This stencil is for fields F that have an error of 1e-11 themselves. Its steps are larger,
- * because the error of F is divided by the step. */
+/* This formula is for functions F that have an error of 1e-11 because they use differences
+ * themselves. Its steps are larger, because the error of F is divided by the step. */
 static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
@@ -270,8 +271,8 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 /* ---- the search for a step ---- */
 
 /* Store the entries of the derivative that have improved. best (size) is the smallest difference of
- * the two orders so far, relative to the variation of F. The result is negative if the difference
- * is small enough. Returns true if a smaller step would not help. */
+ * the two orders so far, relative to the variation of F. An entry of `best` is negative if this
+ * difference is small enough. Returns true if a smaller step would not help. */
 static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
                           int size)
 {

@@ -206,7 +206,8 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   return BAUM_OK;
 }
 
-/* Find the ray along the motion and its rate, and whether the constraint may change with t. */
+/* Find the ray (straight line) along the motion, the rate of this ray, and whether the constraint
+ * may change with t. */
 static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
                              bool *moves)
 {

@@ -10,8 +10,8 @@
 
 /* ---- memory and coordinates ---- */
 
-/* Largest number of results of functions whose size does not depend on rows and columns. It is that
- * of a curve in space. */
+/* Largest number of results of a user function whose size does not depend on rows and columns. The
+ * function of a curve in space has this many results. */
 enum { CURVE_SIZE = 20 };
 
 int64_t baum_i_scratch_size(int columns, int rows)

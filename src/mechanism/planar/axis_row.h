@@ -4,9 +4,10 @@
  * the translational joint, and for the row of the pin in a slot. The distance along the axis is the
  * coordinate of these joints. The rack and pinion and the point on a curve also use such distances.
  *
- * Let e be the direction in body axes, u = A_a e, and n = k x u. Let p_a and p_b be the arms of the
- * markers (planar.h), r_a and r_b the origins of the bodies, and D = r_b + p_b - r_a. The product u
- * . p_a is constant, because both vectors are fixed in body_a. The distance f is
+ * Let e be the direction in the axes of body_a, A_a the rotation matrix of body_a, k the unit
+ * vector along z, u = A_a e, and n = k x u. Let p_a and p_b be the arms of the markers (planar.h),
+ * r_a and r_b the origins of the bodies, and D = r_b + p_b - r_a. The product u . p_a is constant,
+ * because both vectors are fixed in body_a. The distance f is
  *
  *   f     = u . (D - p_a)
  *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                    (6 columns)
@@ -40,7 +41,8 @@ typedef struct baum_i_planar_axis_head {
  * (its value is not NaN), both `point` and `axis` are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
-/* Set `along` to the unit vector of an axis, turned back by the angle of cosine c and sine s. */
+/* Set `along` to the unit vector of an axis, rotated back by the angle whose cosine is c and whose
+ * sine is s. */
 void baum_i_axis_turn(const double axis[2], double c, double s, double along[2]);
 
 /* ---- the row; its functions are inline, so that the compiler evaluates common terms once ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint, planar: a massless rod keeps two points at distance L. With d from the point on
- * body_a to the point on body_b, and F, G of separation.h:
+/* Distance joint, planar: a massless rod keeps two points at distance L. With the vector d from the
+ * point on body_a to the point on body_b, the arms p_a and p_b of these points (planar.h), and F
+ * and G of separation.h:
  *
  *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if this is small, and smooth at d = 0
  *   J     = G^T d / L                                (6 columns)
@@ -17,7 +18,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters of the joint. The two points precede them. */
+/* Parameters of the joint, which follow its two points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 /* ---- definition ---- */

@@ -5,7 +5,8 @@
  *
  *   ground axes    g = (f_x, f_y, p x f + t)   g_q: only the entry (angle, angle), -p . f
  *                  V = -f . (r + p) when t = 0
- *   follows_body   g = (A f, s x f + t)        g_q: only the column angle, k x A f over (x, y)
+ *   follows_body   g = (A f, s x f + t)        g_q: only the entries (x, angle) and (y, angle),
+ *                                              which are those of A f rotated by 90 degrees
  *
  * where a x b = a_1 b_2 - a_2 b_1 for vectors a and b in the plane. A load that has a torque has no
  * potential, because the work of a torque depends on the number of revolutions. A load that has an
@@ -96,7 +97,8 @@ typedef struct load {
   bool has_potential;
 } load;
 
-/* Set f, in ground axes and multiplied by the input. Returns the input, or 1 if there is none. */
+/* Set f, which is in ground axes and multiplied by the input. Returns the input, or 1 if there is
+ * none. */
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {

@@ -17,7 +17,7 @@
 enum {
   BAUM_I_PLANAR_COLUMNS = 6,
   BAUM_I_PLANAR_ROWS = 3,    /* largest number of rows of a planar joint */
-  BAUM_I_PLANAR_NUMBERS = 4, /* s_a and s_b, the first parameters of a joint */
+  BAUM_I_PLANAR_NUMBERS = 4, /* number of the first parameters, which are the points s_a and s_b */
 };
 
 /* A joint, together with the state (point) in which it is evaluated. */
@@ -200,8 +200,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
-/* Set the points in the parameters. Afterwards the joint sets its own numbers. Returns the status
- * of baum_i_planar_points(). */
+/* Set the parameters that are the two points. The caller sets the other parameters of the joint.
+ * Returns the status of baum_i_planar_points(). */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

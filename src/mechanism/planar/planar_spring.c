@@ -21,7 +21,7 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters. The points s_a and s_b precede the numbers of the spring law. */
+/* Parameters of the spring: the points s_a and s_b, then the numbers of the spring law. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 BAUM_I_CHECK_SPRING_DEF(baum_planar_spring_def);

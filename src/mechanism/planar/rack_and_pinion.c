@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rack and pinion in the plane. The centre of the pinion is the marker on body_b, and its pitch
  * radius is R. The pinion rolls on the rack on body_a, which has the direction e (Nikravesh 1988,
- * chapter 4; Haug 1989, chapter 3). With d from the marker on body_a to the marker on body_b,
- * u = A_a e, and the displacement s = u . d of axis_row.h:
+ * chapter 4; Haug 1989, chapter 3). With the vector d from the marker on body_a to the marker on
+ * body_b, u = A_a e, and the displacement s = u . d of axis_row.h:
  *
  *   Phi   = s - R (angle_b - angle_a) - offset        (1 row)
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6 columns)
  *   gamma and all second derivatives are those of s, because the row is linear in the angles
  *
  * At the contact, the pinion is at rest relative to the rack. Let w be the angular velocity of the
- * pinion relative to the rack, and n = k x u. Relative to the rack, the centre of the pinion has
- * the velocity R w u. The point of the pinion at R n from its centre has the velocity
- * R w u + w k x R n = 0. This point is therefore the point of contact.
+ * pinion relative to the rack, k the unit vector along z, and n = k x u. Relative to the rack, the
+ * centre of the pinion has the velocity R w u. The point of the pinion at R n from its centre has
+ * the velocity R w u + w k x R n = 0. This point is therefore the point of contact.
  */
 #include <math.h>
 
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Parameters of the joint. The two points precede them. */
+/* Parameters of the joint, which follow its two points. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
 /* ---- definition ---- */

@@ -2,8 +2,8 @@
 /* This file computes the line between two markers, and half of its squared length with first and
  * second derivatives. The distance joint and the spring use it.
  *
- * Let P_a and P_b be the markers, p_a and p_b their arms, and d = P_b - P_a. With the columns x_a
- * y_a angle_a x_b y_b angle_b:
+ * Let P_a and P_b be the markers, p_a and p_b their arms, k the unit vector along z, and d = P_b -
+ * P_a. With the columns x_a y_a angle_a x_b y_b angle_b:
  *
  *   F = d . d / 2,   d' = G v,   G = [ -I   -k x p_a   I   k x p_b ]         (2 x 6)
  *   F_q  = G^T d                                                             (6 columns)
@@ -60,8 +60,9 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
 /* Compute F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Return the distance between the points s_a and s_b on the two bodies of a span, in the design
- * configuration. `points` contains s_a and then s_b. */
+/* Return the distance between two points, one on each of the two bodies of a span, in the design
+ * configuration. `points` contains first the point on body_a and then the point on body_b, in body
+ * axes. */
 double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
                                    const double points[4]);
 

@@ -243,8 +243,8 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   return lower_axes_b(mechanism, joint, parameters);
 }
 
-/* The axes of a joint depend only on its span and element. Those of a force are therefore computed
- * as if the force were a joint. */
+/* The axes of a joint depend only on its span and element. The axes of a force are therefore
+ * computed as if the force were a joint. */
 baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,
                                       const baum_i_element *element, const baum_i_span *span,
                                       double *parameters)

@@ -3,7 +3,7 @@
  * Here r is the centre of mass in ground axes, p is a unit quaternion, and w is the angular
  * velocity in body axes.
  *
- *   p' = p o (0, w) / 2
+ *   p' = p o (0, w) / 2,  where o is the product of quaternions
  *   M = diag(m E, I), constant; for a particle M = m E
  *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r;   [a]x b = a x b
  *
@@ -172,7 +172,7 @@ static void normalize(const baum_i_body *body, double *q)
   baum_i_quaternion_normalize(q + 3);
 }
 
-/* From p' = p omega / 2 follows p'' = p omega' / 2 - |omega|^2 p / 4. */
+/* With omega = (0, w), p' = p omega / 2 gives p'' = p omega' / 2 - |omega|^2 p / 4. */
 static void second_rate(const baum_i_body *body, const double *q, const double *v, const double *a,
                         double *ddq)
 {

@@ -134,7 +134,7 @@ static turn turn_of(const double r[9])
   baum_i_quaternion_log(p, t.theta);
   const double h = 0.5 * sqrt(baum_i_dot3(t.theta, t.theta));
   const double h2 = h * h;
-  if (h < 0.1) { /* the first terms of the series, which is exact to rounding here */
+  if (h < 0.1) { /* the first terms of the series, which are exact to rounding here */
     t.k = 0.25 * (1.0 / 3.0 + h2 * (1.0 / 45.0 + h2 * (2.0 / 945.0 + h2 / 4725.0)));
     t.slope = 0.0625 * (2.0 / 45.0 + h2 * (8.0 / 945.0 + h2 * (6.0 / 4725.0)));
   } else {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cable over points that are fixed in bodies. Let e_k be the vector from point k to point k + 1,
- * l_k = |e_k|, l = sum of l_k, and h = l_q. T(l, l') is the tension: that of a user's law, or with
- * s = l - l_0
+/* Cable over points that are fixed in bodies. d is the field `transition` of the definition. Let
+ * e_k be the vector from point k to point k + 1, l_k = |e_k|, l = sum of l_k, and h = l_q. T(l, l')
+ * is the tension: that of a user's law, or with s = l - l_0
  *
  *   T = max(0, k s + c w(s / d) l') for s > 0, otherwise 0;   w(x) = x^2 (3 - 2 x), 1 for x > 1
  *
@@ -9,9 +9,10 @@
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (l')_q
  *   g_v = -T_l' h h^T
  *
- * h, h_q and (l')_q are sums over the parts k. Each part is a product (spatial_spring.c). A part
- * with l_k = 0 has no direction and is omitted. Points of one body that follow each other are a
- * part of constant length, whose derivatives cancel.
+ * h, h_q and (l')_q are sums over the parts k, each from point k to point k + 1. The squared length
+ * of a part is a product e_k . e_k (spatial_spring.c). A part with l_k = 0 has no direction and is
+ * omitted. Points of one body that follow each other are a part of constant length, whose
+ * derivatives cancel.
  */
 #include <math.h>
 #include <string.h>
@@ -215,7 +216,8 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
 
 /* ---- derivatives ---- */
 
-/* Finds the packed columns of the twelve columns of a part; -1 for columns that do not exist. */
+/* Finds the index of each of the twelve columns of a part among the packed columns. The index is -1
+ * if a body does not have the column. */
 static void find_columns(const baum_mechanism *m, const baum_i_span *span, const part *p,
                          int at[COLUMNS])
 {

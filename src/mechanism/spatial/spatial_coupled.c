@@ -42,7 +42,7 @@ typedef struct coupled_type {
   baum_i_spatial_joint_type spatial;
   /* Evaluate term `number` (0 or 1), multiplied by its factor. */
   void (*term)(const state *s, int number, baum_i_coordinate *out);
-  /* Compute the second derivatives of this product. w has twelve entries. */
+  /* Compute the second derivatives of this term. w has twelve entries. */
   void (*term_linearize)(const state *s, int number, const double *w, double lambda,
                          baum_i_coordinate_blocks *out);
   /* Return Phi. `sum` is the sum of the values of both terms. */

@@ -37,7 +37,7 @@ typedef struct baum_i_spatial_axis_head {
 
 /* Check the head and the axes of a definition, and set BAUM_I_SPATIAL_NUMBERS parameters from them.
  * Joints with axes use these functions, and so do forces with the same fields. The second pair of
- * functions is for definitions in which x_axis follows the axes. */
+ * functions is for definitions in which the field x_axis follows the axes. */
 baum_status baum_i_spatial_check_axes(const baum_mechanism *mechanism, const void *def,
                                       const char *label);
 baum_status baum_i_spatial_lower_axes(const baum_mechanism *mechanism,
@@ -49,7 +49,7 @@ baum_status baum_i_spatial_lower_frame(const baum_mechanism *mechanism,
                                        const baum_i_element *element, const baum_i_span *span,
                                        double *parameters);
 
-/* The rows of a joint of such a type; NULL for other joints. */
+/* Return the table of the rows of a joint of such a type. Returns NULL for other joints. */
 const baum_i_spatial_row *baum_i_spatial_rows_of(const baum_i_joint *joint);
 
 /* Return the angle atan2(s, c) and its derivatives, as a function of the coordinates c and s. */

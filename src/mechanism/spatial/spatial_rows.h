@@ -106,7 +106,7 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
 void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *w, double factor,
                              double *out);
 
-/* Writes the derivatives of a product that a coordinate needs. w has twelve entries. */
+/* Writes those derivatives of the product `row` that a coordinate needs. w has twelve entries. */
 void baum_i_spatial_row_linearize(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   const double *w, double lambda, baum_i_coordinate_blocks *out);
 
@@ -132,8 +132,8 @@ void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
 /* Write the point of body_b in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);
 
-/* Return the length |e| in the design configuration. `points` contains s_a and then s_b, in body
- * axes. */
+/* Return the length |e| in the design configuration. `points` contains the point s_a on body_a and
+ * then the point s_b on body_b, in body axes. */
 double baum_i_spatial_design_length(const baum_mechanism *mechanism, const baum_i_span *span,
                                     const double points[6]);
 

@@ -16,7 +16,7 @@
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
-/* Parameters of the spring. Both points precede the numbers of the law. */
+/* Parameters of the spring: both points, then the numbers of the spring law. */
 enum { LAW = 6, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};

@@ -27,7 +27,7 @@
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
-/* Parameters. The points and axes precede the numbers of the law. */
+/* Parameters of the spring: the points and axes, then the numbers of the spring law. */
 enum { LAW = BAUM_I_SPATIAL_NUMBERS, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 BAUM_I_CHECK_SPRING_DEF(baum_spatial_torsion_spring_def);
