@@ -16,8 +16,8 @@
  *
  *  Equations: the constraints are Phi(q, t) = 0 (1). Their first time derivative is Phi' = J v - nu
  *  = 0 (3), and their second time derivative is Phi'' = J a - gamma = 0 (4). The equations of
- *  motion are M a + J^T lambda = g (2). The numbers in parentheses are those of Flores et al. 2008.
- *  docs/notation.md lists all symbols.
+ *  motion are M a + J^T lambda = g (2). The numbers in parentheses are the equation numbers of
+ *  Flores et al. 2008. docs/notation.md lists all symbols.
  *
  *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
@@ -55,8 +55,8 @@
  *
  *  A callback may call the library, but it must not use the workspace or the run that is calling
  *  it. Functions of this workspace or run that return a status fail with BAUM_ERR_STATE, and the
- *  function that destroys it does nothing. Two uses are allowed: the callback may read the time, q,
- *  v, inputs and texts of the run, and it may cancel the run. */
+ *  function that destroys it does nothing. There are two exceptions: the callback may read the
+ *  time, q, v, inputs and texts of the run, and it may cancel the run. */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H
 
@@ -78,7 +78,7 @@ typedef struct baum_mechanism baum_mechanism;
  *  id means no body, and functions refuse it. */
 typedef struct baum_body_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
-  uint32_t tag;   /**< Private: which mechanism. */
+  uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_body_id;
 
 /** Identifies a joint, which is any element that adds constraint rows. An all-zero id means no
@@ -86,19 +86,19 @@ typedef struct baum_body_id {
  */
 typedef struct baum_joint_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
-  uint32_t tag;   /**< Private: which mechanism. */
+  uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_joint_id;
 
 /** Identifies a force. An all-zero id means no force, and functions refuse it. */
 typedef struct baum_force_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
-  uint32_t tag;   /**< Private: which mechanism. */
+  uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_force_id;
 
 /** Identifies an input. An all-zero id means no input. */
 typedef struct baum_input_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
-  uint32_t tag;   /**< Private: which mechanism. */
+  uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_input_id;
 
 /** Ground, the body that never moves. Every mechanism has it. */
@@ -106,15 +106,15 @@ static const baum_body_id BAUM_GROUND = {-1, 0};
 
 /** A function of time and positions.
  *  @param      t     [s] time
- *  @param[in]  q     positions of the named bodies
+ *  @param[in]  q     positions of the bodies that the definition names
  *  @param[out] out   the result; the comment of the field that holds the function gives the shape
  *                    of the result
  *  @param      user  the definition's `user`
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_q_fn(double t, const double *q, double *out, void *user);
 
-/** A function of time, positions and velocities. v holds the velocities of the named bodies; the
- *  other arguments and the return value are those of baum_q_fn. */
+/** A function of time, positions and velocities. v holds the velocities of the bodies that the
+ *  definition names. The other arguments and the return value are those of baum_q_fn. */
 typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, void *user);
 
 /** A function that computes a generalized force. `inputs` holds the present values of all inputs of
@@ -270,14 +270,15 @@ typedef struct baum_user_constraint_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count; /**< [-] > 0. Default: 0, must be set. */
-  int32_t row_count;  /**< [-] > 0. Default: 0, must be set. */
+  int32_t body_count; /**< [-] number of bodies, > 0. Default: 0, must be set. */
+  int32_t row_count;  /**< [-] number of rows, > 0. Default: 0, must be set. */
   /** Phi(q, t): out (row_count). Default: NULL, must be set unless velocity_level is true. */
   baum_q_fn *phi;
-  baum_q_fn *jacobian; /**< J: out (row_count x nv). Default: NULL, differences of phi. */
-  /** nu = -dPhi/dt: out (row_count). Default: NULL, differences of phi in t. */
+  /** J: out (row_count x nv). Default: NULL, computed by differences of phi. */
+  baum_q_fn *jacobian;
+  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of phi in t. */
   baum_q_fn *nu;
-  /** gamma in J a = gamma: out (row_count). Default: NULL, differences of phi. */
+  /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of phi. */
   baum_qv_fn *gamma;
   void *user; /**< Passed to the functions. Not owned. Default: NULL. */
   /** True for constraints J v = nu on velocities, without a Phi. If the function nu is NULL, these
@@ -326,11 +327,12 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 typedef enum baum_joint_coordinate {
   /** The first coordinate that the list above gives for the joint. Most joints have only one. */
   BAUM_COORDINATE_FIRST = 0,
-  /** [m] from body_a's point to body_b's point, along the axis. */
+  /** [m] displacement from body_a's point to body_b's point, along the axis. */
   BAUM_COORDINATE_DISPLACEMENT = 1,
-  BAUM_COORDINATE_ANGLE = 2,   /**< [rad] of body_b relative to body_a about the axis. */
+  BAUM_COORDINATE_ANGLE = 2,   /**< [rad] angle of body_b relative to body_a, about the axis. */
   BAUM_COORDINATE_ANGLE_B = 3, /**< [rad] the second angle of a universal joint, about axis_b. */
-  /** [m] from body_a's point to body_b's point, along the x axis of a spatial planar joint. */
+  /** [m] displacement from body_a's point to body_b's point, along the x axis of a spatial planar
+   *  joint. */
   BAUM_COORDINATE_X = 4,
   BAUM_COORDINATE_Y = 5 /**< [m] the same, perpendicular to x in the plane. */
 } baum_joint_coordinate;
@@ -390,10 +392,10 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  example, both may be joints to ground. A coupling of the angle and the displacement of one
  *  cylindrical joint is a screw.
  *
- *  Angles of spatial joints are known up to whole revolutions. Without a law, the row therefore
- *  remains satisfied if such an angle changes by whole revolutions. If both coordinates are angles
- *  of spatial joints, this is true only if ratio is a fraction with a denominator of at most 1000.
- *  With any other ratio, the row counts the revolutions.
+ *  Angles of spatial joints are known only up to whole revolutions. Without a law, the row
+ *  therefore remains satisfied if such an angle changes by whole revolutions. If both coordinates
+ *  are angles of spatial joints, this is true only if ratio is a fraction with a denominator of at
+ *  most 1000. With any other ratio, the row counts the revolutions.
  *
  *  The reaction of a coupling is the generalized force -J^T lambda that belongs to the velocities
  *  of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints appears once,
@@ -448,7 +450,7 @@ typedef struct baum_user_force_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count;   /**< [-] > 0. Default: 0, must be set. */
+  int32_t body_count;   /**< [-] number of bodies, > 0. Default: 0, must be set. */
   baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
   /** Derivatives of force along displacements: out (nv x nv). Default: NULL, computed by
    *  differences. */

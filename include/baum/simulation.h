@@ -114,7 +114,7 @@ BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
 
 /** Name of an integrator.
  *  @param integrator  may be NULL
- *  @return  such as "cvode_adams"; NULL for NULL */
+ *  @return  such as "cvode_adams"; NULL if the argument is NULL */
 BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
 /** Order of accuracy of an integrator at a fixed step.
  *  @param integrator  may be NULL
@@ -142,7 +142,7 @@ typedef enum baum_formulation {
   BAUM_FORMULATION_INDEX2 = 4, /**< The constraints are J v = nu. Phi drifts slowly. */
   /** The constraints are J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
   BAUM_FORMULATION_GGL = 5,
-  BAUM_FORMULATION_INDEX3 = 6 /**< Phi = 0. */
+  BAUM_FORMULATION_INDEX3 = 6 /**< The constraints are Phi = 0. */
 } baum_formulation;
 
 /** Name of a formulation.
@@ -473,11 +473,13 @@ BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const 
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions.
  *  @param simulation  may be NULL
- *  @return  (nq) owned by the run; its values change when the run advances. NULL for NULL */
+ *  @return  (nq) owned by the run; its values change when the run advances. NULL if the argument is
+ *           NULL */
 BAUM_API const double *baum_simulation_q(const baum_simulation *simulation);
 /** Present velocities.
  *  @param simulation  may be NULL
- *  @return  (nv) owned by the run; its values change when the run advances. NULL for NULL */
+ *  @return  (nv) owned by the run; its values change when the run advances. NULL if the argument is
+ *           NULL */
 BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
@@ -509,7 +511,7 @@ typedef enum baum_quantity {
   BAUM_JOINT_REACTION = 10,
   /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
-  BAUM_BODY_ACCELERATION = 12, /**< The derivatives of BAUM_BODY_VELOCITY. */
+  BAUM_BODY_ACCELERATION = 12, /**< The time derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] that the driver `joint` exerts on the coordinate it prescribes (1).
    *  The power of the driver is this force or torque times the joint velocity. */
   BAUM_DRIVE_EFFORT = 13,
@@ -654,11 +656,12 @@ typedef struct baum_counters {
   int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
   int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
-  int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
-  double wall;                  /**< [s] wall time inside advance_to, step and sample. */
-  double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
-  double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
-  baum_joint_id max_phi_joint;  /**< The joint with the violation max_phi. */
+  /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
+  int64_t warnings;
+  double wall;                      /**< [s] wall time inside advance_to, step and sample. */
+  double max_phi;                   /**< [m or rad] largest |Phi| over all steps. */
+  double max_phi_rate;              /**< [m/s or rad/s] largest |Phi'| over all steps. */
+  baum_joint_id max_phi_joint;      /**< The joint with the violation max_phi. */
   baum_joint_id max_phi_rate_joint; /**< The joint with the violation max_phi_rate. */
   /** [m or rad] prediction of the steady |Phi| that the gains leave, (alpha/beta^2) h max
    *  |gamma_i|. It is known only for the Euler methods with stable gains of at least 0.1/h,
@@ -780,7 +783,8 @@ typedef struct baum_near_singular {
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval, see above. */
+  /** [-] the smallest p in the interval. p is the smallest pivot, divided by the largest value that
+   *  this pivot has had in the run so far. */
   double pivot;
   /** [-] by how much the velocity after the interval differs from a smooth continuation of the
    *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
@@ -855,12 +859,12 @@ BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, 
 /** Explain a run in words: its formulation and integrator, its gains, why they were chosen and
  *  whether they are stable, its solver, redundant rows and tolerances.
  *  @param simulation  may be NULL
- *  @return  text owned by the run; NULL for NULL */
+ *  @return  text owned by the run; NULL if the argument is NULL */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);
 
 /** Message of this run's last failure, stop or warning.
  *  @param simulation  may be NULL
- *  @return  text owned by the run, initially ""; NULL for NULL */
+ *  @return  text owned by the run, initially ""; NULL if the argument is NULL */
 BAUM_API const char *baum_simulation_message(const baum_simulation *simulation);
 
 #ifdef __cplusplus

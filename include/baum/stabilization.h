@@ -40,7 +40,7 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_SCALED = 2, /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
   /** alpha = 1/h, beta = sqrt(2)/h (equations 10 and 11); fixed step only. */
   BAUM_GAINS_TAYLOR = 3,
-  BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
+  BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f with a frequency f; alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Gains for which both roots z are zero; fixed step only. */
   /** alpha = beta, proportional to the angular velocity of the motion up to a limit. */
   BAUM_GAINS_AUTO = 6,
@@ -215,7 +215,7 @@ BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integr
 
 /** Describe in words what gains do with a method. Methods without a region have such a text, too.
  *  @param integrator  may be NULL
- *  @return  static text; NULL for NULL */
+ *  @return  static text; NULL if the argument is NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
 /** Find the stability limit for gains of a given damping ratio, alpha = damping_ratio x beta: they
@@ -234,7 +234,7 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
  *  intervals, and gaps between intervals, that are narrower than 1 % of their alpha h.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
- *  @param      capacity       [-] of the arrays; >= 0
+ *  @param      capacity       [-] size of the arrays; >= 0
  *  @param[out] from,to        [-] (capacity) the first intervals in order; `to` may be infinite.
  *                             NULL if capacity is 0.
  *  @param[out] count          [-] number of intervals, which may exceed the capacity
@@ -305,7 +305,8 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  hundredth of the whole region. It uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
- *  @param      capacity          [-] of the arrays; >= 0. 2000 is enough for every method here.
+ *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every method
+ *                                here.
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
  *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
  *                                spectral radius is nowhere so small

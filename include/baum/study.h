@@ -130,9 +130,9 @@ BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_opt
 /** Which settings the standard grid contains. */
 typedef struct baum_study_grid {
   size_t struct_size; /**< Set by the default. Do not write. */
-  /** Only this integrator. Default: NULL, all integrators of this build. */
+  /** Use only this integrator. Default: NULL, all integrators of this build. */
   const baum_integrator *integrator;
-  /** Only this formulation. Default: BAUM_FORMULATION_DEFAULT, all. */
+  /** Use only this formulation. Default: BAUM_FORMULATION_DEFAULT, all formulations. */
   baum_formulation formulation;
   int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
   /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
@@ -350,7 +350,8 @@ typedef struct baum_study_entry {
   baum_gains gains;                  /**< The gain rule, as given in the options. */
   double step;                       /**< [s] NaN for entries with rtol. */
   double rtol;                       /**< [-] NaN for entries with a step. */
-  int32_t method;                    /**< [-] see baum_study_method_at(). */
+  /** [-] number of the method to which the entry belongs, see baum_study_method_at(). */
+  int32_t method;
 /** Expands a line of the list. */
 #define BAUM_X(type, name, known, unit, meaning) type name;
   BAUM_STUDY_ENTRY_LIST(BAUM_X)
@@ -441,7 +442,7 @@ BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, do
 /** State in words how the error is defined.
  *  @param study  may be NULL
  *  @return  such as "largest error of all positions over all samples, lengths divided by 0.51 m,
- *           angles in rad"; NULL for NULL */
+ *           angles in rad"; NULL if the argument is NULL */
 BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
@@ -494,7 +495,7 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
  *  Entries whose error is at the uncertainty of the reference count as equally accurate.
  *  @param      study     the study
  *  @param      cost      how cost is measured
- *  @param      capacity  [-] of `entries`; >= 0
+ *  @param      capacity  [-] size of `entries`; >= 0
  *  @param[out] entries   (capacity) numbers of the entries on the front, from the cheapest to the
  *                        most accurate; only the first ones if there are more than capacity. NULL
  *                        if capacity is 0.

@@ -27,7 +27,7 @@ baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const ch
   if (k < first || k >= count) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld%s", call,
                        (long long)k, (long long)first, (long long)count - 1,
-                       first > 0 ? ", the entries that are kept" : "");
+                       first > 0 ? "; earlier entries are no longer kept" : "");
   }
   return BAUM_OK;
 }
@@ -40,7 +40,8 @@ baum_status baum_i_check_struct_size(size_t size, size_t present, const char *ca
            ? BAUM_OK
            : baum_i_fail(
                BAUM_ERR_STRUCT,
-               "%s: struct_size%s is %zu, must be %zu, or that of an older version; start from %s",
+               "%s: struct_size%s is %zu, must be %zu, or the size in an older version; start from "
+               "%s",
                call, of, size, present, start);
 }
 

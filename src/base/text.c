@@ -43,8 +43,8 @@ baum_status baum_i_check_name(const char *family, int number, const char *name)
     unsigned char byte = (unsigned char)*at;
     if (byte < ' ' || byte == DELETE) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s %d: name has the control character 0x%02x (at %d), must have none, "
-                         "because messages contain names",
+                         "%s %d: name has the control character 0x%02x at index %d; messages print "
+                         "names, so names must not contain control characters",
                          family, number, byte, (int)(at - name));
     }
   }

@@ -105,8 +105,9 @@ baum_status baum_catalog_parameter_at(const char *name, int32_t k, baum_catalog_
     return BAUM_ERR_ARGUMENT;
   }
   if (k < 0 || k >= of->parameter_count) {
-    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: k is %d, \"%s\" has %d parameters",
-                               (int)k, of->name, of->parameter_count);
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
+                               "catalogue: k is %d, but \"%s\" has %d parameters", (int)k, of->name,
+                               of->parameter_count);
   }
   const baum_i_catalog_parameter *parameter = &of->parameters[k];
   const baum_catalog_parameter whole = {.name = parameter->name,

@@ -19,7 +19,8 @@ enum { ROTOR, AXIAL, ACROSS, OUTER, INNER, WEIGHT, ARM, GRAVITY, TILT, PRECESSIO
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [ROTOR] = {"rotor", "kg", "mass of the rotor", BAUM_I_POSITIVE},
   [AXIAL] = {"axial", "kg m^2", "moment of inertia of the rotor about its axis", BAUM_I_POSITIVE},
-  [ACROSS] = {"across", "kg m^2", "the same about transverse axes", BAUM_I_POSITIVE},
+  [ACROSS] = {"across", "kg m^2", "moment of inertia of the rotor about transverse axes",
+              BAUM_I_POSITIVE},
   [OUTER] = {"outer", "kg m^2", "of the outer ring about its normal", BAUM_I_POSITIVE},
   [INNER] = {"inner", "kg m^2", "of the inner ring about its normal", BAUM_I_POSITIVE},
   [WEIGHT] = {"weight", "kg", "on the inner ring", BAUM_I_POSITIVE},

@@ -51,7 +51,7 @@ static baum_status check_parameters(const sample *at)
     if (at->p[k] != of->defaults[k]) {
       return baum_i_catalog_fail(
         BAUM_ERR_UNSUPPORTED,
-        "catalogue: the reference of \"%s\" is for %s = %.17g %s, it is not known for %.17g",
+        "catalogue: the reference of \"%s\" is known only for %s = %.17g %s, not for %.17g",
         of->name, of->parameters[k].name, of->defaults[k], of->parameters[k].unit, at->p[k]);
     }
   }
@@ -101,7 +101,7 @@ static baum_status find_sample(sample *at, double t)
   }
   return baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
                              "catalogue: the reference of \"%s\" has no sample at t = %.17g s; "
-                             "baum_catalog_times() gives those it has",
+                             "baum_catalog_times() returns the times of its samples",
                              of->name, t);
 }
 
@@ -282,7 +282,7 @@ static baum_status check_sizes(const sample *at, const baum_mechanism *mechanism
   return nq == wanted
            ? BAUM_OK
            : baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
-                                 "catalogue: the mechanism has %d coordinates, \"%s\" has %d",
+                                 "catalogue: the mechanism has %d coordinates, but \"%s\" has %d",
                                  (int)nq, at->of->name, wanted);
 }
 

@@ -30,7 +30,7 @@ static const baum_i_catalog_parameter PARAMETERS[BAUM_I_SLIDER_CRANK_COUNT] = {
                        BAUM_I_POSITIVE},
   AT(ROD_INERTIA) = {"rod_inertia", "kg m^2", "of the rod about its centre of mass",
                      BAUM_I_POSITIVE},
-  AT(SLIDER_INERTIA) = {"slider_inertia", "kg m^2", "of the slider, which does not turn",
+  AT(SLIDER_INERTIA) = {"slider_inertia", "kg m^2", "of the slider, which does not rotate",
                         BAUM_I_POSITIVE},
   AT(GRAVITY) = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
   AT(ANGLE) = {"angle", "rad", "of the crank at start", BAUM_I_ANY},

@@ -14,7 +14,8 @@
 enum { CRANK, CRANK_INERTIA, ROD_MASS, ROD_INERTIA, STIFFNESS, DAMPING, FREE_LENGTH, FORCE, COUNT };
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [CRANK] = {"crank", "m", "length of the crank; the rod is 1 m to its centre", BAUM_I_POSITIVE},
+  [CRANK] = {"crank", "m", "length of the crank; the rod is 1 m from its pin to its centre",
+             BAUM_I_POSITIVE},
   [CRANK_INERTIA] = {"crank_inertia", "kg m^2", "of the crank about its pin", BAUM_I_POSITIVE},
   [ROD_MASS] = {"rod_mass", "kg", "of the rod", BAUM_I_POSITIVE},
   [ROD_INERTIA] = {"rod_inertia", "kg m^2", "of the rod about its centre of mass", BAUM_I_POSITIVE},

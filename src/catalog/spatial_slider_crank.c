@@ -43,7 +43,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
                      BAUM_I_POSITIVE},
   [ROD_AXIAL] = {"rod_axial", "kg m^2", "axial inertia of the rod", BAUM_I_POSITIVE},
   [ROD_ACROSS] = {"rod_across", "kg m^2", "transverse inertia of the rod", BAUM_I_POSITIVE},
-  [SLIDER_INERTIA] = {"slider_inertia", "kg m^2", "of the slider, which does not turn",
+  [SLIDER_INERTIA] = {"slider_inertia", "kg m^2", "of the slider, which does not rotate",
                       BAUM_I_POSITIVE},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
   [ANGLE] = {"angle", "rad", "of the crank at start, about x, measured from z", BAUM_I_ANY},

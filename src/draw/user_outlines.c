@@ -172,7 +172,7 @@ static baum_status check_outline(const subject *s)
                        s->call, s->k, s->outline->struct_size, sizeof *s->outline);
   }
   if (form < 0 || form > BAUM_OUTLINE_MESH) {
-    return refuse(s, "no such form");
+    return refuse(s, "form is not one of baum_outline_form");
   }
   BAUM_I_TRY(check_color(s));
   return checks[form](s);

@@ -38,8 +38,8 @@ static baum_status fail_blocks(const baum_workspace *w)
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the pivots of the block solver are too small, the smallest in %s: the "
-    "configuration is close to a singular one, or the masses are too uneven; choose the "
-    "solver auto, which then takes klu and qr",
+    "configuration is close to a singular one, or the masses differ too much; choose the "
+    "solver auto, which can use klu and qr here",
     w->point.t, baum_i_joint_label(w->mechanism, joint).text);
 }
 

@@ -228,13 +228,13 @@ static baum_status fail_velocities(const assembly *s)
   for (int i = 0; i < s->w->mechanism->nv; i++) {
     is_given = is_given || s->held[i];
   }
-  return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     is_given
-                       ? "t = %.9g s: the given velocities do not satisfy %s; leave "
-                         "free those that follow from others"
-                       : "t = %.9g s: no velocities satisfy %s; a driver, or another function "
-                         "of time, contradicts one of these joints",
-                     s->t, text);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    is_given ? "t = %.9g s: the given velocities do not satisfy %s; leave those free that "
+               "follow from the others"
+             : "t = %.9g s: no velocities satisfy %s; a driver, or another function "
+               "of time, contradicts one of these joints",
+    s->t, text);
 }
 
 /* ---- positions ---- */
@@ -340,8 +340,8 @@ baum_status baum_i_check_sides(const baum_workspace *w, double t, const char *ac
     const baum_i_joint *joint = m->joints[k];
     if (joint->type->is_reversed && joint->type->is_reversed(joint, &w->point)) {
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: %s leads to opposite axes in %s; give a configuration in "
-                         "which they point the same way",
+                         "t = %.9g s: %s makes the axes of %s point in opposite directions; give a "
+                         "configuration in which they point in the same direction",
                          t, action, baum_i_joint_label(m, k).text);
     }
   }

@@ -66,6 +66,7 @@ struct baum_workspace {
    * none */
   baum_i_block_path *eliminated_by;
   baum_i_row_set rows;
+  int *island; /* (body_count + 1) numbers of the islands, see islands.h */
   baum_i_sharing sharing;
   bool mass_ready;      /* a constant M has been evaluated */
   bool jacobian_ready;  /* the last evaluation has set all blocks of J */
@@ -293,10 +294,10 @@ baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, con
                                         const double *v);
 
 /* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT.
- * baum_i_project() does not check them; runs call this function separately. speed: scaled size of
- * the velocities before the projection. */
+ * baum_i_project() does not check them, and runs observe them (simulate/monitor.c). before: the
+ * velocities before the projection. */
 baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
-                                  const double *v, double speed);
+                                  const double *v, const double *before);
 
 /* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P is that of
  * the last acceleration, motion or projection, which must have succeeded. May return

@@ -217,10 +217,10 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
   BAUM_I_TRY(check_state("baum_workspace_energy", workspace, t, q, v, found));
   BAUM_I_TRY(baum_i_energy(workspace, t, q, v, &found[0], &found[1]));
   if (!isfinite(found[0]) || !isfinite(found[1])) {
-    return baum_i_fail(
-      BAUM_ERR_NOT_FINITE,
-      "t = %.9g s: the kinetic energy is %g J and the potential energy %g J, must be finite", t,
-      found[0], found[1]);
+    return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                       "t = %.9g s: the kinetic energy is %g J and the potential energy is %g J; "
+                       "both must be finite",
+                       t, found[0], found[1]);
   }
   give(&found[0], kinetic, 1);
   give(&found[1], potential, 1);
@@ -357,8 +357,8 @@ static baum_status check_guess(const char *call, const baum_workspace *w, double
   }
   for (int i = 0; i < w->mechanism->nv; i++) {
     if (isinf(v[i])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: v[%d] is %g, must be finite, or NaN for free",
-                         call, i, v[i]);
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: v[%d] is %g, must be finite, or NaN if free", call,
+                         i, v[i]);
     }
   }
   return BAUM_OK;
@@ -407,7 +407,7 @@ static baum_status project_and_check(baum_workspace *w, double t, const double *
   BAUM_I_TRY(baum_i_check_velocities(w, "projected velocity", v_copy));
   baum_i_point_set(&w->point, t, copy, v_copy);
   BAUM_I_TRY(baum_i_check_sides(w, t, "projection"));
-  return baum_i_check_left_out(w, t, copy, v_copy, baum_i_scaled_size(w->mechanism, v));
+  return baum_i_check_left_out(w, t, copy, v_copy, v);
 }
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)

@@ -68,6 +68,21 @@ baum_status baum_i_count_islands(const baum_mechanism *m, int *count, baum_i_isl
   return status;
 }
 
+baum_status baum_i_number_islands(const baum_mechanism *m, int **island)
+{
+  *island = baum_i_alloc((size_t)m->body_count + 1, sizeof **island);
+  BAUM_I_TRY(baum_i_check_memory(*island));
+  unite_joined(m, *island);
+  (void)baum_i_sets_number(*island, m->body_count + 1);
+  return BAUM_OK;
+}
+
+int baum_i_island_of_joint(const baum_mechanism *m, const int *island, const baum_i_joint *joint)
+{
+  int first = first_free(m, joint);
+  return first >= 0 ? island[first] : island[0];
+}
+
 baum_status baum_i_count_joints(const baum_mechanism *m, int **joints)
 {
   int *count = baum_i_alloc((size_t)m->body_count + 1, sizeof *count);

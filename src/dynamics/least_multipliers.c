@@ -291,7 +291,7 @@ static baum_status check_balance(const baum_workspace *w)
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: the multipliers balance the forces on %s only to a relative error of %.2g, must "
-    "be at most %g; the masses are too uneven, or the configuration is close to a singular one",
+    "be at most %g; the masses differ too much, or the configuration is close to a singular one",
     w->point.t, baum_i_label(&body->element).text, imbalance * OF_ROW, OF_ROW);
 }
 

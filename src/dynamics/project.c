@@ -17,6 +17,7 @@
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
+#include "dynamics/islands.h"
 
 enum { ITERATIONS = 12 };
 /* A Newton step of relative size 1e-10 leaves an error of about 1e-20 times the ratio of the
@@ -83,7 +84,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
   return stalled ? BAUM_OK
                  : baum_i_fail(BAUM_ERR_CONVERGENCE,
                                "t = %.9g s: projection of the positions does not converge (last "
-                               "change %.3g of the scale): the step is too large, the "
+                               "change %.3g times the scale): the step is too large, the "
                                "mechanism locks up here, or the configuration is near a "
                                "singular one",
                                t, last);
@@ -127,7 +128,8 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 /* ---- omitted rows ---- */
 
 /* Largest allowed violation of an omitted row: of Phi as a displacement, and of Phi' relative to
- * the velocities. Rounding errors are smaller, and violations on another branch are larger. */
+ * the velocities of the island. Rounding errors are smaller, and violations on another branch are
+ * larger. */
 static const double NEGLIGIBLE = 1e-7;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)
@@ -140,18 +142,37 @@ static baum_status fail_left_out(const baum_workspace *w, int row)
     w->point.t, baum_i_row_label(w->mechanism, row).text, w->phi[row], w->phi_rate[row]);
 }
 
-baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,
-                                  double speed)
+/* Set size[] (body_count + 1) to the scaled sizes of the velocities of all islands. The size of the
+ * ground, to which joints between fixed bodies belong, is the largest. */
+static void find_speeds(const baum_workspace *w, const double *v, double *size)
 {
+  const baum_mechanism *m = w->mechanism;
+  memset(size, 0, ((size_t)m->body_count + 1) * sizeof *size);
+  for (int k = 1; k <= m->body_count; k++) {
+    double *of = &size[w->island[k]];
+    for (int i = m->bodies[k]->v; i < m->bodies[k]->v + m->bodies[k]->nv; i++) {
+      *of = fmax(*of, fabs(v[i]) / m->scale[i]);
+      size[0] = fmax(size[0], *of);
+    }
+  }
+}
+
+baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,
+                                  const double *before)
+{
+  const baum_mechanism *m = w->mechanism;
+  double *speed = w->work_q;
   if (w->rows.count == 0) {
     return BAUM_OK;
   }
   BAUM_I_TRY(baum_i_violation(w, t, q, v));
   baum_i_row_displacements(w, w->work_c);
-  for (int i = 0; i < w->mechanism->nc; i++) {
+  find_speeds(w, before, speed);
+  for (int i = 0; i < m->nc; i++) {
     double distance = w->work_c[i];
-    bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance ||
-                  fabs(w->phi_rate[i]) > NEGLIGIBLE * (speed * distance + fabs(w->nu[i]));
+    int island = baum_i_island_of_joint(m, w->island, m->joints[baum_i_row_joint(m, i)]);
+    double most = NEGLIGIBLE * (speed[island] * distance + fabs(w->nu[i]));
+    bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance || fabs(w->phi_rate[i]) > most;
     BAUM_I_TRY(w->rows.omitted[i] && is_off ? fail_left_out(w, i) : BAUM_OK);
   }
   return BAUM_OK;

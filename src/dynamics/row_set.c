@@ -15,6 +15,7 @@
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
+#include "dynamics/islands.h"
 
 /* Rows are selected one after another. A row is selected if its distance from the span of the rows
  * selected before it, relative to its length, reaches a limit. Limits are tried from MOST down to
@@ -141,8 +142,9 @@ static baum_status replace_paths(baum_workspace *w)
   BAUM_I_TRY(w->motion ? baum_i_paths_create(w, &verdict, &made) : BAUM_OK);
   if ((w->path && !made.all) || (w->motion && !made.motion)) {
     baum_i_paths_destroy(&made);
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "the block solver does not suit the other set of rows");
+    return baum_i_fail(
+      BAUM_ERR_UNSUPPORTED,
+      "the block solver is not suitable if these other redundant rows are omitted");
   }
   copy_counters(before.all, made.all);
   copy_counters(before.motion, made.motion);
@@ -252,42 +254,58 @@ static const double TIMES = 10.0;
 /* Rows shorter than this fraction of the longest row contain nothing but rounding errors. */
 static const double EMPTY = 1e-6;
 
-/* [1/s^2] Return the size with which errors of accelerations are compared. It is the squared rate
- * of the motion plus the squared gains. If the largest scaled acceleration that the forces would
- * cause without constraints is larger, it is this acceleration. */
-static double find_acceleration_size(const baum_workspace *w, const double *v, double alpha,
-                                     double beta)
+/* Find the sizes (body_count + 1) with which errors of accelerations of each island are compared
+ * [1/s^2]. A size is the squared rate of the motion plus the squared gains. If the largest scaled
+ * acceleration that the forces would cause without constraints is larger, it is this acceleration.
+ * The size of the ground is that of all islands; joints between fixed bodies are compared with
+ * it. */
+static void find_acceleration_sizes(const baum_workspace *w, const double *v, double alpha,
+                                    double beta, double *size)
 {
   const baum_mechanism *m = w->mechanism;
   const double *force = baum_i_solved_force(w);
-  double rate = baum_i_state_rate(m, v, w->a);
-  double size = rate * rate + alpha * alpha + beta * beta;
+  double gains = alpha * alpha + beta * beta;
   baum_i_inverse_masses(w, w->work_v);
-  for (int i = 0; i < m->nv; i++) {
-    size = fmax(size, fabs(force[i]) * w->work_v[i] / m->scale[i]);
+  for (int k = 0; k <= m->body_count; k++) {
+    size[k] = gains;
   }
-  return size;
+  for (int k = 1; k <= m->body_count; k++) {
+    double *of = &size[w->island[k]];
+    for (int i = m->bodies[k]->v; i < m->bodies[k]->v + m->bodies[k]->nv; i++) {
+      double rate = fabs(v[i]) / m->scale[i];
+      double motion = gains + fmax(rate * rate, fabs(w->a[i]) / m->scale[i]);
+      *of = fmax(*of, fmax(motion, fabs(force[i]) * w->work_v[i] / m->scale[i]));
+      size[0] = fmax(size[0], *of);
+    }
+  }
 }
 
-/* Return the largest violation of positions or velocities, expressed as a displacement relative to
- * the scales. */
-static double find_violation(const baum_workspace *w, const double *length, double rate)
+static int island_of_row(const baum_workspace *w, int row)
 {
-  double violation = 0.0;
+  const baum_mechanism *m = w->mechanism;
+  return baum_i_island_of_joint(m, w->island, m->joints[baum_i_row_joint(m, row)]);
+}
+
+/* Find the largest violation (body_count + 1) of positions or velocities in each island, expressed
+ * as a displacement relative to the scales. */
+static void find_violations(const baum_workspace *w, const double *length, const double *size,
+                            double *violation)
+{
+  memset(violation, 0, ((size_t)w->mechanism->body_count + 1) * sizeof *violation);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    violation = fmax(violation, fabs(w->phi[i]) / length[i]);
-    violation = fmax(violation, fabs(w->phi_rate[i]) / (rate * length[i]));
+    int k = island_of_row(w, i);
+    violation[k] = fmax(violation[k], fabs(w->phi[i]) / length[i]);
+    violation[k] = fmax(violation[k], fabs(w->phi_rate[i]) / (sqrt(size[k]) * length[i]));
   }
-  return violation;
 }
 
 static baum_status fail_contradiction(const baum_workspace *w, int row, double part)
 {
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: no acceleration satisfies all constraints: with the other rows "
-                     "met, a redundant row of %s is off by %.3g of the accelerations; constraints "
-                     "contradict each other, or the velocities in a singular configuration follow "
-                     "no branch",
+                     "t = %.9g s: no acceleration satisfies all constraints: if the other rows are "
+                     "satisfied, a redundant row of %s is violated by %.3g of the accelerations; "
+                     "constraints contradict each other, or the configuration is singular and the "
+                     "velocities follow no branch",
                      w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
@@ -311,16 +329,16 @@ static double find_missed(const baum_workspace *w, int row, double alpha, double
   return fabs(missed);
 }
 
-/* Compare the errors of the omitted rows with the accelerations of the whole mechanism, and fail if
- * an error is too large. */
+/* Compare the errors of the omitted rows with the accelerations of their island, and fail if an
+ * error is too large. */
 static baum_status compare_omitted_rows(baum_workspace *w, const double *v, double alpha,
                                         double beta)
 {
   int nc = w->mechanism->nc;
   double *length = w->work_c;
-  double *missed = w->work_c + nc;
+  double *size = w->work_q;
+  double *violation = size + w->mechanism->body_count + 1;
   double longest = 0.0;
-  double most = 0.0;
   double terms = 0.0;
   BAUM_I_TRY(baum_i_need_jacobian(w));
   BAUM_I_TRY(baum_i_evaluate_mass(w));
@@ -328,14 +346,18 @@ static baum_status compare_omitted_rows(baum_workspace *w, const double *v, doub
   (void)baum_i_largest(length, nc, &longest);
   for (int i = 0; i < nc; i++) {
     length[i] = fmax(length[i], EMPTY * longest);
-    missed[i] = w->rows.omitted[i] ? find_missed(w, i, alpha, beta, &terms) / length[i] : 0.0;
   }
-  double size = find_acceleration_size(w, v, alpha, beta);
-  double violation = find_violation(w, length, sqrt(size));
-  double amplified = violation / baum_i_smallest_pivot(w, NULL);
-  int row = baum_i_largest(missed, nc, &most);
-  bool agree = most <= size * (CONTRADICTION + TIMES * sqrt(violation * fmin(1.0, amplified)));
-  return agree ? BAUM_OK : fail_contradiction(w, row, most / size);
+  find_acceleration_sizes(w, v, alpha, beta, size);
+  find_violations(w, length, size, violation);
+  double pivot = baum_i_smallest_pivot(w, NULL);
+  for (int i = 0; i < nc; i++) {
+    int k = island_of_row(w, i);
+    double missed = w->rows.omitted[i] ? find_missed(w, i, alpha, beta, &terms) / length[i] : 0.0;
+    double amplified = violation[k] * fmin(1.0, violation[k] / pivot);
+    double most = missed > 0.0 ? size[k] * (CONTRADICTION + TIMES * sqrt(amplified)) : 0.0;
+    BAUM_I_TRY(missed <= most ? BAUM_OK : fail_contradiction(w, i, missed / size[k]));
+  }
+  return BAUM_OK;
 }
 
 /* First compare the error of each row only with the terms of the same row. This is cheap, and

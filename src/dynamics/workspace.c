@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/block_path.h"
+#include "dynamics/islands.h"
 #include "mechanism/general/coordinate.h"
 
 /* An array of the workspace. list_arrays() lists all of them. */
@@ -70,6 +71,7 @@ static baum_status make_arrays(baum_workspace *w)
   }
   w->rows.omitted = baum_i_alloc((size_t)w->mechanism->nc, 1);
   w->rows.selected = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  BAUM_I_TRY(baum_i_number_islands(w->mechanism, &w->island));
   return w->rows.omitted && w->rows.selected ? BAUM_OK : baum_i_fail_memory();
 }
 
@@ -226,6 +228,7 @@ void baum_workspace_destroy(baum_workspace *workspace)
   baum_i_paths_destroy(&(baum_i_paths){workspace->path, workspace->motion});
   baum_i_free(workspace->rows.omitted);
   baum_i_free(workspace->rows.selected);
+  baum_i_free(workspace->island);
   baum_i_kkt_destroy(workspace->sharing.kkt);
   baum_i_kkt_destroy(workspace->kkt);
   baum_i_free(workspace->structure.mass_blocks);

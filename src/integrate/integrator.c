@@ -176,10 +176,11 @@ baum_status baum_i_fail_in_step(baum_status status, const char *message, const c
 
 baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size)
 {
-  return baum_i_fail(BAUM_ERR_CONVERGENCE,
-                     "t = %.9g s: %s: %s of the next step do not converge (last change %.3g of the "
-                     "scale): the step is too large or the configuration is near a singular one",
-                     t, integrator, what, size);
+  return baum_i_fail(
+    BAUM_ERR_CONVERGENCE,
+    "t = %.9g s: %s: %s of the next step do not converge (last change %.3g times "
+    "the scale): the step is too large or the configuration is near a singular one",
+    t, integrator, what, size);
 }
 
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol)

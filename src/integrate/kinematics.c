@@ -138,7 +138,7 @@ static baum_status say_when(const baum_i_configuration *from, baum_status status
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
     return status;
   }
-  return baum_i_fail(status, "t = %.9g s: kinematics: in a step from here: %.800s", from->t,
+  return baum_i_fail(status, "t = %.9g s: kinematics: in the next step: %.800s", from->t,
                      baum_message());
 }
 
@@ -167,13 +167,13 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(BAUM_ERR_SINGULAR,
                        "t = %.9g s: kinematics: the mechanism locks up here: beyond this time no "
-                       "configuration satisfies %s and the other constraints, above all %s",
+                       "configuration satisfies both %s and the other constraints, especially %s",
                        t, baum_i_joint_label(m, at->driver).text, resister.text);
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: kinematics: the configuration is singular here and the motion may continue in "
-    "more than one way, most visibly in %s; the drivers do not determine which",
+    "more than one way, especially in %s; the drivers do not determine which way",
     t, resister.text);
 }
 

@@ -314,30 +314,30 @@ static bool is_least_squares(const baum_i_kkt *kkt)
  * dominate the other rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
-  return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
+  return baum_i_residual_is_below(kkt->n, &kkt->islands, kkt->scale, kkt->residual, kkt->b,
+                                  contradiction);
 }
 
-/* Tells whether rows contradict each other and the solver has divided by a rounding error. The
- * residual does not show this, but accelerations are then of the order of the right-hand side
- * divided by rcond. Close to a singular configuration in which rows agree, multipliers may be as
- * large, but accelerations are not. If rcond is below least_rcond, the matrix is singular to
+/* Tells whether rows of an island contradict each other and the solver has divided by a rounding
+ * error. The residual does not show this, but accelerations are then of the order of the right-hand
+ * side divided by rcond. Close to a singular configuration in which rows agree, multipliers may be
+ * as large, but accelerations are not. If rcond is below least_rcond, the matrix is singular to
  * rounding, and multipliers of this size are a sign of contradiction, too. */
 static bool is_divided_by_rounding(const baum_i_kkt *kkt)
 {
   double rcond = present_rcond(kkt);
-  double largest = 0.0;
-  double side = 0.0;
+  int count = rcond < least_rcond ? kkt->n : kkt->structure->nv;
   if (rcond >= rounding_rcond) {
     return false;
   }
-  for (int i = 0; i < kkt->n; i++) {
-    side = fmax(side, fabs(kkt->b[i] * kkt->scale[i]));
-  }
-  int count = rcond < least_rcond ? kkt->n : kkt->structure->nv;
+  baum_i_residual_largest(kkt->n, &kkt->islands, kkt->scale, kkt->b);
   for (int i = 0; i < count; i++) {
-    largest = fmax(largest, fabs(kkt->x[i] / kkt->scale[i]));
+    double side = kkt->islands.largest[kkt->islands.of[i]];
+    if (fabs(kkt->x[i] / kkt->scale[i]) * rcond > contradiction * side) {
+      return true;
+    }
   }
-  return largest * rcond > contradiction * side;
+  return false;
 }
 
 /* Returns BAUM_ERR_SINGULAR if the residual stays large. */

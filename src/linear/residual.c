@@ -159,17 +159,8 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
   }
 }
 
-static double largest_scaled(int n, const double *scale, const double *x)
-{
-  double largest = 0.0;
-  for (int i = 0; i < n; i++) {
-    largest = fmax(largest, scale[i] * fabs(x[i]));
-  }
-  return largest;
-}
-
-static void find_largest(int n, const baum_i_residual_islands *islands, const double *scale,
-                         const double *size)
+void baum_i_residual_largest(int n, const baum_i_residual_islands *islands, const double *scale,
+                             const double *size)
 {
   for (int k = 0; k < islands->count; k++) {
     islands->largest[k] = 0.0;
@@ -191,7 +182,7 @@ static bool is_rounding(int n, const baum_i_residual_islands *islands, const dou
       continue;
     }
     if (!found) {
-      find_largest(n, islands, scale, size);
+      baum_i_residual_largest(n, islands, scale, size);
       found = true;
     }
     double largest = islands->largest[islands->of[i]];
@@ -216,12 +207,12 @@ bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, con
   return is_rounding(n, islands, scale, residual, size, n * noise, fmin(nothing / rcond, rounding));
 }
 
-bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,
-                              double tolerance)
+bool baum_i_residual_is_below(int n, const baum_i_residual_islands *islands, const double *scale,
+                              const double *residual, const double *b, double tolerance)
 {
-  double limit = tolerance * largest_scaled(n, scale, b);
+  baum_i_residual_largest(n, islands, scale, b);
   for (int i = 0; i < n; i++) {
-    if (!(scale[i] * fabs(residual[i]) <= limit)) {
+    if (!(scale[i] * fabs(residual[i]) <= tolerance * islands->largest[islands->of[i]])) {
       return false;
     }
   }

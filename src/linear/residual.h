@@ -33,8 +33,13 @@ bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, 
 bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
                               const double *residual, const double *size, double rcond);
 
-/* Tells whether each scaled |residual_i| is at most `tolerance` times the largest scaled |b_i|. */
-bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,
-                              double tolerance);
+/* Sets islands->largest[] to the largest scaled |size_i| of each island. */
+void baum_i_residual_largest(int n, const baum_i_residual_islands *islands, const double *scale,
+                             const double *size);
+
+/* Tells whether each scaled |residual_i| is at most `tolerance` times the largest scaled |b_i| of
+ * its island. */
+bool baum_i_residual_is_below(int n, const baum_i_residual_islands *islands, const double *scale,
+                              const double *residual, const double *b, double tolerance);
 
 #endif

@@ -46,8 +46,8 @@ static const struct {
   [BAUM_I_RULE_POSITIVE] = {false, false, false, " and > 0"},
   [BAUM_I_RULE_NOT_NEGATIVE] = {false, false, true, " and >= 0"},
   [BAUM_I_RULE_NOT_ZERO] = {false, true, false, " and not 0"},
-  [BAUM_I_RULE_OPTIONAL] = {true, true, true, ", or NaN for not given"},
-  [BAUM_I_RULE_FREE] = {true, true, true, ", or NaN for free"},
+  [BAUM_I_RULE_OPTIONAL] = {true, true, true, ", or NaN if not given"},
+  [BAUM_I_RULE_FREE] = {true, true, true, ", or NaN if free"},
   [BAUM_I_RULE_OPTIONAL_POSITIVE] = {true, false, false, " and > 0"},
   [BAUM_I_RULE_OPTIONAL_NOT_NEGATIVE] = {true, false, true, " and >= 0"},
   [BAUM_I_RULE_POINT] = {false, true, true, ""},
@@ -101,7 +101,7 @@ static baum_status check_numbers(const baum_i_def_field *f, const double *values
     BAUM_I_TRY(check_entry(f, values, k, label));
   }
   if (f->rule == BAUM_I_RULE_DIRECTION && zeros == count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, must have a direction", label, f->name,
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no direction", label, f->name,
                        count == 2 ? "(0, 0)" : "(0, 0, 0)");
   }
   return BAUM_OK;

@@ -226,8 +226,8 @@ static baum_status check_version(const baum_i_scene_reader *r)
   int32_t version = 0;
   if (whole->kind != BAUM_I_JSON_OBJECT || !node) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: line %d: this is not a scene: \"" BAUM_I_SCENE_KEY "\" is missing",
-                       r->label, whole->line);
+                       "%s: line %d: this is not a scene: the key \"%s\" is missing", r->label,
+                       whole->line, BAUM_I_SCENE_KEY);
   }
   BAUM_I_TRY(baum_i_scene_read_integer(r, node, &version));
   return version == BAUM_I_SCENE_VERSION

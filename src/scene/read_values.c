@@ -117,7 +117,8 @@ baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_js
     index = baum_i_scene_find_body(&r->names, node->text);
     if (index < -1) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: line %d: there are several bodies \"%.80s\"; give the number, from 0",
+                         "%s: line %d: there are several bodies \"%.80s\"; give the number of the "
+                         "body, counted from 0",
                          r->label, node->line, node->text);
     }
     if (index < 0) {

@@ -131,7 +131,7 @@ static baum_status put_hook(writer *w, const baum_i_def_field *f, const void *de
     }
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: %s is a %s, which a scene can contain only by name; give a hook",
+                     "%s: %s is a %s, which a scene can contain only by name; give a hook for it",
                      baum_i_label(w->element).text, f->name, is_user ? "pointer" : "function");
 }
 

@@ -377,8 +377,8 @@ static baum_status check_times(const baum_simulation *run, const double *times, 
   for (int64_t k = 0; k < n; k++) {
     if (!isfinite(times[k]) || direction * (times[k] - last) < 0.0) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: times[%lld] is %.9g s after %.9g s; times must be finite and "
-                         "monotonic from the present time",
+                         "%s: times[%lld] is %.9g s, and the time before it is %.9g s; times must "
+                         "be finite and monotonic from the present time",
                          call, (long long)k, times[k], last);
     }
     last = times[k];

@@ -76,7 +76,8 @@ static baum_status copy_row_gains(baum_simulation *run)
   int nc = run->workspace->mechanism->nc;
   if (o->row_gain_count != nc) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "simulation options: row_gain_count is %d, must be nc = %d of the mechanism",
+                       "simulation options: row_gain_count is %d, must be nc = %d, the number of "
+                       "constraint rows",
                        (int)o->row_gain_count, nc);
   }
   for (int i = 0; i < nc; i++) {

@@ -8,7 +8,7 @@
 #define say(run, ...) baum_i_append((run)->explain, sizeof(run)->explain, __VA_ARGS__)
 
 static const char *const FORMULATIONS[] = {
-  [BAUM_FORMULATION_UNSTABILIZED] = "J a = gamma, nothing done against drift",
+  [BAUM_FORMULATION_UNSTABILIZED] = "J a = gamma, without stabilization",
   [BAUM_FORMULATION_BAUMGARTE] = "J a = gamma - 2 alpha Phi' - beta^2 Phi",
   [BAUM_FORMULATION_PROJECTION] = "J a = gamma, then q and v projected after each step",
   [BAUM_FORMULATION_INDEX2] = "J v = nu kept by the implicit method itself; Phi drifts slowly",

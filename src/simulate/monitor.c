@@ -194,11 +194,12 @@ static void observe_large_velocities(baum_simulation *run, double t)
   (void)baum_i_row_sizes(w, w->phi_rate, &row);
   for (int i = 0; i < m->nc; i++) {
     if (m->velocity_rows[i] && w->work_c[i] > LARGE * rate) {
-      baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
-                      "t = %.9g s: %s, of velocity level, is violated by %.3g of the velocities: "
-                      "the motion has drifted far or grows without bound; take other gains, a "
-                      "smaller step, or projection",
-                      t, baum_i_row_label(m, i).text, w->work_c[i] / rate);
+      baum_i_run_warn(
+        run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
+        "t = %.9g s: %s, of velocity level, is violated by %.3g times the velocities: "
+        "the motion has drifted far or grows without bound; take other gains, a "
+        "smaller step, or projection",
+        t, baum_i_row_label(m, i).text, w->work_c[i] / rate);
       return;
     }
   }

@@ -118,15 +118,16 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
     return !n->required || !n->takes[how]
              ? BAUM_OK
              : baum_i_fail(BAUM_ERR_ARGUMENT,
-                           "simulation options: %s is not given, and %s needs it%s", n->name, name,
-                           takes_rtol_for_step ? "; rtol is for variable steps, as rk8 has them"
-                                               : "");
+                           "simulation options: %s is not given, but %s needs it%s", n->name, name,
+                           takes_rtol_for_step
+                             ? "; rtol is only for integrators with variable steps, such as rk8"
+                             : "");
   }
   if (!n->takes[how]) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
                        n->unit[0] ? " " : "", n->unit, name,
                        isnan(n->unset) ? WHY_NOT[how]
-                                       : "takes no tolerance here; keep the default 1");
+                                       : "has no tolerances here; keep the default 1");
   }
   return check_range(n, x);
 }
@@ -187,7 +188,7 @@ static baum_status check_pair(baum_simulation_options *o)
   const char *why = projection ? o->integrator->why_no_projection : NULL;
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                      "simulation options: %s does not offer the formulation %s; it offers %s%s%s",
-                     o->integrator->name, name ? name : "of that number",
+                     o->integrator->name, name ? name : "with that number",
                      list[0] ? list : "none, because no degree of freedom is left", why ? "; " : "",
                      why ? why : "");
 }

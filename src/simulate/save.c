@@ -305,7 +305,8 @@ static baum_status check_header(reader *r)
                   (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
   }
   if (h->size > r->size) {
-    return refuse("has %zu bytes of %llu; it is truncated", r->size, (unsigned long long)h->size);
+    return refuse("has only %zu of its %llu bytes; it is truncated", r->size,
+                  (unsigned long long)h->size);
   }
   if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
     return refuse("is damaged: it claims to have %llu bytes", (unsigned long long)h->size);

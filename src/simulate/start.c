@@ -223,8 +223,8 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
   for (int i = 0; i < w->mechanism->nc; i++) {
     if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: start is exact, but %s has %s = %.3g %s", run->trial.t,
-                         baum_i_row_label(w->mechanism, i).text, what, rows[i], unit);
+                         "t = %.9g s: start is exact, but in %s %s = %.3g %s, must be 0",
+                         run->trial.t, baum_i_row_label(w->mechanism, i).text, what, rows[i], unit);
     }
   }
   return BAUM_OK;
@@ -394,7 +394,7 @@ static baum_status check_entry(const char *call, char name, int i, double value,
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %c[%d] is %g, must be finite%s", call, name, i, value,
-                     may_be_free ? ", or NaN for free" : "");
+                     may_be_free ? ", or NaN if free" : "");
 }
 
 /* Rounding of the given numbers may move q off the manifold of valid positions. Check that q is not
@@ -410,8 +410,8 @@ static baum_status check_manifold(const baum_simulation *run, const char *call, 
     if (!(fabs(normal[i] - q[i]) <= NEAR * m->position_scale[i])) {
       return baum_i_fail(
         BAUM_ERR_ARGUMENT,
-        "%s: q[%d] is %.9g, but %.9g after normalizing q; give a q on the manifold", call, i, q[i],
-        normal[i]);
+        "%s: q[%d] is %.9g, but %.9g after normalizing q; give a q on the configuration manifold",
+        call, i, q[i], normal[i]);
     }
   }
   return BAUM_OK;

@@ -106,7 +106,7 @@ baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, doub
 
 static const char *const class_text[] = {
   [BAUM_STABLE] = "stable",
-  [BAUM_MARGINAL] = "marginal: some violations stay",
+  [BAUM_MARGINAL] = "marginal: some violations do not decay",
   [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
 };
 

@@ -185,7 +185,8 @@ static double auto_without_step(const baum_i_gain_context *context, double wante
     print_note(out, context, "");
     return wanted;
   }
-  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: no rate, 1 1/s is used)");
+  baum_i_print(out->note, sizeof out->note,
+               " (nothing moves at start: the rate is taken as 1 1/s)");
   return 1.0;
 }
 
@@ -274,9 +275,10 @@ static baum_status make_draft(const rule_type *rule, const double value[2],
   BAUM_I_TRY(check_needs(rule, context));
   rule->apply(value, context, out);
   if (!isfinite(out->alpha) || !isfinite(out->beta)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "gains %s: alpha = %g 1/s, beta = %g 1/s is beyond the range of double",
-                       rule->name, out->alpha, out->beta);
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "gains %s: alpha = %g 1/s or beta = %g 1/s is too large for double precision", rule->name,
+      out->alpha, out->beta);
   }
   return BAUM_OK;
 }

@@ -39,9 +39,9 @@ const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_f
   }
   if (chooses_step) {
     return "With a fixed step, violations decay where the spectral radius at (alpha h, beta^2 h^2) "
-           "is below 1. With variable steps, the same region caps the step, at 0.9 of the limit on "
-           "the ray of the gains. Violations therefore decay for any gains, and high gains cost "
-           "steps.";
+           "is below 1. With variable steps, the same region caps the step: it is at most 0.9 of "
+           "the step at which violations would stop decaying. Violations therefore decay for any "
+           "gains, and high gains cost steps.";
   }
   return "Fixed step: violations decay where the spectral radius at (alpha h, beta^2 h^2) is below "
          "1, and grow where it is above.";

@@ -188,8 +188,8 @@ static baum_status find_cost(const cost_query *at, int32_t method, double *out)
 {
   const baum_study *study = at->study;
   if (method < 0 || method >= study->method_count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d; the study has %d", at->call,
-                       (int)method, study->method_count);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d; the study has %d methods",
+                       at->call, (int)method, study->method_count);
   }
   const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
   int count = baum_i_study_usable(study, method, entries);
@@ -363,7 +363,7 @@ static void explain(const setting *p, const baum_simulation_options *o, char *wh
   }
   bool fixed = !isnan(o->step);
   const char *unit = fixed ? " s" : "";
-  baum_i_append(why, size, ", between %s %.3g%s with %.2g and %.3g%s with %.2g",
+  baum_i_append(why, size, ", between %s %.3g%s (error %.2g) and %.3g%s (error %.2g)",
                 fixed ? "step" : "rtol", baum_i_setting(&p->coarse->options), unit,
                 p->coarse->out.error, baum_i_setting(&p->fine->options), unit, p->fine->out.error);
 }
@@ -377,8 +377,8 @@ static void add_margin(const baum_study *study, const setting *p, const question
   }
   baum_i_append(
     why, size,
-    "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
-    "of %.2g remains",
+    "; over twice the span, and from nearby starts, %s has an error of %.2g, which leaves a "
+    "margin of a factor of %.2g",
     p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_validated, p->margin);
   add_rival(study, p, *q, why, size);
 }
@@ -414,8 +414,8 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
       return BAUM_OK;
     }
   }
-  return baum_i_fail(BAUM_ERR_STATE, "%s: no entry is done and timed; call baum_study_run() first",
-                     call);
+  return baum_i_fail(BAUM_ERR_STATE,
+                     "%s: no entry has been run and timed; call baum_study_run() first", call);
 }
 
 static baum_status refuse_error(const baum_study *study, double error, const char *call)
@@ -428,8 +428,8 @@ static baum_status refuse_error(const baum_study *study, double error, const cha
     }
   }
   if (!best) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done followed the true motion",
-                       call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: none of the finished entries followed the true motion", call);
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: no entry reaches an error of %.2g; the smallest is %.2g, of %s, and the "
@@ -526,18 +526,18 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   setting p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
   if (!isfinite(quickest)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done followed the true motion",
-                       call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: none of the finished entries followed the true motion", call);
   }
   if (!p.fine) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: no entry takes at most 0.8 of %.3g s; the fastest takes %.3g s", call,
+                       "%s: no entry takes at most 80 %% of %.3g s; the fastest takes %.3g s", call,
                        seconds, quickest);
   }
   baum_simulation_options o = options_of(study, &p);
   if (why && size > 0) {
     explain(&p, &o, why, size);
-    baum_i_append(why, size, "; a fifth of %.3g ms is in reserve because times vary",
+    baum_i_append(why, size, "; a fifth of the %.3g ms is kept in reserve, because times vary",
                   1e3 * seconds);
     add_drift(&o, why, size);
   }

@@ -201,5 +201,6 @@ void baum_i_report_text(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   baum_i_put(
     out, "\nfront: no setting is both cheaper and more exact.  floor: its error is at the "
          "uncertainty of the reference.\noff: it followed another motion, with an error above 0.1 "
-         "of the scale or on another branch.  unstable: its gains do not damp with this step.\n");
+         "of the scale or on another branch.  unstable: its gains do not damp violations with this "
+         "step.\n");
 }

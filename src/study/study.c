@@ -318,8 +318,8 @@ static baum_status check_sample_times(const baum_study *study, const double *tim
   for (int k = 0; k < n; k++) {
     if (!(direction * (times[k] - last) > 0.0) || !(direction * (study->t1 - times[k]) >= 0.0)) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "baum_study_set_reference: times[%d] is %.9g s after %.9g s; times must "
-                         "be monotonic after t0 = %g s, up to t1 = %g s",
+                         "baum_study_set_reference: times[%d] is %.9g s, and the time before it is "
+                         "%.9g s; times must be monotonic after t0 = %g s, up to t1 = %g s",
                          k, times[k], last, study->t0, study->t1);
     }
     last = times[k];

@@ -48,10 +48,11 @@ static baum_status sample(const sweep *s, const baum_mechanism *mechanism, doubl
 static baum_status check_width(const sweep *s, const baum_mechanism *copy)
 {
   const int32_t width = baum_channels_width(copy, s->def->channels, s->def->channel_count);
-  return width == s->width ? BAUM_OK
-                           : baum_i_fail(BAUM_ERR_ARGUMENT,
-                                         "the channels have %d numbers, and %d before the change",
-                                         (int)width, (int)s->width);
+  return width == s->width
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "the channels have %d columns after change(), but had %d before",
+                         (int)width, (int)s->width);
 }
 
 static baum_status run_one(const sweep *s, int64_t k, double *rows)

@@ -104,7 +104,7 @@ static void check_names(every_element *parts, const element_kind *kind)
   for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
     def.head.name = names[k];
     check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT,
-                  names[k][0] ? ": name has the control character 0x|must have none"
+                  names[k][0] ? ": name has the control character 0x|must not contain"
                               : ": name is empty; NULL stands for the default name");
     assert_null(strpbrk(baum_message(), "\n\t\r\x7f\x01"));
   }
@@ -491,7 +491,7 @@ static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state
   for (int again = 0; again < 2; again++) {
     ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
                 "joint 1 \"slot\": point is (0, 0) m, must be at the particle body 1 \"bead\", "
-                "at (0.5, 0) m");
+                "which is at (0.5, 0) m");
     assert_false(baum_mechanism_is_frozen(mechanism));
     assert_int_equal(baum_mechanism_sizes(mechanism, NULL, NULL, &nc), BAUM_ERR_STATE);
     assert_int_equal(nc, -1);

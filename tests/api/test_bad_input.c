@@ -66,7 +66,7 @@ static void a_mechanism_refuses_bad_inputs(void **state)
   ASSERT_SAYS(baum_mechanism_add_input(parts.mechanism, "", 0.0, &id), BAUM_ERR_ARGUMENT,
               "input 2: name is empty; NULL stands for the default name");
   ASSERT_SAYS(baum_mechanism_add_input(parts.mechanism, "a\rb", 0.0, &id), BAUM_ERR_ARGUMENT,
-              "input 2: name has the control character 0x0d (at 1)");
+              "input 2: name has the control character 0x0d at index 1");
   assert_memory_equal(&id, &SENTINEL, sizeof id);
   assert_int_equal(baum_mechanism_input_count(parts.mechanism), 1);
   assert_true(value == 7.0);

@@ -93,8 +93,8 @@ static const bad_option bad_options[] = {
   {false, OPTION(rtol), 1e-6, "rtol is 1e-06, but euler has a fixed step"},
   {false, OPTION(atol), 1e-9, "atol is 1e-09, but euler has a fixed step"},
   {false, OPTION(max_step), 0.1, "max_step is 0.1 s, but euler has a fixed step"},
-  {false, OPTION(tolerance_q), 2.0, "tolerance_q is 2, but euler takes no tolerance here"},
-  {false, OPTION(tolerance_v), (double)NAN, "tolerance_v is nan, but euler takes no tolerance"},
+  {false, OPTION(tolerance_q), 2.0, "tolerance_q is 2, but euler has no tolerances here"},
+  {false, OPTION(tolerance_v), (double)NAN, "tolerance_v is nan, but euler has no tolerances"},
   {true, OPTION(max_step), 0.0, "max_step is 0 s, must be > 0"},
   {true, OPTION(tolerance_q), 0.0, "tolerance_q is 0, must be > 0"},
   {true, OPTION(tolerance_v), -1.0, "tolerance_v is -1, must be > 0"},
@@ -152,7 +152,7 @@ static void invalid_choices_are_refused(void **state)
   o = good_options();
   o.formulation = (baum_formulation)17;
   check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                "euler does not offer the formulation of that number|it offers baumgarte");
+                "euler does not offer the formulation with that number|it offers baumgarte");
   o = good_options();
   o.integrator = baum_cvode_adams();
   o.step = (double)NAN;

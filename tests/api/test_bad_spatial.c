@@ -146,9 +146,9 @@ static void axes_without_direction_are_refused(void **state)
   for (int k = 0; k < ELEMENT_KINDS; k++) {
     const element_kind *kind = &element_kinds[k];
     if (begins(kind->name, "spatial")) {
-      counts[0] += refuses(&parts, kind, "axis", zero, "axis is (0, 0, 0), must have a direction");
+      counts[0] += refuses(&parts, kind, "axis", zero, "axis is (0, 0, 0), which has no direction");
       counts[1] +=
-        refuses(&parts, kind, "axis_b", zero, "axis_b is (0, 0, 0), must have a direction");
+        refuses(&parts, kind, "axis_b", zero, "axis_b is (0, 0, 0), which has no direction");
       (void)refuses(&parts, kind, "axis", absent, "axis|nan");
       (void)refuses(&parts, kind, "axis_b", half, "axis_b|nan");
     }
@@ -452,7 +452,7 @@ static void freezing_refuses_opposite_axes(void **state)
       baum_mechanism *mechanism = mount(directed[k], bad[i]);
       ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
                   "\"mount\": axis and axis_b point in opposite directions in the design "
-                  "configuration; turn one of them round");
+                  "configuration; reverse one of them");
       baum_mechanism_destroy(mechanism);
     }
     baum_mechanism *mechanism = mount(directed[k], good);
@@ -478,7 +478,7 @@ static void freezing_refuses_axes_that_leave_coordinates_open(void **state)
   memcpy(def.x_axis, z, sizeof z);
   check(baum_mechanism_set_spatial_planar(mechanism, id, &def));
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
-              "\"mount\": x_axis is parallel to axis, must not be");
+              "\"mount\": x_axis is parallel to axis; give another");
   baum_mechanism_destroy(mechanism);
 }
 
@@ -503,8 +503,8 @@ static void check_reversed(const char *kind, const double orientation[4])
     assert_true(fabs(phi[i]) < 1e-15);
   }
   ASSERT_SAYS(baum_workspace_assemble(w, 0.0, q, v, NULL, 0), BAUM_ERR_INCONSISTENT,
-              "t = 0 s: assembly leads to opposite axes in |\"mount\"|; give a configuration "
-              "in which they point the same way");
+              "t = 0 s: assembly makes the axes of |\"mount\"|; give a configuration "
+              "in which they point in the same direction");
   baum_workspace_destroy(w);
   baum_mechanism_destroy(mechanism);
 }

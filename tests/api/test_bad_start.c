@@ -94,7 +94,7 @@ static void an_exact_start_refuses_positions_off_the_constraints(void **state)
   bead_def def = GOOD_BEAD;
   def.length = 1.01;
   check_bead_refused(&def, BAUM_START_EXACT,
-                     "t = 0 s: start is exact, but joint 1 \"rod\" has Phi = -0.00995 m or rad");
+                     "t = 0 s: start is exact, but in joint 1 \"rod\" Phi = -0.00995 m or rad");
 }
 
 static void an_exact_start_refuses_velocities_off_the_constraints(void **state)
@@ -104,7 +104,7 @@ static void an_exact_start_refuses_velocities_off_the_constraints(void **state)
   def.v[0] = 0.5;
   def.v[1] = 2.0;
   check_bead_refused(&def, BAUM_START_EXACT,
-                     "t = 0 s: start is exact, but joint 1 \"rod\" has Phi' = 0.5 m/s or rad/s");
+                     "t = 0 s: start is exact, but in joint 1 \"rod\" Phi' = 0.5 m/s or rad/s");
 }
 
 static void given_velocities_that_conflict_are_named(void **state)
@@ -113,7 +113,7 @@ static void given_velocities_that_conflict_are_named(void **state)
   bead_def def = GOOD_BEAD;
   def.v[0] = 0.5;
   check_bead_refused(&def, BAUM_START_ASSEMBLE,
-                     "the given velocities do not satisfy joint 1 \"rod\"|0.5|leave free");
+                     "the given velocities do not satisfy joint 1 \"rod\"|0.5|leave those free");
   assert_null(strstr(baum_message(), "away from the design configuration"));
 }
 
@@ -127,9 +127,10 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
   def.length = 1.02;
   def.v[0] = 0.0;
   def.v[1] = 1.0;
-  check_bead_refused(&def, BAUM_START_ASSEMBLE,
-                     "the given velocities do not satisfy joint 1 \"rod\"|leave free|they must fit "
-                     "the assembled configuration, in which body 1 \"bead\" is 0.0199 m away from");
+  check_bead_refused(
+    &def, BAUM_START_ASSEMBLE,
+    "the given velocities do not satisfy joint 1 \"rod\"|leave those free|they must fit "
+    "the assembled configuration, in which body 1 \"bead\" is 0.0199 m away from");
   def.v[0] = (double)NAN;
   baum_mechanism *mechanism = make_bead(&def);
   baum_simulation_options o = euler_options();

@@ -335,7 +335,7 @@ static void wrong_fields_are_named_and_change_nothing(void **state)
   static const int32_t *const outside_triangles = outside[0], *const below_triangles = below[0];
   static const char *const red = "red", *const wide = "#12345g", *const empty = "";
   static const wrong wrongs[] = {
-    WRONG(BOX, form, seventh, "no such form"),
+    WRONG(BOX, form, seventh, "form is not one of"),
     WRONG(BOX, color, red, "color"),
     WRONG(BOX, color, wide, "color"),
     WRONG(BOX, color, empty, "color"),

@@ -226,7 +226,7 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
   const baum_catalog_choice too_short = {"slider_crank_driven", &less, 1};
   double q[NQ] = {0.0};
   ASSERT_SAYS(baum_catalog_reference(&longer, 0.0, q, NULL), BAUM_ERR_UNSUPPORTED,
-              "is for rod = 0.30599999999999999 m, it is not known for 0.4");
+              "is known only for rod = 0.30599999999999999 m, not for 0.4");
   ASSERT_SAYS(baum_catalog_reference(&CRANK, 0.005, q, NULL), BAUM_ERR_ARGUMENT, "no sample at");
   ASSERT_SAYS(baum_catalog_reference(&CRANK, (double)INFINITY, q, NULL), BAUM_ERR_ARGUMENT,
               "must be finite");
@@ -353,7 +353,7 @@ static void states_of_something_else_are_not_compared(void **state)
   baum_catalog_error e;
   assert_int_equal(baum_mechanism_copy(m, &open), BAUM_OK);
   ASSERT_SAYS(baum_catalog_compare(&CRANK, m, &t, 1, q, q, &e, sizeof e), BAUM_ERR_ARGUMENT,
-              "has 30 coordinates, \"slider_crank\" has 9");
+              "has 30 coordinates, but \"slider_crank\" has 9");
   ASSERT_SAYS(baum_catalog_compare(&chain, m, &t, 1, q, q, &e, sizeof e), BAUM_ERR_UNSUPPORTED,
               "no reference");
   ASSERT_SAYS(baum_catalog_compare(&CRANK, open, &t, 1, q, q, &e, sizeof e), BAUM_ERR_STATE,

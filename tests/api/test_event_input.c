@@ -58,7 +58,7 @@ static void definitions_are_checked(void **state)
   def.name = "";
   refuse(run, &def, "event 0: name is empty; NULL stands for the default name");
   def.name = "sto\np";
-  refuse(run, &def, "event 0: name has the control character 0x0a (at 3)");
+  refuse(run, &def, "event 0: name has the control character 0x0a at index 3");
   def.name = "stop";
   refuse(run, NULL, "the definition is NULL");
   refuse(NULL, &def, "the simulation is NULL");

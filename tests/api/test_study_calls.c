@@ -289,7 +289,7 @@ static void results_of_entries_that_were_not_run_are_refused(void **state)
   o.integrator = NULL;
   ASSERT_SAYS(baum_study_add(study, &o), BAUM_ERR_ARGUMENT, "integrator is NULL");
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_STATE, "no entry is done");
+              BAUM_ERR_STATE, "no entry has been run");
   ASSERT_SAYS(baum_study_cost_at(study, 1, 1e-3, BAUM_STUDY_WORK, &cost), BAUM_ERR_ARGUMENT,
               "no method 1");
   ASSERT_SAYS(baum_study_reference_sample(study, 0, NULL, NULL, NULL, NULL), BAUM_ERR_STATE,
@@ -351,9 +351,9 @@ static void nothing_is_recommended_where_nothing_was_compared(void **state)
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no entry that is done followed the true motion");
+              BAUM_ERR_ARGUMENT, "none of the finished entries followed the true motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, 1.0, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no entry that is done followed the true motion");
+              BAUM_ERR_ARGUMENT, "none of the finished entries followed the true motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, INFINITY, &best, sizeof best, NULL, 0),
               BAUM_ERR_ARGUMENT, "seconds is inf s, must be finite and > 0");
   baum_study_destroy(study);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Continues studies from files. A file consists of arbitrary bytes, or of a real file in which bits
- * and lines are changed, including lines of another study. A third kind is a real file in which
- * fields were changed and the digests of their lines corrected. If a file is refused, it must be
- * unchanged. If it is accepted, the study must have exactly the entries of a study without a file,
- * unless a digest was corrected. In every case, if a completed study is run again, nothing may be
- * left to do. */
+/* Continues studies from files. There are three kinds of files. One consists of arbitrary bytes.
+ * One is a real file in which bits or lines were changed, or which contains lines of another study.
+ * One is a real file in which fields were changed and the digests of their lines corrected. If a
+ * file is refused, it must be unchanged. If it is accepted, the study must have exactly the entries
+ * of a study without a file, unless a digest was corrected. Running a completed study again must
+ * never find anything left to do. */
 #define _GNU_SOURCE /* for mkstemp */
 #include <stdio.h>
 #include <stdlib.h>

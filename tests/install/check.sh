@@ -128,7 +128,7 @@ LD_LIBRARY_PATH=$libraries "$build/tutorial"
 
 echo "the binary of FMUs exports only functions of FMI"
 if nm -D --defined-only "$libraries/baum/baum_fmu.so" | grep -v ' fmi3'; then
-  fail "baum_fmu.so exports these"
+  fail "baum_fmu.so exports the symbols above"
 fi
 
 echo "every example, with the installed libraries"
@@ -139,5 +139,5 @@ done
 
 echo "no path of the build is installed"
 if grep -rF "$project" "$libraries/cmake/baum" "$pc"/baum*.pc "$prefix/include/baum"; then
-  fail "these lines name the folder of the build"
+  fail "the lines above contain the path of the project"
 fi

@@ -34,8 +34,8 @@ make_root() {
   done
 }
 
-# inside ROOT FOLDER COMMAND... runs a command in the bare system. It has only those environment
-# variables that say where packages are.
+# inside ROOT FOLDER COMMAND... runs a command in the bare system. Of the environment variables, the
+# command receives only those that say where packages are.
 inside() {
   root=$1
   folder=$2

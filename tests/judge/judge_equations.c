@@ -79,8 +79,8 @@ static void add_angle(double *row, const marker *m, double value)
 typedef struct gap {
   marker a;
   marker b;
-  double d[2];
-  double dd[2];
+  double d[2];    /* from point a to point b */
+  double dd[2];   /* d' */
   double bias[2]; /* the value of d'' if all accelerations are 0 */
 } gap;
 

@@ -3,12 +3,13 @@
  *
  *   M a + J^T lambda = g,  J a = gamma
  *
- * M is constant and diagonal. With J~ = J M^-1/2 and the Householder factorization J~^T = Q (R; 0),
- * the solution is
+ * M is constant and diagonal, J is the constraint Jacobian, and g are the applied forces. With J~ =
+ * J M^-1/2 and the Householder factorization J~^T = Q (R; 0), the solution is
  *
  *   a = M^-1/2 Q (R^-T gamma; Q2^T M^-1/2 g),
  *
- * Unlike a solution with J~ J~^T, this one does not square the condition number of J~.
+ * where Q2 are the columns of Q that belong to the zeros. Unlike a solution with J~ J~^T, this one
+ * does not square the condition number of J~.
  */
 #ifndef BAUM_JUDGE_EQUATIONS_H
 #define BAUM_JUDGE_EQUATIONS_H

@@ -212,8 +212,8 @@ static double along(const judge_scene *s, const double *direction, const double 
   return sum;
 }
 
-/* Computes a matrix by differences. It maps small changes of positions and velocities at sample k
- * to the changes that they cause at sample k + 1. */
+/* Computes a matrix by differences. The matrix maps small changes of positions and velocities at
+ * sample k to the changes that they cause at sample k + 1. */
 static bool differentiate(const judge_scene *s, const judge_reference *ref, int k, double h,
                           matrix *out)
 {

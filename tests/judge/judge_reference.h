@@ -17,8 +17,8 @@ typedef struct judge_state {
 typedef struct judge_reference {
   double t[JUDGE_SEGMENTS + 1];
   judge_state at[JUDGE_SEGMENTS + 1];
-  /* Largest difference between two runs, which have the orders 14 and 12 and the tolerances 1e-12
-   * and 1e-10. */
+  /* Largest difference between the two runs for the reference. Their orders are 14 and 12, and
+   * their tolerances are 1e-12 and 1e-10. */
   double agreement;
   double rate;        /* [1/s] mean of |v| over the samples, with v in m/s and rad/s */
   double kinetic;     /* [J] largest kinetic energy at a sample */

@@ -11,6 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 
+/* A scene that is being generated, and the choices that hold for all of it. */
 typedef struct pen {
   judge_scene *s;
   judge_dice dice;

@@ -25,10 +25,11 @@ LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
-Every message and warning of the library, from the sources: `python3 tests/layout/check_messages.py --write .` writes this page. `#`
-stands for a number, `...` for a name or another text. `sh tests/run.sh coverage` lists the messages that no test triggers.
-Each warning links to its [entry](cookbook/warnings.md), [theory/errors.md](theory/errors.md) explains doubts, [status.h](../include/baum/status.h) the statuses. *As failed* stands for
-the status of the failure that the message passes on.
+This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
+sources. `#` stands for a number, and `...` for a name or another text. *As failed* means that the message is added to another
+failure, whose status it keeps. Each warning links to its [entry](cookbook/warnings.md).
+[theory/errors.md](theory/errors.md) describes the warnings that put a result in doubt, and
+[status.h](../include/baum/status.h) the statuses. `sh tests/run.sh coverage` lists the messages that no test triggers.
 """
 
 

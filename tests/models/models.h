@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms that several tests use. They are mechanisms of the catalogue and variants of them.
  *
- * Each call makes a frozen mechanism whose design configuration is exactly the start, and returns
- * BAUM_OK. If it fails, it makes no mechanism and returns the status. All data are in SI units. If
- * there is gravity, it acts along -y.
+ * Each call makes a frozen mechanism whose design configuration is exactly its initial
+ * configuration, and returns BAUM_OK. If it fails, it makes no mechanism and returns the status.
+ * All data are in SI units. If there is gravity, it acts along -y.
  */
 #ifndef BAUM_TEST_MODELS_H
 #define BAUM_TEST_MODELS_H
@@ -56,8 +56,8 @@ extern const model_pendulum MODEL_PENDULUM_SUNDIALS; /* cvPendulum_dns; its peri
 
 /* Makes the pendulum as a particle with a distance joint. */
 baum_status model_pendulum_rod(const model_pendulum *data, model *out);
-/* Makes the pendulum as a particle with the user constraint x^2 + y^2 - 1 = 0. The user gives only
- * Phi. */
+/* Makes the pendulum as a particle with the user constraint x^2 + y^2 - 1 = 0. The user gives no
+ * derivatives of this constraint. */
 baum_status model_pendulum_circle(const model_pendulum *data, model *out);
 
 /* ---- slider-crank of Flores, Leine, Glocker with eccentricity -------------------------------- */
@@ -78,7 +78,7 @@ typedef struct model_slider_crank {
   double angle;    /* [rad] of the crank at the start */
   double rod;      /* [m] length of the rod, or 0 for that of the paper */
   double rod_mass; /* [kg] mass of the rod, or 0 for that of the paper */
-  /* Number of bodies that carry the crank; they are stacked and welded to the ground. */
+  /* Number of frame bodies between the ground and the crank. Each is welded to the one before. */
   int frames;
   const model_units *units; /* NULL for SI units */
 } model_slider_crank;
@@ -104,8 +104,8 @@ void model_andrews_from_bodies(const double *q, double angles[MODEL_ANDREWS_ANGL
 
 /* ---- car axis: 4 coordinates, 2 rows that depend on time ------------------------------------- */
 
-/* Makes the car axis. Its Jacobian and nu may be given or not. The signs of the multipliers are
- * opposite to those in the test set. */
+/* Makes the car axis. The functions for its Jacobian J and for nu (of J v = nu) may be given or
+ * not. The signs of the multipliers are opposite to those in the test set. */
 baum_status model_car_axis(bool with_derivatives, model *out);
 
 /* ---- slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies --------------------------------- */
@@ -121,7 +121,7 @@ baum_status model_sundials_slider_crank(model *out);
 baum_status model_four_bar(model *out);
 baum_status model_four_bar_in(const model_units *units, model *out); /* NULL for SI units */
 
-/* ---- N-four-bar: N windows of uniform rods of 1 m ---- */
+/* ---- N-four-bar: N square loops ("windows") of uniform rods of 1 m ---- */
 
 typedef struct model_n_four_bar {
   int loops; /* N */
@@ -173,9 +173,10 @@ typedef struct model_parallelogram_data {
   model_parallelogram which;
   double angle; /* [rad] of the cranks at the start */
   double rate;  /* [rad/s] of the cranks at the start, or 0 for 2 rad/s */
-  /* Whether a second pin, "pin again", is at the tip of the last crank; it adds two rows. */
+  /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
+   * rows. */
   bool doubled;
-  double aside; /* [m] distance of the second pin from the first, on both of its bodies */
+  double aside; /* [m] how far the second pin is from the first, on both of its bodies */
   double gap;   /* [m] distance along the crank by which the points of the second pin differ */
   double above; /* [m] how much higher the foot of the middle crank is than those of the others */
   bool framed;  /* whether there is an additional body, which is welded to the ground */

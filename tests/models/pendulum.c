@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pendulum of the catalogue, with its circle as a user constraint. The user gives only Phi. */
+/* The pendulum of the catalogue, with its circle as a user constraint without derivatives. */
 #include "models.h"
 
 static int circle(double t, const double *q, double *phi, void *user)

@@ -19,8 +19,9 @@ typedef enum model_spatial {
   MODEL_SPATIAL_COUNT
 } model_spatial;
 
-/* Gives a mechanism under gravity along -z (Bricard: -y). `links`: number of links of a chain;
- * others ignore it. Only the coupler and the rocker of MODEL_RSSR have free velocities. */
+/* Makes a mechanism under gravity along -z (Bricard: -y). `links` is the number of links of a
+ * chain. Other mechanisms ignore it. All velocities are given, except those of the coupler and the
+ * rocker of MODEL_RSSR. */
 baum_status model_spatial_build(model_spatial which, int links, model *out);
 
 const char *model_spatial_name(model_spatial which);

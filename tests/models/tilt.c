@@ -147,7 +147,7 @@ static baum_status add_driver(twin *t, int k)
     baum_mechanism_get_driver(t->planar, baum_mechanism_joint_at(t->planar, k), &def, sizeof def);
   int of = def.joint.index1 - 1;
   def.joint = t->joints[of];
-  def.value -= t->relative[of]; /* because spatial angles are 0 in the design configuration */
+  def.value -= t->relative[of]; /* spatial joint angles are 0 in the design configuration */
   return status == BAUM_OK ? baum_mechanism_add_driver(t->into, &def, &t->joints[k]) : status;
 }
 

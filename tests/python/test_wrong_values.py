@@ -128,10 +128,10 @@ class Instead(unittest.TestCase):
         self.says(TypeError, 'joint "c": bodies: a body or a list of bodies is wanted', m.thawed().constraint,
                   "c", lambda t, q: q, 1, lambda t, q: q)
         self.says(ValueError, "position: 2 numbers are wanted, not one", m.copy, bob=dict(position=1))
-        self.says(baum.Error, "rk4 needs it; rtol is for variable steps", m.simulation, "rk4", rtol=1e-6)
+        self.says(baum.Error, "rk4 needs it; rtol is only for integrators", m.simulation, "rk4", rtol=1e-6)
         self.says(baum.Error, "call again to continue, or raise max_steps", m.simulation("rk4", step=1e-3,
                   max_steps=2).advance_to, 1)
-        self.says(baum.Error, r"no entry is done and timed; call run\(\) first", baum.study(
+        self.says(baum.Error, r"no entry has been run and timed; call run\(\) first", baum.study(
             m, 0, 1, progress=False).recommend, 1e-3)
 
     def test_a_mechanism_that_is_not_frozen(self):

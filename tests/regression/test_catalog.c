@@ -23,7 +23,7 @@
 #include "slider_crank_driven_reference.h"
 #include "sundials_pendulum_reference.h"
 
-/* An entry and its reference, for the parameters of a choice. */
+/* An entry of the catalogue with chosen parameters, and its reference motion. */
 typedef struct known {
   baum_catalog_entry entry;
   baum_catalog_choice choice;
@@ -95,7 +95,7 @@ static double worst_of(const double *x, int count)
   return worst;
 }
 
-/* Computes J v - nu. */
+/* Computes J v - nu at sample i of the reference. This rate of the constraints must be 0. */
 static void find_rate(const known *k, baum_workspace *workspace, int i, double *rate)
 {
   const double *q = k->q + (size_t)i * (size_t)k->nq;
@@ -186,9 +186,8 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Errors of up to 5e-10 were measured, because the errors of hundreds of steps add up. The error
-   * was 1.9e-9 after nine revolutions of the spatial slider-crank, and 6e-9 after flat
-   * configurations. */
+  /* Most errors are at most 5e-10. They add up over hundreds of steps. The spatial slider-crank has
+   * an error of 1.9e-9 after nine revolutions. After flat configurations, errors reach 6e-9. */
   double wanted = k->entry.smooth ? 3e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);

@@ -144,9 +144,9 @@ static double length_error(double t, const double *q)
   return largest(got, want, LEGS);
 }
 
-/* Every body starts in another wrong pose. The lengths of the legs belong to another time in each
- * start. Assembly must find a pose of the platform with these lengths. There are several such
- * poses, and nearly always assembly finds that of the given motion. */
+/* In each start, every body has another wrong pose, and the lengths of the legs are those of
+ * another time. Assembly must find a pose of the platform with these lengths. There are several
+ * such poses. Assembly nearly always finds the one of the given motion. */
 static void assembly_solves_the_forward_kinematics_from_100_starts(void **state)
 {
   (void)state;

@@ -19,8 +19,8 @@ static double larger(double a, double b)
   return isnan(b) || b > a ? b : a;
 }
 
-/* Computes the angle of the first crank, and the largest difference of any coordinate from its
- * value at this angle. */
+/* Computes the angle of the first crank. Also computes by how much the coordinates differ at most
+ * from those of parallel cranks at this angle. */
 static void angle_and_departure(const double *q, double *out)
 {
   double c = cos(q[2]);

@@ -62,9 +62,9 @@ static void rk4_with_projection_reaches_both(void **state)
 {
   (void)state;
   model m;
-  /* The angular velocity is below 5.3 rad/s. At these steps, (5.3 h)^4 is 4e-11 and 3e-12. The
-   * error is about this number, multiplied by the angle covered, which is 40 and 120 rad, and
-   * divided by 5!. */
+  /* The angular velocity is below 5.3 rad/s. For the two steps h below, (5.3 h)^4 is 4e-11 and
+   * 3e-12. The error is about this number times the angle covered (40 and 120 rad), divided by
+   * 5!. */
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   assert_reached_by_rk4(&A01, m.mechanism, 1.0 / 2048, 1e-10);
   model_destroy(&m);

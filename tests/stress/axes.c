@@ -43,7 +43,7 @@ static const way BDF_GAINS = SUNDIALS("bdf baumgarte", baum_cvode_bdf, BAUMGARTE
 static const way GGL = SUNDIALS("ida ggl", baum_ida, GGL);
 static const way IDA_GAINS = SUNDIALS("ida baumgarte", baum_ida, BAUMGARTE);
 
-/* These lists end with NULL. */
+/* Lists of ways (integrators with formulations). Each list ends with NULL. */
 static const way *const FIXED_WAYS[] = {&RK4,        &RK8_FIXED, &AB4,   &EULER,
                                         &SYMPLECTIC, &RATTLE,    &ALPHA, NULL};
 static const way *const VARIABLE_WAYS[] = {&RK8,       &RK8_GAINS, &DP5,       &ADAMS, &BDF,
@@ -124,7 +124,7 @@ typedef struct decades {
   int from, to, by; /* the exponents of ten */
   const way *const *ways;
   bool zero;    /* whether the first value is 0 */
-  int64_t most; /* largest number of steps; 0 means the one of ordinary cells */
+  int64_t most; /* largest number of steps; 0 means the limit of an ordinary cell */
 } decades;
 
 static const decades DECADES[] = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Axes that are carried from body to body. Their origin r and their quaternion p are functions of
- * one angle. */
+/* Axes that are moved along a mechanism from body to body. Their origin r and their quaternion p
+ * are functions of one angle. */
 #ifndef BAUM_TEST_CARRIED_H
 #define BAUM_TEST_CARRIED_H
 

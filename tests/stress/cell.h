@@ -24,8 +24,8 @@ typedef struct cell {
   double step;    /* fixed step divided by this period */
   double rtol;    /* tolerance, for variable steps */
   double gain;    /* [1/s] alpha = beta, or NaN for the default rule */
-  /* [-] This number is added to the permitted error, because the data are not exact. It is relative
-   * to the characteristic length. */
+  /* [-] An addition to the permitted error, relative to the characteristic length. It allows for
+   * data that are not exact, such as redundant joints at slightly different places. */
   double share;
   baum_start begin; /* the option `start` of the run */
   int64_t most;     /* largest number of steps */
@@ -35,8 +35,9 @@ typedef enum outcome {
   MET,     /* the error is at most the promise */
   REFUSED, /* the run was not started */
   STOPPED, /* the run ended early with a message */
-  WARNED,  /* a warning doubts the motion */
-  /* The motion is wrong, but a crossing was reported at a place where branches are within 1e-10. */
+  WARNED,  /* a warning says that the motion may be wrong */
+  /* The motion is wrong. The run reported a singularity crossing, where two branches are within
+   * 1e-10 of each other. */
   CROSSED,
   WRONG, /* the status is OK and there is no warning, but the error is above the promise */
   OUTCOMES
@@ -56,12 +57,12 @@ typedef struct grade {
 
 const char *outcome_name(outcome o);
 
-/* The duration of a cell's run, and the units of time and length for it. */
+/* The duration of a cell's run, and the units of time and length in which the cell is described. */
 typedef struct cell_time {
   double rate;   /* [rad/s] fastest rate of the motion */
   double period; /* [s] */
   double span;   /* [s] */
-  double scale;  /* [m] */
+  double scale;  /* [m] characteristic length */
 } cell_time;
 
 cell_time cell_time_of(const cell *c);

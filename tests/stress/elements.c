@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steady motion of the disc. The axis of the disc is at the angle p from the vertical, the centre
+/* Steady motion of the disc. The axis of the disc is at the angle p from the vertical. The centre
  * moves with the angular velocity W on a circle of radius c, and the contact point is on the outer
- * side. The disc spins about its axis with -x', relative to the axes that precess. With the moments
- * of inertia I_a (axial) and I_t, the contact point does not slip, and the balance of the angular
- * momentum about the centre holds, if
+ * side. Relative to axes that precess with the disc, it spins about its axis with -x'. R is its
+ * radius. Its moments of inertia are I_a (axial) and I_t (transverse). The contact point does not
+ * slip, and the angular momentum about the centre is balanced, if
  *
  *   x' = W (c / R + cos p),   m g R cos p = W^2 sin p (m R c + I_a c / R + I_t cos p)
  *
@@ -12,8 +12,8 @@
  *   (A - I_t) cos p W^2 - A x' W + m g R cot p = 0
  *
  * The bushing has equal stiffness k in all directions, and also damping d. Its points are at the
- * distance b from the axis of the revolute joint, and it is relaxed RELAXED before the start. If h
- * is the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ * distance b from the axis of the revolute joint. It is relaxed at an angle that is RELAXED before
+ * the start. If h is the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
  *
  * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable runs from the bead to the
  * point (0, 0, h), and over a length SIDE to its end. With l = sqrt(r^2 + (h - c x)^2), its torque
@@ -80,7 +80,7 @@ static long double precession_of(const scene *s)
   long double square = (all - DISC_MASS[1]) * cosl(TILT);
   long double linear = all * s->rate;
   long double constant = m * s->gravity * RADIUS * cosl(TILT) / sinl(TILT);
-  /* The sum in the denominator does not cancel. */
+  /* This form has no cancellation, because the two terms of the denominator have the same sign. */
   return 2 * constant / (linear + sqrtl(linear * linear - 4 * square * constant));
 }
 

@@ -77,9 +77,8 @@ static double distance(const scene *s, long double x, long double y, double scal
   return most;
 }
 
-/* Returns the rate of oscillations on a stiff spring. It is computed from the slope of the
- * acceleration. The function rate_at() uses the size of the acceleration, which does not show this
- * rate. */
+/* Returns the rate of oscillations on a stiff spring, from the slope of the acceleration. The
+ * function rate_at() cannot show this rate, because it uses only the size of the acceleration. */
 static double stiff_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};
@@ -301,9 +300,9 @@ static outcome judge(const trial *t, const grade *g)
   return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
 
-/* Returns true if a refusal was wrong, which can happen in two ways. The start may be neither
- * singular nor inconsistent. Or the library may call gains unstable although the run meets its
- * promise with them. */
+/* Returns true if the library should not have refused the run. This can happen in two ways. The
+ * start is neither singular nor inconsistent. Or the gains were called unstable, but a run with
+ * them meets its promise. */
 static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {

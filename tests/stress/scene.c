@@ -126,7 +126,7 @@ static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
   if (rod == CRANK) {
-    /* The smooth branch through the configuration in which rod and crank coincide. */
+    /* This branch is smooth where rod and crank coincide. */
     return (turn){-x, -1, 0};
   }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};

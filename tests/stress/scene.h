@@ -63,7 +63,7 @@ baum_status scene_build(const scene *s, model *out);
  * driver's value in double precision. */
 double scene_begin(const scene *s);
 enum { SCENE_NUMBERS = 7 };
-/* Returns the number of coordinates of each body. It is 2, 3 or, in space, 7. */
+/* Returns the number of coordinates of each body. It is 2 or 3 in the plane, and 7 in space. */
 int scene_width(const scene *s);
 int scene_bodies(const scene *s);
 /* Computes the pose of a body when the angle of the first body is x. The pose consists of x, y and

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The spatial mechanisms of the stress grid. Some are entries of the catalogue whose exact motion
  * follows from one equation for one angle. Others are in elements.h. The rest are planar scenes in
- * a tilted plane. A body
- * has seven coordinates: x, y, z [m] and the quaternion. */
+ * a tilted plane. A body has seven coordinates: x, y, z [m] and the quaternion. */
 #ifndef BAUM_TEST_SPACE_H
 #define BAUM_TEST_SPACE_H
 

@@ -59,7 +59,7 @@ void check_spring_law_verdict(baum_mechanism *mechanism, const char *name, int e
     char begin[128];
     (void)snprintf(begin, sizeof begin, "force 1 \"%s\": law()[%d] is ", name, entry);
     assert_memory_equal(baum_message(), begin, strlen(begin));
-    assert_non_null(strstr(baum_message(), " but differences of law()[0] give "));
+    assert_non_null(strstr(baum_message(), " but finite differences of law()[0] give "));
   }
   baum_mechanism_destroy(mechanism);
 }

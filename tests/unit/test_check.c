@@ -122,8 +122,9 @@ static int unit_circle_phi(double t, const double *q, double *out, void *user)
 static void a_wrong_entry_of_the_jacobian_is_named(void **state)
 {
   (void)state;
-  user_check_wrong(user_make_constraint(unit_circle_phi, half_jacobian, NULL, NULL, 1.0),
-                   "joint 1 \"circle\": jacobian()[0][1] is -0.8 but differences of phi give -1.6");
+  user_check_wrong(
+    user_make_constraint(unit_circle_phi, half_jacobian, NULL, NULL, 1.0),
+    "joint 1 \"circle\": jacobian()[0][1] is -0.8 but finite differences of phi give -1.6");
 }
 
 static void an_entry_that_is_right_in_the_design_configuration_only_is_found(void **state)
@@ -132,8 +133,8 @@ static void an_entry_that_is_right_in_the_design_configuration_only_is_found(voi
   baum_mechanism *mechanism =
     user_make_constraint(unit_circle_phi, frozen_jacobian, NULL, NULL, 1.0);
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
-  assert_non_null(
-    strstr(baum_message(), "joint 1 \"circle\": jacobian()[0][1] is -1.6 but differences of phi"));
+  assert_non_null(strstr(
+    baum_message(), "joint 1 \"circle\": jacobian()[0][1] is -1.6 but finite differences of phi"));
 }
 
 static void an_entry_that_is_wrong_by_a_hundred_thousandth_is_found(void **state)
@@ -143,7 +144,7 @@ static void an_entry_that_is_wrong_by_a_hundred_thousandth_is_found(void **state
   for (int i = 0; i < 4; i++) {
     user_check_wrong(
       user_make_constraint(unit_circle_phi, slightly_wrong_jacobian, NULL, NULL, scales[i]),
-      "joint 1 \"circle\": jacobian()[0][1] is -1.600016 but differences of phi give -1.6");
+      "joint 1 \"circle\": jacobian()[0][1] is -1.600016 but finite differences of phi give -1.6");
   }
 }
 
@@ -184,7 +185,7 @@ static void nu_of_the_wrong_sign_is_named(void **state)
 {
   (void)state;
   user_check_wrong(user_make_constraint(driven_phi, NULL, turned_nu, NULL, 1.0),
-                   "joint 1 \"circle\": nu()[0] is -6 but differences of phi in t give 6");
+                   "joint 1 \"circle\": nu()[0] is -6 but finite differences of phi in t give 6");
 }
 
 static int no_gamma(double t, const double *q, const double *v, double *out, void *user)
@@ -213,15 +214,15 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
   (void)state;
   char message[128];
   (void)snprintf(message, sizeof message,
-                 "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
-                 -18.0 * sin(3.0 * 0.37));
+                 "joint 1 \"circle\": gamma()[0] is 0 but finite differences of %s give %.9g",
+                 "phi", -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
   /* Second differences have only seven correct digits here. The last digits of the message are
    * therefore not compared. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,
-                 "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g",
+                 "joint 1 \"circle\": gamma()[0] is 0 but finite differences of %s give %.9g",
                  "jacobian and nu", -18.0 * sin(3.0 * 0.37));
   user_check_wrong(user_make_constraint(driven_phi, driven_jacobian, right_nu, no_gamma, 1.0),
                    message);
@@ -275,10 +276,12 @@ static void wrong_derivatives_of_a_force_are_named(void **state)
 {
   (void)state;
   user_check_right(user_make_force(cubic_force, cubic_force_q, cubic_force_v, NULL));
-  user_check_wrong(user_make_force(cubic_force, wrong_force_q, NULL, NULL),
-                   "force 1 \"spring\": force_q()[0][0] is 5 but differences of force give -5");
-  user_check_wrong(user_make_force(cubic_force, cubic_force_q, user_no_force, NULL),
-                   "force 1 \"spring\": force_v()[0][1] is 0 but differences of force give -7");
+  user_check_wrong(
+    user_make_force(cubic_force, wrong_force_q, NULL, NULL),
+    "force 1 \"spring\": force_q()[0][0] is 5 but finite differences of force give -5");
+  user_check_wrong(
+    user_make_force(cubic_force, cubic_force_q, user_no_force, NULL),
+    "force 1 \"spring\": force_v()[0][1] is 0 but finite differences of force give -7");
 }
 
 /* ---- bodies ---- */
@@ -317,13 +320,13 @@ static void wrong_functions_of_a_body_are_named(void **state)
   double wrong[1] = {0.0};
   user_check_right(make_body(wrong, false, cubic_force_q, cubic_force_v));
   user_check_wrong(make_body(wrong, false, wrong_force_q, NULL),
-                   "body 1 \"arm\": force_q()[0][0] is 5 but differences of force give -5");
+                   "body 1 \"arm\": force_q()[0][0] is 5 but finite differences of force give -5");
   user_check_wrong(make_body(wrong, false, NULL, user_no_force),
-                   "body 1 \"arm\": force_v()[0][1] is 0 but differences of force give -7");
+                   "body 1 \"arm\": force_v()[0][1] is 0 but finite differences of force give -7");
   wrong[0] = 1e-3;
-  user_check_wrong(
-    make_body(wrong, false, NULL, NULL),
-    "body 1 \"arm\": mass()[1][0] is 0.5 but mass()[0][1] is 0.501; must be symmetric");
+  user_check_wrong(make_body(wrong, false, NULL, NULL),
+                   "body 1 \"arm\": mass()[1][0] is 0.5 but mass()[0][1] is 0.501; the mass matrix "
+                   "must be symmetric");
 }
 
 static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
@@ -383,8 +386,8 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
   char message[128];
   double nu = 6.0 * cos(3.0 * 0.37);
   (void)snprintf(message, sizeof message,
-                 "joint 1 \"circle\": nu()[0] is %.9g but differences of phi in t give %.9g", -nu,
-                 nu);
+                 "joint 1 \"circle\": nu()[0] is %.9g but finite differences of phi in t give %.9g",
+                 -nu, nu);
   user_check_wrong(user_make_constraint(late_phi, driven_jacobian, turned_nu, right_gamma, 1.0),
                    message);
 }
@@ -422,9 +425,10 @@ static void wrong_derivatives_of_a_law_of_a_driver_are_named(void **state)
   int which[] = {0, 1, 2, 3};
   user_check_right(make_driven(which));
   user_check_wrong(make_driven(which + 1),
-                   "joint 2 \"motor\": law()[1] is 3.5 but differences of law in t give 3");
+                   "joint 2 \"motor\": law()[1] is 3.5 but finite differences of law in t give 3");
   assert_int_equal(user_check(make_driven(which + 2)), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "law()[2] is 0.5 but differences of law in t give"));
+  assert_non_null(
+    strstr(baum_message(), "law()[2] is 0.5 but finite differences of law in t give"));
   user_check_right(make_driven(which + 3));
 }
 

@@ -351,7 +351,7 @@ static void factors_that_make_no_sense_are_refused(void **state)
   refused(m, &o, BAUM_ERR_UNSTABLE, "row_gains[1] = 400, of joint");
   refused(m, &o, BAUM_ERR_UNSTABLE, "gains alpha = 4000 1/s, beta = 8000 1/s with euler");
   o.row_gain_count = 3;
-  refused(m, &o, BAUM_ERR_ARGUMENT, "row_gain_count is 3, must be nc = 2");
+  refused(m, &o, BAUM_ERR_ARGUMENT, "row_gain_count is 3, must be nc = 2, the number of");
   o.row_gain_count = 2;
   factors[1] = -1.0;
   refused(m, &o, BAUM_ERR_ARGUMENT, "row_gains[1], of joint");

@@ -358,7 +358,7 @@ static void bad_numbers_are_refused_by_place(void **state)
   bad = good(&a);
   bad.v = v;
   check_refused(mechanism, add, &bad,
-                "body 1 \"arm\": v[0] is inf, must be finite, or NaN for free");
+                "body 1 \"arm\": v[0] is inf, must be finite, or NaN if free");
   bad = good(&a);
   bad.scale = zero;
   check_refused(mechanism, add, &bad, "body 1 \"arm\": scale[1] is 0, must be finite and > 0");

@@ -296,7 +296,7 @@ static void wrong_derivatives_are_named(void **state)
     char start[64];
     (void)snprintf(start, sizeof start, "joint 3 \"C\": law()[%d] is ", entry);
     if (!strstr(baum_message(), start) ||
-        !strstr(baum_message(), " but differences of law give ")) {
+        !strstr(baum_message(), " but finite differences of law give ")) {
       fail_msg("%s", baum_message());
     }
     baum_mechanism_destroy(mechanism);
@@ -312,7 +312,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_coupling_def, ratio), TEST_NAN,
      "joint 3 \"C\": ratio is nan [unit b / unit a], must be finite"},
     {offsetof(baum_coupling_def, offset), TEST_INFINITY,
-     "joint 3 \"C\": offset is inf rad or m, must be finite, or NaN for not given"},
+     "joint 3 \"C\": offset is inf rad or m, must be finite, or NaN if not given"},
   };
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 2);
   baum_mechanism_destroy(scene.mechanism);

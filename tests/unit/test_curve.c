@@ -255,7 +255,7 @@ static void wrong_derivatives_are_named(void **state)
     char start[64];
     (void)snprintf(start, sizeof start, "joint 1 \"cam\": curve()[%d] is ", entry);
     if (!strstr(baum_message(), start) ||
-        !strstr(baum_message(), " but differences of curve give ")) {
+        !strstr(baum_message(), " but finite differences of curve give ")) {
       fail_msg("%s", baum_message());
     }
     baum_mechanism_destroy(mechanism);

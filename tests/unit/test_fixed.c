@@ -73,7 +73,7 @@ static void wrong_fields_are_refused(void **state)
   baum_planar_fixed_def def = good(&scene);
   const bad_number numbers[] = {
     {offsetof(baum_planar_fixed_def, angle), TEST_INFINITY,
-     "joint 1 \"weld\": angle is inf rad, must be finite, or NaN for not given"},
+     "joint 1 \"weld\": angle is inf rad, must be finite, or NaN if not given"},
     {offsetof(baum_planar_fixed_def, point_a[1]), TEST_INFINITY,
      "joint 1 \"weld\": point_a[1] is inf m, must be finite"},
   };

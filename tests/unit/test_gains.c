@@ -303,7 +303,7 @@ static void auto_falls_back_when_nothing_moves(void **state)
   context.rate = 0.0;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 1.0 && c.beta == 1.0);
-  has(c.why, "(nothing moves at start: no rate, 1 1/s is used); variable step");
+  has(c.why, "(nothing moves at start: the rate is taken as 1 1/s); variable step");
 }
 
 static void auto_refuses_a_rate_that_is_no_number(void **state)

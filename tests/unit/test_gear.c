@@ -135,7 +135,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_gear_def, radius_b), 0.0,
      "joint 1 \"G\": radius_b is 0 m, must be finite and not 0"},
     {offsetof(baum_planar_gear_def, offset), TEST_INFINITY,
-     "joint 1 \"G\": offset is inf m, must be finite, or NaN for not given"},
+     "joint 1 \"G\": offset is inf m, must be finite, or NaN if not given"},
   };
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 3);
   baum_mechanism_destroy(scene.mechanism);

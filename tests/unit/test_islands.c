@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include <baum/planar.h>
+#include <baum/baum.h>
 #include <cmocka.h>
 
 #include "dynamics/islands.h"
@@ -137,6 +137,86 @@ static void fixed_bodies_make_no_island(void **state)
   assert_island(count(m, 0), 0, 0, 0);
 }
 
+/* ---- errors of one island ---- */
+
+/* Makes a slider-crank at a dead centre, whose slider is driven with the given acceleration. No
+ * acceleration of the crank achieves this. Beside it, a force accelerates a lever by about 2e9
+ * rad/s^2. */
+static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
+{
+  baum_joint_id guide;
+  baum_workspace *w = NULL;
+  baum_planar_translational_def line = baum_planar_translational_def_default();
+  baum_driver_def driver = baum_driver_def_default();
+  baum_planar_load_def load = baum_planar_load_def_default();
+  baum_body_id crank = add_body(m, 0.5, 0.0);
+  baum_body_id rod = add_body(m, 2.0, 0.0);
+  baum_body_id slider = add_body(m, 3.0, 0.0);
+  baum_body_id lever = add_body(m, 10.0, 5.0);
+  pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  pin(m, crank, rod, 1.0, 0.0);
+  pin(m, rod, slider, 3.0, 0.0);
+  line.body_a = BAUM_GROUND;
+  line.body_b = slider;
+  line.axis[0] = 1.0;
+  line.axis[1] = 0.0;
+  line.point[0] = 3.0;
+  line.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_translational(m, &line, &guide), BAUM_OK);
+  driver.joint = guide;
+  driver.acceleration = acceleration;
+  assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
+  pin(m, BAUM_GROUND, lever, 9.0, 5.0);
+  load.body = lever;
+  load.force[1] = 1e9;
+  assert_int_equal(baum_mechanism_add_planar_load(m, &load, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  return w;
+}
+
+static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **state)
+{
+  (void)state;
+  /* With the first acceleration, the row of the driver is omitted; with the second, all rows are
+   * kept. */
+  const double accelerations[] = {1.0, 1e-6};
+  for (int k = 0; k < 2; k++) {
+    double q[12], v[12] = {0.0}, a[12] = {0.0};
+    baum_mechanism *m = begin();
+    baum_workspace *w = make_driven(accelerations[k], m);
+    assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
+    memset(v, 0, sizeof v);
+    baum_status status = baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, a, NULL);
+    assert_true(status == BAUM_ERR_INCONSISTENT || status == BAUM_ERR_SINGULAR);
+    baum_workspace_destroy(w);
+    baum_mechanism_destroy(m);
+  }
+}
+
+/* Two drivers of one pin contradict each other by 1e-3 rad/s. Beside them, a body rotates at 1e6
+ * rad/s. */
+static void a_fast_body_hides_no_contradiction_of_two_drivers(void **state)
+{
+  (void)state;
+  double q[6], v[6] = {[5] = 1e6};
+  baum_workspace *w = NULL;
+  baum_mechanism *m = begin();
+  baum_driver_def driver = baum_driver_def_default();
+  driver.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
+  for (int k = 0; k < 2; k++) {
+    driver.rate = 1.0 + 1e-3 * k;
+    assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
+  }
+  (void)add_body(m, 5.0, 0.0);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, (double[6]){0.0}), BAUM_OK);
+  assert_int_equal(baum_workspace_project(w, 0.0, q, v), BAUM_ERR_INCONSISTENT);
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -144,6 +224,8 @@ int main(void)
     cmocka_unit_test(joints_in_any_order_make_one_island),
     cmocka_unit_test(a_welded_frame_holds_no_island_together),
     cmocka_unit_test(fixed_bodies_make_no_island),
+    cmocka_unit_test(the_fast_lever_hides_no_contradiction_of_the_slider_crank),
+    cmocka_unit_test(a_fast_body_hides_no_contradiction_of_two_drivers),
   };
   return cmocka_run_group_tests_name("islands", tests, NULL, NULL);
 }

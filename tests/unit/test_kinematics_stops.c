@@ -64,7 +64,7 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   double end = 10.0 / fabs(data->drive.rate);
   ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
               "t = |kinematics: the mechanism locks up here: |satisfies|\"motor\" and the other "
-              "constraints|above all joint ");
+              "constraints|especially joint ");
   double t = baum_simulation_time(run);
   double angle = data->drive.angle + data->drive.rate * t;
   double x[3];

@@ -133,7 +133,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_pin_in_slot_def, axis[0]), TEST_NAN,
      "joint 1 \"S\": axis[0] is nan, must be finite"},
     {offsetof(baum_planar_pin_in_slot_def, axis[0]), 0.0,
-     "joint 1 \"S\": axis is (0, 0), must have a direction"},
+     "joint 1 \"S\": axis is (0, 0), which has no direction"},
     {offsetof(baum_planar_pin_in_slot_def, point_b[0]), 0.5,
      "joint 1 \"S\": point_b is (0.5, 0) m, must be (0, 0) on the particle body 4 \"bead\""},
   };

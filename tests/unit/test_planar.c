@@ -149,7 +149,7 @@ static void a_particle_is_its_own_point(void **state)
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(),
                       "joint 1 \"B\": point is (-0.6, 0.9) m, must be at the particle body 2 "
-                      "\"ball\", at (-0.6, 0.8) m");
+                      "\"ball\", which is at (-0.6, 0.8) m");
   assert_false(baum_mechanism_is_frozen(scene.mechanism));
   baum_mechanism_destroy(scene.mechanism);
 }

@@ -161,11 +161,11 @@ static void wrong_numbers_are_refused(void **state)
     {offsetof(baum_planar_body_def, angle), TEST_NAN,
      "body 1 \"coupler\": angle is nan rad, must be finite"},
     {offsetof(baum_planar_body_def, velocity[0]), TEST_INFINITY,
-     "body 1 \"coupler\": velocity[0] is inf m/s, must be finite, or NaN for free"},
+     "body 1 \"coupler\": velocity[0] is inf m/s, must be finite, or NaN if free"},
     {offsetof(baum_planar_body_def, velocity[1]), -TEST_INFINITY,
-     "body 1 \"coupler\": velocity[1] is -inf m/s, must be finite, or NaN for free"},
+     "body 1 \"coupler\": velocity[1] is -inf m/s, must be finite, or NaN if free"},
     {offsetof(baum_planar_body_def, angular_velocity), TEST_INFINITY,
-     "body 1 \"coupler\": angular_velocity is inf rad/s, must be finite, or NaN for free"},
+     "body 1 \"coupler\": angular_velocity is inf rad/s, must be finite, or NaN if free"},
   };
   check_bad_numbers(mechanism, add, &def, sizeof def, numbers, 11);
   baum_mechanism_destroy(mechanism);

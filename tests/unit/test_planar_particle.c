@@ -115,9 +115,9 @@ static void wrong_numbers_are_refused(void **state)
     {offsetof(baum_planar_particle_def, position[1]), TEST_INFINITY,
      "body 1 \"bob\": position[1] is inf m, must be finite"},
     {offsetof(baum_planar_particle_def, velocity[0]), TEST_INFINITY,
-     "body 1 \"bob\": velocity[0] is inf m/s, must be finite, or NaN for free"},
+     "body 1 \"bob\": velocity[0] is inf m/s, must be finite, or NaN if free"},
     {offsetof(baum_planar_particle_def, velocity[1]), -TEST_INFINITY,
-     "body 1 \"bob\": velocity[1] is -inf m/s, must be finite, or NaN for free"},
+     "body 1 \"bob\": velocity[1] is -inf m/s, must be finite, or NaN if free"},
   };
   check_bad_numbers(mechanism, add, &def, sizeof def, numbers, 6);
   baum_mechanism_destroy(mechanism);

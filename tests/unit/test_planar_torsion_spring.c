@@ -186,7 +186,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_torsion_spring_def, damping), TEST_INFINITY,
      "force 1 \"T\": damping is inf N m s/rad, must be finite and >= 0"},
     {offsetof(baum_planar_torsion_spring_def, free_angle), -TEST_INFINITY,
-     "force 1 \"T\": free_angle is -inf rad, must be finite, or NaN for not given"},
+     "force 1 \"T\": free_angle is -inf rad, must be finite, or NaN if not given"},
   };
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 3);
   def.body_b = scene.ball;

@@ -119,7 +119,7 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_rack_and_pinion_def, radius), 0.0,
      "joint 1 \"P\": radius is 0 m, must be finite and not 0"},
     {offsetof(baum_planar_rack_and_pinion_def, offset), TEST_INFINITY,
-     "joint 1 \"P\": offset is inf m, must be finite, or NaN for not given"},
+     "joint 1 \"P\": offset is inf m, must be finite, or NaN if not given"},
   };
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 4);
   PLANAR_BETWEEN(&scene, &def, scene.crank, scene.bead);

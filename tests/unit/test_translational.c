@@ -172,9 +172,9 @@ static void wrong_fields_are_refused(void **state)
     {offsetof(baum_planar_translational_def, axis[1]), TEST_INFINITY,
      "joint 1 \"D\": axis[1] is inf, must be finite"},
     {offsetof(baum_planar_translational_def, axis[0]), 0.0,
-     "joint 1 \"D\": axis is (0, 0), must have a direction"},
+     "joint 1 \"D\": axis is (0, 0), which has no direction"},
     {offsetof(baum_planar_translational_def, angle), -TEST_INFINITY,
-     "joint 1 \"D\": angle is -inf rad, must be finite, or NaN for not given"},
+     "joint 1 \"D\": angle is -inf rad, must be finite, or NaN if not given"},
   };
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 5);
   PLANAR_BETWEEN(&scene, &def, scene.ball, scene.crank);

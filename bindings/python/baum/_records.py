@@ -113,7 +113,7 @@ class Counters(NamedTuple):
     nonlinear_iterations: [-] iterations of CVODE, IDA and kinematics.
     restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
-    warnings: [-] kinds of warnings, see warnings.
+    warnings: [-] number of kinds of warnings that occurred, see warnings.
     wall: [s] wall time inside advance_to, step and sample.
     max_phi: [m or rad] largest |Phi| over all steps.
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
@@ -230,7 +230,8 @@ class NearSingular(NamedTuple):
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] the smallest p in the interval, see above.
+    pivot: [-] the smallest p in the interval. p is the smallest pivot, divided by the largest
+        value that this pivot has had in the run so far.
     jump: [-] by how much the velocity after the interval differs from a smooth continuation of
         the motion before the interval, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
@@ -259,7 +260,7 @@ class StudyEntry(NamedTuple):
     gains: The gain rule, as given in the options.
     step: [s] NaN for entries with rtol.
     rtol: [-] NaN for entries with a step.
-    method: [-] see methods.
+    method: [-] number of the method to which the entry belongs, see methods.
     state: done, refused, failed, timed_out or waiting
     status: status of the run of the entry
     at_floor: error is at the uncertainty of the reference

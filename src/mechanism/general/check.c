@@ -161,7 +161,7 @@ static baum_status verdict(const column *c, const baum_i_local *at, const trial 
 {
   for (int i = 0; i < c->field->size; i++) {
     if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but differences of %s give %.9g",
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but finite differences of %s give %.9g",
                          baum_i_user_entry(c->claim->function, c->first + i * c->stride).text,
                          given(c, i), c->claim->source, t->value[i]);
     }

@@ -19,7 +19,7 @@ typedef struct baum_i_claim {
  * difference.h. The stencil (difference formula) determines whether these are first or second
  * derivatives. Returns BAUM_OK if the values agree, or if the differences are too inaccurate to
  * decide. Otherwise returns BAUM_ERR_ARGUMENT with a message like `joint 2 "circle": gamma()[0] is
- * 3 but differences of phi give 2`. */
+ * 3 but finite differences of phi give 2`. */
 baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
                                const baum_i_field *field, const baum_i_ray *ray,
                                const baum_i_local *at);

@@ -267,8 +267,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
       double size = sqrt(fabs(block[i * n + i] * block[j * n + j]));
       if (fabs(a - b) > 1e-6 * fmax(fabs(a), fabs(b)) + 1e-9 * size) {
         return baum_i_fail(BAUM_ERR_ARGUMENT,
-                           "%s: mass()[%d][%d] is %.9g but mass()[%d][%d] is %.9g; must be "
-                           "symmetric",
+                           "%s: mass()[%d][%d] is %.9g but mass()[%d][%d] is %.9g; the mass matrix "
+                           "must be symmetric",
                            baum_i_label(&body->element).text, i, j, a, j, i, b);
       }
     }

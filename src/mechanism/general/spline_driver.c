@@ -55,7 +55,8 @@ static baum_status check_knot(const baum_spline_driver_def *def, int32_t k, cons
                        label, (int)k, *t, (int)k, *s);
   }
   if (k > 0 && !(t[0] > t[-1])) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: times[%d] is %.9g s after %.9g s, must be later",
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: times[%d] is %.9g s, must be later than the time before it, %.9g s",
                        label, (int)k, t[0], t[-1]);
   }
   if (k > 0 && !isfinite((s[0] - s[-1]) / (t[0] - t[-1]))) {

@@ -159,7 +159,7 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: point is (%g, %g) m, must be at the particle %s, at (%g, %g) m",
+                     "%s: point is (%g, %g) m, must be at the particle %s, which is at (%g, %g) m",
                      baum_i_label(element).text, point[0], point[1],
                      baum_i_label(&body->element).text, frame.x, frame.y);
 }

@@ -51,7 +51,7 @@ static baum_status check_on_particle(const baum_planar_load_def *def, const char
   }
   if (def->follows_body) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: follows_body is true, but the body is a particle and does not turn",
+                       "%s: follows_body is true, but the body is a particle and does not rotate",
                        label);
   }
   return BAUM_OK;

@@ -44,7 +44,7 @@ static baum_status check_direction(const double x[3], const char *label, const c
 {
   return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0
            ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (0, 0, 0), must have a direction", label,
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (0, 0, 0), which has no direction", label,
                          field);
 }
 
@@ -145,7 +145,7 @@ static baum_status fail_opposite(const baum_i_joint *joint)
 {
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: axis and axis_b point in opposite directions in the design "
-                     "configuration; turn one of them round",
+                     "configuration; reverse one of them",
                      baum_i_label(&joint->element).text);
 }
 
@@ -237,7 +237,7 @@ static baum_status lower_planar(const baum_mechanism *mechanism, const baum_i_jo
   }
   if (!(given ? put_axes(&a, z, x, axes)
               : put_axes(&a, z, ground[0], axes) || put_axes(&a, z, ground[1], axes))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is parallel to axis, must not be",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: x_axis is parallel to axis; give another direction",
                        baum_i_label(&joint->element).text);
   }
   return lower_axes_b(mechanism, joint, parameters);

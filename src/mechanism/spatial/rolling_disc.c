@@ -64,8 +64,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   BAUM_I_TRY(baum_i_spatial_check_pair(mechanism, def->body_a, def->body_b, label));
   if (def->rim_radius > def->radius) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: rim_radius is %g m, must be at most radius, %g m, which is a sphere",
-                       label, def->rim_radius, def->radius);
+                       "%s: rim_radius is %g m, must be at most radius, which is %g m", label,
+                       def->rim_radius, def->radius);
   }
   return BAUM_OK;
 }
