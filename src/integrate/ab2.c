@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The explicit Adams method of two steps, order 2 (J. C. Adams, in: F. Bashforth, 1883).
  *
- * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1):
+ * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1), are:
  *
  *   w_0 = theta + theta^2/2,  w_1 = -theta^2/2;  b = 3/2, -1/2
  *

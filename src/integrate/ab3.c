@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The explicit Adams method of three steps, order 3 (J. C. Adams, in: F. Bashforth, 1883).
  *
- * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1):
+ * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1), are:
  *
  *   w_0 = theta + 3 theta^2/4 + theta^3/6
  *   w_1 = -theta^2 - theta^3/3

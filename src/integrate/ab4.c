@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The explicit Adams method of four steps, order 4 (J. C. Adams, in: F. Bashforth, 1883).
  *
- * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1):
+ * The weights w_j(theta) of past steps (adams_bashforth.c), and b_j = w_j(1), are:
  *
  *   w_0 = theta + 11 theta^2/12 + theta^3/3 + theta^4/24
  *   w_1 = -3 theta^2/2 - 5 theta^3/6 - theta^4/8

@@ -5,7 +5,8 @@
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. A run stops after 1e4 steps in a call if, at this pace, it
  * would need more than 1e9 steps (the default of max_steps) for the time 1/rate of the motion.
- * High gains and stiff forces need far fewer steps: 1e6 for this time, for example. */
+ * A motion with high gains or stiff forces, in which the method does not get stuck, needs far fewer
+ * steps for this time, for example 1e6. */
 #include <math.h>
 
 #include "base/platform.h"

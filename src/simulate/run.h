@@ -80,7 +80,7 @@ struct baum_simulation {
   baum_i_state state;       /* present state, which is reported */
   baum_i_state ahead;       /* variable step: end of the last step of the method */
   baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
-  baum_i_state spare;       /* used by steps near a singular configuration */
+  baum_i_state spare;       /* further state for steps near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* fingerprint of the mechanism */
