@@ -7,8 +7,8 @@
  * A study with the standard grid recommends a setting for each error. A second study runs the
  * recommended settings and the whole grid from perturbed starts over twice the span. A
  * recommendation is met if, in the second study, its error is at most the requested one. The price
- * of a recommendation is its cost divided by the cost of the cheapest entry of the grid. This entry
- * must also have at most the requested error in the second study.
+ * of a recommendation is its cost divided by the cost of the cheapest entry of the grid whose error
+ * in the second study is also at most the requested one.
  */
 #include <math.h>
 #include <stdio.h>

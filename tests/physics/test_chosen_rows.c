@@ -66,7 +66,7 @@ static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulatio
 }
 
 /* Tells whether a method is tested. Methods of order 1 and 2 are excluded, because they give a
- * warning at this step. IDA at index 3 is excluded, because it always gives one. */
+ * warning at this step. IDA at index 3 is excluded, because it always gives a warning. */
 static bool is_asked(const baum_simulation_options *o)
 {
   int order = baum_integrator_order(o->integrator);
@@ -121,7 +121,7 @@ static void index_3_methods_make_several_revolutions(void **state)
     o.integrator = methods[k];
     o.step = STEP;
     baum_simulation *run = run_to_end(m, &o);
-    /* An error of order 2: (omega h)^2 times 20 rad. */
+    /* The error of a method of order 2 is (omega h)^2 times 20 rad. */
     assert_true(apart(baum_simulation_q(run), exact) < 1e-2);
     baum_simulation_destroy(run);
   }

@@ -147,8 +147,8 @@ static void the_order_is_two_and_constraints_hold_to_rounding(void **state)
 
 /* ---- symmetry ---- */
 
-/* RATTLE is symmetric. After the velocities are reversed, the same number of steps must lead back
- * to the start, except for rounding. */
+/* RATTLE is symmetric. If the velocities are reversed after some steps, the same number of steps
+ * must lead back to the start, except for rounding. */
 static void check_reversal(build_fn *build, int nq, int nv)
 {
   double q[2][SPATIAL_RSSR_NQ];
@@ -226,8 +226,8 @@ static void map_top(baum_simulation *run, const double p[4], const double w[3], 
   momentum_of(baum_simulation_v(run) + 3, m);
 }
 
-/* Differentiates map_top(). For k = 0 to 2, the variable is one of three rotations, and for k = 3
- * to 5, one of three angular velocities. */
+/* Differentiates map_top() with respect to variable k. The variables 0 to 2 are rotations about the
+ * three axes, and the variables 3 to 5 are the angular velocities about them. */
 static variation vary_top(baum_simulation *run, int k, double d)
 {
   double q[2][TOP_NQ];

@@ -175,8 +175,8 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
 }
 
 /* A small error in a singular configuration causes a violation. Because of this violation, the
- * mechanism cannot reach the next singular configuration. It reverses before it, and continues on
- * the other branch. */
+ * mechanism cannot reach the next singular configuration. It reverses shortly before it, and
+ * continues on the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
