@@ -253,7 +253,7 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
     int count;
     baum_catalog_setting settings[7];
   } cases[] = {
-    /* The two terms of the moment of the disc cancel. */
+    /* The two terms of the moment of the disc nearly cancel, so that relative errors are large. */
     {"rolling_disc",
      "may be off by",
      0.0,

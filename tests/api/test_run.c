@@ -66,7 +66,7 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* The k-th integrator and kind of step that suits this mechanism and is in this build. */
+/* Returns the k-th integrator and kind of step that suit this mechanism and are in this build. */
 static step_mode mode_at(int k)
 {
   int i = 0;

@@ -132,8 +132,8 @@ static baum_status add_settings(baum_study *study)
   return status;
 }
 
-/* Returns the cost of the cheapest entry with at most this error, and its name. If there is none,
- * these are NaN and "". */
+/* Returns the cost of the cheapest entry with at most this error, and its name. If there is no such
+ * entry, the cost is NaN and the name is "". */
 static double cheapest(const baum_study *study, double error, const char **name)
 {
   double best = (double)NAN;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the cost of a step, with all monitors, with the cost of its evaluations of the
- * accelerations.
+/* Compares the cost of a step, including all checks that a run makes in it, with the cost of its
+ * evaluations of the accelerations.
  *
  * usage: bench_step                     prints a table
  *        bench_step CASE METHOD COUNT   simulates one case COUNT times, for callgrind

@@ -154,7 +154,7 @@ static double cost_of(const baum_study_entry *entry)
   return (double)(entry->evaluations + entry->factorizations);
 }
 
-/* Returns the cost of the cheapest among the first `count` entries. Its error must be at most
+/* Returns the smallest cost of those among the first `count` entries whose error is at most
  * `target`. */
 static double cheapest(const baum_study *study, int count, double target, char *name, size_t size)
 {

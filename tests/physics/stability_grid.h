@@ -34,7 +34,7 @@ static const double GROWN = 1e3;
  * which may be smaller. A run with such a method therefore never ends early as decayed. */
 static const double DECAYED = 1e-3;
 
-/* Size of the grid divided by the size of the region. */
+/* Size of the grid divided by the size of the predicted stable region. */
 static const double BEYOND = 1.1;
 
 /* Returns a step of 1e-5 / omega. At the start, omega is 3.1, 2 or 150 rad/s. */

@@ -231,8 +231,8 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* Errors of the angle are multiplied by up to 50 N m in the work. Errors of the angular
-     * velocity are multiplied by up to 6 rad/s in the energy. */
+    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
+     * angular velocity times up to 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);

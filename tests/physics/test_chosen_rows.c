@@ -139,8 +139,8 @@ static void *save(baum_simulation *run, size_t *size)
   return buffer;
 }
 
-/* At its start, the restored run has chosen rows of its own. It must replace them by the rows of
- * the saved run. */
+/* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
+ * must replace its choice by that of the saved run. */
 static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 {
   (void)state;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With variable steps, the residual of the energy account must be below 100 rtol. With fixed steps,
- * it must have the order of the method. The test covers all mechanisms of account_scenes.h with
- * every formulation. The residual of a run is the largest of the residuals at 8 times. It is
- * divided by the largest energy or work. */
+/* The energy account of a run compares the change of its energy with the work that was done. The
+ * difference is called the residual. With variable steps, the residual must be below 100 rtol. With
+ * fixed steps, it must have the order of the method. The test covers all mechanisms of
+ * account_scenes.h with every formulation. The residual of a run is the largest of the residuals at
+ * 8 times. It is divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -134,8 +135,8 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
 /* ---- variable steps ---- */
 
 /* Returns the largest allowed value of residual / rtol. IDA at index 3 does not control the error
- * of velocities, and exceeds its tolerance. The values measured were 197, and 340 with the rounding
- * of another compiler. */
+ * of velocities, and exceeds its tolerance. The measured value was 197 with one compiler, and 340
+ * with another one, because they round differently. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;

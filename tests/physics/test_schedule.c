@@ -299,8 +299,8 @@ static void the_account_closes_over_jumps(void **state)
     exact(2.0, &angle, &rate, &work);
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
-    /* Errors of the angle are multiplied by up to 50 N m in the work. Errors of the angular
-     * velocity are multiplied by up to 6 rad/s in the energy. */
+    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
+     * angular velocity times up to 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
     ASSERT_NEAR(account.loads, work, 0.0, most);
