@@ -469,8 +469,8 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Tells whether a call failed because of memory. Opening a file also allocates memory. In that case
- * the status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
+/* Tells whether a call failed because of memory. If memory for opening a file was missing, the
+ * status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||

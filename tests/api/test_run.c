@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Advancing a run: steps, targets, samples, progress, cancelling, warnings, counters, messages. */
+/* Tests advancing a run: steps, targets, samples, progress, cancelling, warnings, counters,
+ * messages. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -170,8 +170,8 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
     }
     baum_energy_account account;
     check(baum_simulation_energy_account(one, &account, sizeof account));
-    /* The limit allows for errors of the method, and for the corrections when rows change. The
-     * kinetic energy is 100 J. */
+    /* The limit allows for errors of the method, and for the corrections when the omitted rows
+     * change. The kinetic energy is 100 J. */
     assert_true(fabs(account.residual) < 1e-4);
     baum_simulation_destroy(one);
     baum_simulation_destroy(other);

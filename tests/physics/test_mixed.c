@@ -212,7 +212,8 @@ static double compare(const baum_simulation_options *options, const outcome *exa
 }
 
 /* Projection and implicit methods keep both models on the same constraints. Their results therefore
- * differ only by the formulas for rotations. In other formulations the two models drift apart. */
+ * differ only because the formulas for rotations differ. In other formulations the two models drift
+ * apart. */
 static void planar_links_move_as_spatial_ones(void **state)
 {
   (void)state;

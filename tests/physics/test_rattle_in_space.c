@@ -27,7 +27,7 @@ static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 /* A heavy top on a spherical joint at the origin. */
 static const double MASS = 1.2;
 static const double INERTIA[6] = {0.3, 0.5, 0.4, 0.05, -0.03, 0.02};
-/* From the centre of mass to the joint, in body axes. */
+/* The vector from the centre of mass to the joint, in body axes. */
 static const double ARM[3] = {0.1, -0.2, -0.6};
 static const double START_P[4] = {0.6, 0.0, 0.8, 0.0};
 static const double START_W[3] = {2.0, -1.0, 6.0};
