@@ -26,7 +26,8 @@ enum { MOST_INTERVALS = 100000 };
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [MASS] = {"mass", "kg", "of the sleigh", BAUM_I_POSITIVE},
   [INERTIA] = {"inertia", "kg m^2", "about the centre of mass", BAUM_I_POSITIVE},
-  [DISTANCE] = {"distance", "m", "of the blade behind the centre of mass", BAUM_I_POSITIVE},
+  [DISTANCE] = {"distance", "m", "by which the blade is behind the centre of mass",
+                BAUM_I_POSITIVE},
   [SPEED] = {"speed", "m/s", "of the blade at start", BAUM_I_ANY},
   [RATE] = {"rate", "rad/s", "angular velocity at start, not 0", BAUM_I_NONZERO},
 };

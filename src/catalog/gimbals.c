@@ -21,12 +21,14 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [AXIAL] = {"axial", "kg m^2", "moment of inertia of the rotor about its axis", BAUM_I_POSITIVE},
   [ACROSS] = {"across", "kg m^2", "moment of inertia of the rotor about transverse axes",
               BAUM_I_POSITIVE},
-  [OUTER] = {"outer", "kg m^2", "of the outer ring about its normal", BAUM_I_POSITIVE},
-  [INNER] = {"inner", "kg m^2", "of the inner ring about its normal", BAUM_I_POSITIVE},
+  [OUTER] = {"outer", "kg m^2", "moment of inertia of the outer ring about its normal",
+             BAUM_I_POSITIVE},
+  [INNER] = {"inner", "kg m^2", "moment of inertia of the inner ring about its normal",
+             BAUM_I_POSITIVE},
   [WEIGHT] = {"weight", "kg", "on the inner ring", BAUM_I_POSITIVE},
   [ARM] = {"arm", "m", "of the weight", BAUM_I_ANY},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
-  [TILT] = {"tilt", "rad", "of the rotor's axis above the horizontal", BAUM_I_ANY},
+  [TILT] = {"tilt", "rad", "angle of the rotor's axis above the horizontal", BAUM_I_ANY},
   [PRECESSION] = {"precession", "rad/s", "not 0", BAUM_I_NONZERO},
 };
 

@@ -202,7 +202,7 @@ static baum_status find_cost(const cost_query *at, int32_t method, double *out)
       most = fmax(most, entries[k]->out.error);
     }
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: %s has been measured with errors from %.2g to %.2g, not near %.2g",
+                       "%s: %s has been measured with errors from %.2g to %.2g, but not near %.2g",
                        at->call, study->methods[method].name.text, least, most, at->error);
   }
   double a = cost_of(p.coarse, at->cost);
