@@ -192,7 +192,7 @@ stage_site() {
 }
 
 # Checks the links of the site to other sites: those of the pages, of the headers and of the docstrings. This is the
-# only check of the documents that needs a network. The exit code 77 means that there is none.
+# only check of the documents that needs a network. Without a network, the stage returns the exit code 77.
 stage_links() {
   getent hosts www.sphinx-doc.org >/dev/null || { echo "skipped: there is no network"; return 77; }
   build_dev

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Counts the allocations of a test program and makes chosen ones fail. The program and all
  * libraries that it loads allocate through the functions defined here. These functions have to be
- * in the program itself. Therefore only a program with one source file may include this header. It
- * must define _GNU_SOURCE and include cmocka.h before.
+ * in the program itself. Therefore only a program with one source file may include this header.
+ * Before it includes this header, it must define _GNU_SOURCE and include cmocka.h.
  *
  * This works with glibc. If another tool replaces malloc, as valgrind and the thread sanitizer do,
  * heap_is_ours() returns false. The functions here call the address sanitizer's own allocation

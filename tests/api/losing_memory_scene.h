@@ -10,7 +10,8 @@
 
 /* ---- scenes, which contain the objects of a call ---- */
 
-/* The objects that a call needs, in the order in which they are made. STUDIED is a study of a
+/* Which objects a call needs. They are made in this order, so that a scene of one stage also has
+ * the objects of the stages before it. STUDIED is an exception: its scene has a study of a
  * pendulum. */
 typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
 

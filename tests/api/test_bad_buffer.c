@@ -463,7 +463,7 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_simulation *run = start(parts.mechanism, &o, 0.01);
   assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, 2), BAUM_OK);
   saved s = save(run);
-  /* Finds the record of the second jump. It is found by its value before the jump, which is
+  /* Finds the record of the second jump. It contains the value before this jump, which is
    * values[0], the value after the first jump. */
   size_t at = 0;
   for (size_t k = HEAD; k + 8 <= s.size; k += 8) {

@@ -215,7 +215,7 @@ CALL(residual_jacobian, a->dae, 1.0, a->t, a->y, a->y, a->sparse)
 CALL(assemble, a->t, a->q, a->v, NULL, 0)
 CALL(project, a->t, a->q, a->v)
 
-/* For each function, which arguments must not be NULL, and which must be finite. */
+/* A function of a workspace, and which of its arguments must not be NULL and must be finite. */
 typedef struct workspace_row {
   const char *name;
   workspace_call *call;

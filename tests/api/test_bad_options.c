@@ -75,7 +75,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* One field of good options gets this value. The step is variable or fixed. */
+/* A wrong value of one field. `variable` tells whether the other options are for variable steps. */
 typedef struct bad_option {
   bool variable;
   size_t offset;

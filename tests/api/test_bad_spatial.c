@@ -124,8 +124,9 @@ static void inertias_of_no_body_are_refused(void **state)
     assert_true(
       refuses(&parts, kind_of("spatial_body"), "inertia", bad[k].inertia, bad[k].message));
   }
-  /* The inertia of a plate, in axes rotated by 45 degrees. For a plate xx = yy + zz, which is the
-   * limit of what is possible. */
+  /* The inertia of a plate, whose principal moments are 2, 1 and 1 kg m^2, in axes rotated by 45
+   * degrees. The largest moment of a plate is the sum of the other two, which is the limit of what
+   * is possible. */
   static const double plate[6] = {1.5, 1.5, 1.0, 0.5, 0.0, 0.0};
   baum_spatial_body_def def = baum_spatial_body_def_default();
   memcpy(def.inertia, plate, sizeof plate);
@@ -524,8 +525,8 @@ static void assembly_refuses_joints_that_end_the_wrong_way_round(void **state)
   check_reversed("spatial_fixed", third);
 }
 
-/* Two spherical joints hold the body. It is rotated by 1.2 rad from the orientation in which they
- * hold it. */
+/* Two spherical joints hold the body in one orientation. The design orientation differs from it by
+ * 1.2 rad. */
 static void a_body_turned_too_far_off_is_refused(void **state)
 {
   (void)state;

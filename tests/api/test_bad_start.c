@@ -140,8 +140,9 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Makes a rod that is drawn at an angle [rad] and held by a pin at its left end and a link of 0.2 m
- * at its right end. Drivers may rotate it at 1 and at 2 rad/s from an angle `value` [rad]. */
+/* Makes a rod whose design angle is `angle` [rad]. A pin holds its left end, and a link of 0.2 m
+ * holds its right end. Drivers may rotate the rod at 1 and at 2 rad/s from an angle `value`
+ * [rad]. */
 static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
 {
   baum_mechanism *m = NULL;
@@ -411,7 +412,7 @@ static void check_fault_on_the_way(step_mode mode, int f)
   every_fault fault = {.answer = faults[f].answer, .fails = true, .after = 0.0505};
   every_element parts = every_element_make(&fault);
   baum_simulation_options o = start_options(mode);
-  /* Otherwise the step that fails could already be the first step of rk8. */
+  /* This ensures that rk8 has made at least one step before a step fails. */
   o.max_step = mode.fixed ? (double)NAN : 0.02;
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);

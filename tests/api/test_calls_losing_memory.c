@@ -399,7 +399,7 @@ typedef struct call {
   const char *name;
   stage stage;
   baum_status (*make)(scene *s);
-  /* The call makes the run evaluate. This changes its counters even if the call fails. */
+  /* Whether the call evaluates the equations. This changes the run's counters even if it fails. */
   bool works;
 } call;
 
@@ -457,7 +457,7 @@ static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
   make_scene(&s, c->stage);
-  (void)look(&s, !c->works); /* as in fail_once(); saving makes solvers choose their pivots again */
+  (void)look(&s, !c->works); /* fail_once() does the same; saving makes solvers choose new pivots */
   heap_watch();
   baum_status status = c->make(&s);
   long allocations = heap_stop();
@@ -469,8 +469,8 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Tells whether a call failed because of memory. Opening a file also allocates memory. In that case
- * the status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
+/* Tells whether a call failed because of memory. If memory for opening a file was missing, the
+ * status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||

@@ -21,11 +21,10 @@
 enum { NQ_MOST = 24, MOST_STEPS = 400, SAMPLES = 7 };
 static const double END = 0.3; /* [s] */
 
-/* Cancels a run in a call of the progress function. This is the call in which `left` reaches
- * zero. */
+/* Cancels a run in a call of the progress function, namely the one in which `left` reaches 0. */
 typedef struct cancelling {
   int left;
-  bool by_flag; /* whether to cancel by the flag of the run, or else by the return value */
+  bool by_flag; /* whether to cancel by the flag of the run instead of by the return value */
   baum_simulation *run;
 } cancelling;
 

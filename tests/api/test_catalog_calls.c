@@ -253,7 +253,7 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
     int count;
     baum_catalog_setting settings[7];
   } cases[] = {
-    /* The two terms of the moment of the disc cancel. */
+    /* The two terms of the moment of the disc nearly cancel, so that relative errors are large. */
     {"rolling_disc",
      "may be off by",
      0.0,
@@ -278,7 +278,7 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
     {"gimbals", "may be off by", 1.0, 2, {{"axial", 1e-9}, {"arm", -8.47e-4}}},
     {"differential", "may be off by", 1.0, 1, {{"damping", 1e-9}}},
     {"chaplygin_sleigh", "off by inf", 1e4, 0, {{NULL, 0.0}}},
-    /* The square of the rate is 0. */
+    /* The square of this rate underflows to 0. */
     {"chaplygin_sleigh", "has no reference at t = 1 s", 1.0, 2, {{"speed", 0.0}, {"rate", 1e-200}}},
   };
   double q[28];
@@ -332,8 +332,8 @@ static void errors_are_differences_by_the_scales(void **state)
   /* Errors are divided by the largest velocity, 150.2. */
   ASSERT_NEAR(error.v, 3.0 / 150.0, 0.01, 0.0);
   assert_true(error.v == error.v_final && error.q_time == t[0] && error.v_time == t[1]);
-  /* The reference has 15 digits of angles, which are up to 30 rad. It has 14 digits of
-   * velocities. */
+  /* The reference gives angles, which are up to 30 rad, with 15 digits. It gives velocities with 14
+   * digits. */
   assert_true(error.q_floor > 1e-15 && error.q_floor < 5e-14);
   ASSERT_NEAR(error.v_floor, 1e-14, 1e-2, 0.0);
   q[NQ] = (double)NAN;

@@ -148,7 +148,7 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 
 /* ---- cost ---- */
 
-/* Makes channels that do not need the solution of (5). */
+/* Makes channels that need no accelerations and no multipliers, so that no equations are solved. */
 static int cheap_channels(const every_element *parts, baum_channel channels[8])
 {
   int count = 0;

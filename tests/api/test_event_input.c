@@ -25,8 +25,8 @@ static baum_simulation *open_mode(const swing *s, step_mode mode)
 
 enum { HEALED = 2 };
 
-/* An event function that fails after 0.25 s with the answer *user. If *user is HEALED, it does not
- * fail. */
+/* An event function that fails after 0.25 s with the return value *user. If *user is HEALED, it
+ * does not fail. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -173,7 +173,7 @@ static void every_allocation_of_an_event_may_fail(void **state)
 
 int main(void)
 {
-  /* In its first call, this function looks up the functions that heap.h excludes. */
+  /* The first call of heap_is_ours() looks up the functions that heap.h excludes. */
   (void)heap_is_ours();
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),

@@ -362,7 +362,7 @@ static void check_ask(baum_workspace *w, fault *f, int which)
   assert_true(calls > 0);
 }
 
-/* Tests blocks and both solvers of the whole system. */
+/* Tests the block solver, and both solvers of the whole system, KLU and QR. */
 static void a_workspace_passes_on_every_failing_call(void **state)
 {
   (void)state;
@@ -434,7 +434,8 @@ static bool check_run(const baum_mechanism *m, const baum_simulation_options *o,
   return true;
 }
 
-/* Makes call number n fail. n begins at 1 and increases by 1 + n / rarer. */
+/* Makes call number n fail, for several values of n. n begins at 1 and increases by 1 + n /
+ * rarer. */
 static void check_every_call(const baum_simulation_options *o, variant of, int64_t rarer)
 {
   fault f = {.from = 0};
@@ -451,7 +452,7 @@ static void check_every_call(const baum_simulation_options *o, variant of, int64
   baum_mechanism_destroy(m);
 }
 
-/* Tests blocks and KLU. The run is assembled, checked, started and advanced. */
+/* Tests the block solver and KLU. The run is assembled, checked, started and advanced. */
 static void a_failing_call_ends_creation_or_a_step_and_the_run_can_continue(void **state)
 {
   (void)state;

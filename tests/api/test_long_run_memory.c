@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE does not support the mechanism of test_allocation.c, so it is tested here. Its steps and
- * outputs, both in the plane and in space, must allocate no memory. If an allocation of another
- * call fails, this call must return BAUM_ERR_MEMORY, or succeed without the memory. */
+/* Tests RATTLE, which does not support the mechanism of test_allocation.c. Its steps and outputs,
+ * both in the plane and in space, must allocate no memory. If an allocation of another call fails,
+ * this call must return BAUM_ERR_MEMORY, or succeed without the memory. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Advancing a run: steps, targets, samples, progress, cancelling, warnings, counters, messages. */
+/* Tests advancing a run: steps, targets, samples, progress, cancelling, warnings, counters,
+ * messages. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -66,7 +67,7 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* The k-th integrator and kind of step that suits this mechanism and is in this build. */
+/* Returns the k-th integrator and kind of step that suit this mechanism and are in this build. */
 static step_mode mode_at(int k)
 {
   int i = 0;

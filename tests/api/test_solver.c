@@ -240,7 +240,7 @@ static void explain_names_the_solver(void **state)
   model_destroy(&m);
 }
 
-/* Kinematics and IDA do not solve (5). They factor other matrices. */
+/* Kinematics and IDA do not solve equation (5) for accelerations. They factor other matrices. */
 static void methods_without_accelerations_say_so(void **state)
 {
   (void)state;
@@ -289,7 +289,8 @@ static void many_joints_below_that_are_fine(void **state)
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   baum_simulation *run = start(m, &o);
   check(baum_simulation_step(run, 10));
-  /* Each node is coupled with every other node, so that there are 41 x 40 / 2 couplings. */
+  /* A node is the pair of rows of one pin. All 41 nodes share the hub, so that each is coupled with
+   * every other one. These are 41 x 40 / 2 couplings. */
   assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

@@ -252,7 +252,7 @@ static void invalid_settings_are_refused_even_if_others_exceed_the_time_limit(vo
   options.validate = false;
   options.entry_limit = 1e-6;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
-  (void)baum_study_run(study); /* it fails, because the limit also applies to the reference */
+  (void)baum_study_run(study); /* fails: the limit also applies to the reference */
   assert_int_equal(study_entry(study, 0).state, BAUM_STUDY_TIMED_OUT);
   assert_int_equal(study_entry(study, 1).state, BAUM_STUDY_REFUSED);
   assert_int_equal(study_entry(study, 2).state, BAUM_STUDY_REFUSED);

@@ -83,7 +83,7 @@ static void a_text_names_every_entry_and_what_was_said(void **state)
     assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
     assert_true(count(text, entry.name) >= 1);
   }
-  /* Once in the counts, once in the entry, and once in the messages. */
+  /* This word is once in the counts, once in the entry, and once in the messages. */
   assert_true(count(text, "refused") >= 3);
   assert_true(count(text, "unstable") >= 1);
   assert_int_equal(count(text, "Recommended settings"), 1);
@@ -128,7 +128,7 @@ static void a_json_has_null_for_what_is_not_known(void **state)
   free(text);
 }
 
-/* How the script in the page shows them is tested by tests/browser. */
+/* The page contains a script that shows these data. tests/browser tests the script. */
 static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
 {
   (void)state;

@@ -149,7 +149,7 @@ static void error_may_be_of_channels_by_a_unit(void **state)
     ASSERT_NEAR(same[k], own[k], 1e-12, 0.0);
     ASSERT_NEAR(finer[k], 2.0 * own[k], 1e-12, 0.0);
   }
-  /* The method has order 4. The ratio is therefore 2^4, and the limits allow for higher terms. */
+  /* The method has order 4. The ratio is therefore near 2^4. The limits allow for higher terms. */
   assert_in_range(own[0] / own[1], 12, 40);
   assert_in_range(of_speed[0] / of_speed[1], 12, 40);
   assert_in_range(of_pull[0] / of_pull[1], 12, 40);

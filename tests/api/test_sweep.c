@@ -162,7 +162,7 @@ static void a_run_with_more_numbers_fails(void **state)
   def.channel_count = 1;
   assert_int_equal(baum_sweep(a->mechanism, &a->options, &def, rows[0], statuses),
                    BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "run 7: the channels have 6 numbers"));
+  assert_non_null(strstr(baum_message(), "run 7: the channels have 6 columns"));
   assert_int_equal(statuses[BAD - 1], BAUM_OK);
   assert_int_equal(statuses[BAD + 1], BAUM_OK);
 }

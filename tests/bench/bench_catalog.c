@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares errors of runs for the whole catalogue. Each mechanism is run twice through a grid of
- * limited size: once with a reference that the study computes, and once with the reference of the
- * catalogue.
+/* Tests the errors that studies compute, for each mechanism of the catalogue. A study runs a grid
+ * of settings and compares each run with a reference. Here each study is made twice: once with a
+ * reference that the study computes, and once with the reference of the catalogue.
  *
  * usage: bench_catalog [ENTRY]
  *
- * The grid contains every integrator with each of its formulations. Each has the gains of its
- * default rule, of `auto` and of two constants, at three steps or tolerances. Runs that take more
- * than 0.05 s are stopped. tests/support/catalog_grid.h defines which entries are considered
- * wrong.
+ * The grid is small. It contains every integrator with each of its formulations. Each has the gains
+ * of its default rule, of `auto` and of two constants, at three steps or tolerances. Runs that take
+ * more than 0.05 s are stopped. tests/support/catalog_grid.h defines which entries of a study are
+ * considered wrong.
  */
 #include <stdio.h>
 #include <string.h>

@@ -60,7 +60,7 @@ typedef struct job {
   baum_counters counters;
 } job;
 
-/* Creates and destroys a run; part 1 also advances it to its end. */
+/* Creates and destroys a run. If `part` is 1, also advances the run to its end. */
 static bool create(void *self, int part)
 {
   job *j = self;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests whether inaccurate runs have a warning that doubts their motion.
+/* Tests whether inaccurate runs have a warning that doubts their motion (says that it may be
+ * wrong).
  *
  *   bench_doubts [-n MECHANISMS] [-f FIRST_SEED] [-s SETTING] [-j THREADS] [-c] [-e]
  *
@@ -13,14 +14,15 @@
  * with baum. A mechanism is used only if two runs of the reference agree to 1e-6. The error of a
  * run is its largest position error at ten samples. Lengths are relative to the characteristic
  * length. A run is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong.
- * The growth of a motion is the largest amplification of a perturbation from any of 20 times to any
- * later one of them. To make velocities comparable with positions, they are divided by the mean
- * rate of the motion.
+ * The growth of a motion is the largest factor by which a perturbation grows from one of 20 times
+ * to a later one. To make velocities comparable with positions, they are divided by the mean rate
+ * of the motion.
  *
  * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
- * too many wrong fixed-step runs have no warning that doubts their motion. No such run is allowed
- * if the growth is at most 30. If the growth is at most 1000, at most 1 % of the wrong runs may
- * lack a warning. With the option error_check, no such run is allowed up to a growth of 1e4.
+ * too many wrong fixed-step runs are silent, which means that no warning doubts their motion. If
+ * the growth is at most 30, no wrong run may be silent. If the growth is at most 1000, at most 1 %
+ * of the wrong runs may be silent. With the option error_check, no wrong run may be silent up to a
+ * growth of 1e4.
  */
 #include <math.h>
 #include <pthread.h>

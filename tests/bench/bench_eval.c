@@ -152,7 +152,7 @@ static void print_head(void)
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
-/* Destroys the solvers. Returns false if there is none, one failed, or they disagree. */
+/* Destroys the solvers. Returns false if there is no solver, a solver failed, or they disagree. */
 static bool finish_all(const measured *all, int count)
 {
   bool fine = count > 0;
@@ -486,10 +486,9 @@ static bool bench_variants(void)
 
 static void print_machine(void)
 {
-  printf(
-    "%s, CPU time of one thread: windows of at least 0.25 ms, 10th percentile of %d, smallest of "
-    "%d rounds\n",
-    baum_version(), TIMING_WINDOWS, TIMING_ROUNDS);
+  printf("%s. CPU time of one thread: the 10th percentile of %d windows of at least 0.25 ms, the "
+         "smallest of %d rounds\n",
+         baum_version(), TIMING_WINDOWS, TIMING_ROUNDS);
   printf("%12s %12s %12s\n", "memory", "read GB/s", "update GB/s");
   for (long kib = 16; kib <= 65536; kib *= 8) {
     timing_bandwidth found = timing_measure_bandwidth(1024 * kib);

@@ -7,15 +7,15 @@
  * are geometric means over perturbed starts. The cost is a number of factorizations. Each
  * evaluation of the accelerations by equation (7) of docs/theory/formulations.md factors a matrix.
  * The factorizations of the integrator's own matrix are added. The cost of `auto` includes its
- * pilot run. The error is the largest one over all coordinates and samples, relative to the scales.
- * In a cell, a constant beats `auto` if it
+ * pilot run. The error is the largest one over all coordinates and samples. Lengths are relative to
+ * the characteristic length, and angles are in radians. In a cell, a constant beats `auto` if it
  *   costs no more than `auto` and has less than a third of its error, or
  *   has no larger error than `auto` and costs less than 1 / 1.25 of its cost.
- * The sweep has 49 constants. They cover 12 decades, with four constants in each. If a run with
- * constant gains takes twice the steps of `auto`, it is stopped, because it can then no longer beat
- * `auto`. A constant for which a run fails does not beat `auto` either. With --table, the program
- * prints every constant, and runs may take six times the steps of `auto`. With --quick, it uses
- * every fourth alpha and two starts.
+ * The sweep has 49 constants. They cover 12 decades, with four constants in each. A run with
+ * constant gains is stopped when it has taken twice the steps of `auto`, because it can then no
+ * longer beat `auto`. A constant for which a run fails does not beat `auto` either. With --table,
+ * the program prints every constant, and runs may take six times the steps of `auto`. With --quick,
+ * it uses every fourth alpha and two starts.
  */
 #include <math.h>
 #include <stdio.h>

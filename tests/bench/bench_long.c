@@ -8,7 +8,7 @@
  *
  * The program prints a line for every decade of steps. The line contains the smallest and the
  * largest change of energy since the start that occurs in this decade, relative to the largest
- * kinetic energy. The next number is p. The change grows as the power p of time, where p is
+ * kinetic energy. The next number is the power p with which the change grows over time. It is
  * computed from this decade and the one before. The last numbers are the largest violations since
  * the start, the heap in use, and the computing time in seconds. If a run fails, its message is
  * printed.

@@ -15,9 +15,9 @@
  * with compiled right-hand sides, and a hand-written RK4.
  *
  * For spatial problems, the errors include all positions at the end, compared with the references
- * of the catalogue. An error is accepted if it exceeds its nominal value by at most 10 %. This is
- * the same for all programs. The other programs are Pinocchio with RK4 and Baumgarte stabilization,
- * MuJoCo with RK4, and Exudyn with generalized-alpha.
+ * of the catalogue. For all programs, an error is accepted if it is at most 10 % above its nominal
+ * value. The other programs are Pinocchio with RK4 and Baumgarte stabilization, MuJoCo with RK4,
+ * and Exudyn with generalized-alpha.
  *
  * The times of other programs were measured for this table on similar machines. They are the times
  * of whole runs, and the table shows the cheapest of them. There is no command that repeats these
@@ -132,8 +132,8 @@ static baum_status add_settings(baum_study *study)
   return status;
 }
 
-/* Returns the cost of the cheapest entry with at most this error, and its name. If there is none,
- * these are NaN and "". */
+/* Returns the cost of the cheapest entry with at most this error, and its name. If there is no such
+ * entry, the cost is NaN and the name is "". */
 static double cheapest(const baum_study *study, double error, const char **name)
 {
   double best = (double)NAN;

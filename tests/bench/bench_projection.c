@@ -4,7 +4,7 @@
  * with PROJECTION. The second is measured with BAUMGARTE and the gains of `auto`. The third is
  * measured with BAUMGARTE and the best constant gains alpha = beta of a sweep, which has four
  * constants a decade over twelve decades. A run of the sweep may take at most a quarter more
- * evaluations than the others.
+ * evaluations than the run with PROJECTION.
  *
  * usage: bench_projection
  *

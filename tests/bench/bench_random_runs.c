@@ -10,12 +10,12 @@
  * skipped. The error of a run is its largest position error at the end. Lengths are relative to the
  * characteristic length. The growth of a motion is the factor by which it amplifies small
  * perturbations of the start. With a variable step, the allowed error is about PROMISE rtol times
- * the growth. With a fixed step, it is the step times the growth, but at least WRONG. A run with a
- * larger error and no warning is called poor. If its error is above WRONG, it is called silently
- * wrong. A fixed-step run is called poor instead of silently wrong if its error is halved by a
- * quarter of its step. Errors that arise during the motion may grow more than perturbations of the
- * start. If a run is called silently wrong, one should therefore first check whether such errors
- * have grown. The program prints runs that are silently wrong, runs that fail although the
+ * the growth. With a fixed step, the allowed error is the step times the growth, but at least
+ * WRONG. A run with a larger error and no warning is called poor. If its error is above WRONG, it
+ * is called silently wrong. However, a fixed-step run is only called poor if a step four times
+ * shorter halves its error. Errors that arise during the motion may grow more than perturbations of
+ * the start. If a run is called silently wrong, one should therefore first check whether such
+ * errors have grown. The program prints runs that are silently wrong, runs that fail although the
  * reference succeeds, and warnings that are not justified.
  */
 #include <math.h>

@@ -8,10 +8,9 @@
  *
  * Each line is for one mechanism and one setting. It first counts the failed runs. Then it counts
  * the right runs and the right runs with a branch warning, and gives the largest error of right
- * runs. Finally it counts the wrong runs, in which the error of an angle is above 0.1 rad, the
- * wrong runs without a branch warning, and the wrong runs without any warning. The last two columns
- * count the near-singular intervals of all runs, and the forced steps, which are steps across a
- * singularity.
+ * runs. Finally it counts the wrong runs (the error of an angle is above 0.1 rad), the wrong runs
+ * without a branch warning, and the wrong runs without any warning. The last two columns count the
+ * near-singular intervals of all runs, and the forced steps, which are steps across a singularity.
  */
 #include <math.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
  * integrator with each formulation, the program prints medians of error / rtol at rtol 1e-4, 1e-6
  * and 1e-8. Each line contains
  *
- *   the medians over planar and spatial mechanisms of the catalogue, and spatial / planar
- *   the medians over planar mechanisms that consist of bodies ("bodies") and over the same
+ *   the median for planar and for spatial mechanisms of the catalogue, and spatial / planar
+ *   the median for planar mechanisms that consist of bodies ("bodies"), the median for the same
  *   mechanisms built of spatial elements in a tilted plane ("tilted"), and tilted / bodies
  *
  * usage: bench_space [INTEGRATOR [--list]]
@@ -59,7 +59,7 @@ static known know(int32_t k)
   out.used = mobility.degrees_of_freedom > 0;
   if (out.used && !out.spatial && model_tilt(out.mechanism, 0.0, &out.tilted) == BAUM_OK) {
     (void)baum_mechanism_sizes(out.tilted, &nv, NULL, NULL);
-    if (3 * nv != 7 * out.nq) { /* then it has particles or user coordinates */
+    if (3 * nv != 7 * out.nq) { /* the planar mechanism has particles or user coordinates */
       baum_mechanism_destroy(out.tilted);
       out.tilted = NULL;
     }

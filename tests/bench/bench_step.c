@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the cost of a step, with all monitors, with the cost of its evaluations of the
- * accelerations.
+/* Compares the cost of a step, including all checks that a run makes in it, with the cost of its
+ * evaluations of the accelerations.
  *
  * usage: bench_step                     prints a table
  *        bench_step CASE METHOD COUNT   simulates one case COUNT times, for callgrind
  *
  * The columns are the evaluations per step, the instructions of a step, the instructions of an
- * evaluation, and two ratios. Each ratio is that of a step to all of its evaluations; the first one
- * compares instructions, the second one times. Instructions are counted on Linux if the system
- * permits it; otherwise they are nan.
+ * evaluation, and two ratios. Both ratios compare a step with all of its evaluations. The first is
+ * computed from instructions, the second from times. Instructions are counted on Linux if the
+ * system permits it; otherwise they are nan.
  *
  * Each case repeats a part of the motion that does not come near a singular configuration.
  * Measurements of steps and of evaluations alternate. The evaluations include those of the
- * companion (simulate/companion.c). parts/timing.h defines how times are measured.
+ * companion, a second integration that estimates the error of the run (simulate/companion.c).
+ * parts/timing.h defines how times are measured.
  */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* syscall() */

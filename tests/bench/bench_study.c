@@ -7,8 +7,8 @@
  * A study with the standard grid recommends a setting for each error. A second study runs the
  * recommended settings and the whole grid from perturbed starts over twice the span. A
  * recommendation is met if, in the second study, its error is at most the requested one. The price
- * of a recommendation is its cost divided by the cost of the cheapest entry of the grid. This entry
- * must also have at most the requested error in the second study.
+ * of a recommendation is its cost divided by the cost of the cheapest entry of the grid whose error
+ * in the second study is also at most the requested one.
  */
 #include <math.h>
 #include <stdio.h>
@@ -154,7 +154,7 @@ static double cost_of(const baum_study_entry *entry)
   return (double)(entry->evaluations + entry->factorizations);
 }
 
-/* Returns the cost of the cheapest among the first `count` entries. Its error must be at most
+/* Returns the smallest cost of those among the first `count` entries whose error is at most
  * `target`. */
 static double cheapest(const baum_study *study, int count, double target, char *name, size_t size)
 {

@@ -4,20 +4,21 @@
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *
- *   four-bar  every fixed-step method on linkages within 1 % of a change point
+ *   four-bar  every fixed-step method on linkages within 1 % of a change point (a Grashof equality)
  *   euler     both Euler methods on these linkages, for only half a revolution, because they are
  *             not accurate for longer
- *   taut      every fixed-step method on a light rod that comes taut, with 20 mass ratios
+ *   taut      every fixed-step method on a light rod that comes taut like a string, with 20 mass
+ *             ratios
  *   rtol      every variable-step method on this rod at rtol 1e-9, with 320 mass ratios
  *   singular  every variable-step method through singular configurations, with 60 tolerances
  *
  * References are integrated in reduced coordinates, without the library. The error of a run is its
  * largest position error at ten samples. Lengths are relative to the characteristic length. A run
- * is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong. A false alarm
- * is a right run that has a warning which doubts the motion. A silent run is a wrong run without
- * such a warning. The last table is the sum of all parts. With --full, every linkage is run with
- * and without gravity, and with more steps. With --csv, a line is written for each run. The program
- * fails if a run is silently wrong.
+ * is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong. Some warnings
+ * doubt the motion: they say that it may be wrong. A false alarm is a right run with such a
+ * warning. A silent run is a wrong run without such a warning. The last table is the sum of all
+ * parts. With --full, every linkage is run with and without gravity, and with more steps. With
+ * --csv, a line is written for each run. The program fails if a run is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>

@@ -5,10 +5,10 @@ view.
 usage: bench_view.py [PAIRS]
 
 Two processes read the frames, in the same way as browsers. The times are CPU times, because other
-programs may be using the machine. The table shows the cost of calls. It also shows what a frame
-costs the thread of the run, and what it costs the threads that serve the pages. The last column is
-the sum of these costs at 60 frames per second. It is the largest slowdown of a run, which occurs on
-a machine with a single core.
+programs may be using the machine. The table shows the relative cost of calls. It also shows what a
+frame costs the thread of the run, and what it costs the threads that serve the pages. The last
+column is the sum of these costs at 60 frames per second. It is the largest slowdown of a run, which
+occurs on a machine with a single core.
 """
 
 import contextlib
@@ -96,7 +96,7 @@ def compare(work, steps, plain, seen, pairs):
     with seen.view(browser=False) as view, pages(view):
         for k in range(pairs):
             costs = []
-            # in the first case there are no frames, and only calls cost time
+            # with a frame every 10 s there are practically no frames, and only calls cost time
             for frame in (10.0, 1 / 60):
                 live.FRAME = frame
                 spent = {s: spend(work, s, steps) for s in ((plain, seen) if k % 2 else (seen, plain))}
@@ -110,7 +110,8 @@ def main():
     pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     print(f"medians of {pairs} pairs with two pages")
     print(f"{'':<40}{'calls':>11}{'a frame':>12}{'pages':>12}{'at most':>11}")
-    thread = threading.Thread(target=measure_all, args=[pairs])  # where calls are made directly
+    # outside of the main thread, calls are made directly and not by a second thread
+    thread = threading.Thread(target=measure_all, args=[pairs])
     thread.start()
     thread.join()
 

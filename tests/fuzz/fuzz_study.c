@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Continues studies from files. There are three kinds of files. One consists of arbitrary bytes.
- * One is a real file in which bits or lines were changed, or which contains lines of another study.
- * One is a real file in which fields were changed and the digests of their lines corrected. If a
- * file is refused, it must be unchanged. If it is accepted, the study must have exactly the entries
- * of a study without a file, unless a digest was corrected. Running a completed study again must
- * never find anything left to do. */
+/* Continues studies from files. Some files consist of arbitrary bytes. Some are real files in which
+ * bits or lines were changed, or which contain lines of another study. Others are real files in
+ * which fields were changed and the digests of their lines corrected. If a file is refused, it must
+ * be unchanged. If it is accepted, the study must have exactly the entries of a study without a
+ * file, unless a digest was corrected. Running a completed study again must never find anything
+ * left to do. */
 #define _GNU_SOURCE /* for mkstemp */
 #include <stdio.h>
 #include <stdlib.h>

@@ -25,7 +25,7 @@ static bool read_start(judge_case *c)
   return true;
 }
 
-/* Checks that the library and the reference have the same mechanism. Their accelerations at the
+/* Checks that the library and the reference describe the same mechanism. Their accelerations at the
  * start must agree. */
 static bool accelerations_agree(judge_case *c)
 {

@@ -68,7 +68,7 @@ enum { MODEL_PIN_GROUND, MODEL_PIN_CRANK, MODEL_PIN_SLIDER, MODEL_GUIDE, MODEL_M
 typedef struct model_slider_crank {
   /* Whether a motor keeps the crank at 150 rad/s; otherwise this is the initial velocity. */
   bool driven;
-  /* Whether only the crank is in its exact pose, so that assembly has to move the others. */
+  /* Whether only the crank is in its exact pose, so that assembly has to move the other bodies. */
   bool rough;
   bool centric;       /* whether there is no eccentricity */
   bool doubled_guide; /* whether a second guide on the same line adds two redundant rows */
@@ -91,8 +91,8 @@ baum_status model_slider_crank_build(model_slider_crank options, model *out);
 
 enum { MODEL_ANDREWS_ANGLES = 7 };
 
-/* Makes Andrews' mechanism in the 7 angles of the test set, with 6 user rows. Their Jacobian may be
- * given or not. */
+/* Makes Andrews' mechanism in the 7 angles of the Bari test set, with 6 user rows. The function for
+ * their Jacobian may be given or not. */
 baum_status model_andrews_angles(bool with_jacobian, model *out);
 /* Makes Andrews' mechanism of 7 planar bodies (K1 to K7) and 10 pins. It has 21 coordinates and 20
  * rows. */
@@ -105,7 +105,7 @@ void model_andrews_from_bodies(const double *q, double angles[MODEL_ANDREWS_ANGL
 /* ---- car axis: 4 coordinates, 2 rows that depend on time ------------------------------------- */
 
 /* Makes the car axis. The functions for its Jacobian J and for nu (of J v = nu) may be given or
- * not. The signs of the multipliers are opposite to those in the test set. */
+ * not. The signs of the multipliers are opposite to those in the Bari test set. */
 baum_status model_car_axis(bool with_derivatives, model *out);
 
 /* ---- slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies --------------------------------- */

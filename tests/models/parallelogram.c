@@ -4,8 +4,8 @@
  *
  * Two cranks keep the coupler horizontal. A third crank of the same length therefore needs only one
  * of the two rows of its pin, and the other row is redundant. Instead of the pin, there may be a
- * massless rod of 1 m from the tip of the third crank to the left end of the coupler. It gives only
- * the row that is needed. With three cranks and `above` > 0, the mechanism has no singular
+ * massless rod of 1 m from the tip of the third crank to the left end of the coupler. The rod adds
+ * only the row that is needed. With three cranks and `above` > 0, the mechanism has no singular
  * configurations. With two cranks, it is singular where it is flat.
  */
 #include "models.h"

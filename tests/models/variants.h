@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Many slider-cranks that differ in one number. They are copies of a frozen slider-crank with
+/* Many slider-cranks that differ in one number. Each is a copy of a frozen slider-crank, with
  * another mass of the slider. */
 #ifndef BAUM_TEST_MODELS_VARIANTS_H
 #define BAUM_TEST_MODELS_VARIANTS_H

@@ -10,7 +10,7 @@
 #include "check.h"
 #include "models.h"
 
-/* Sizes for the slider-cranks, which are the largest mechanisms here. */
+/* Sizes of arrays. The slider-cranks need the largest ones. */
 enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 };
 
 /* ---- mechanisms ---- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A model in a given state. Its accelerations are computed by the library and by an oracle. The
- * oracle solves the equations with the same M, J, g and gamma in quadruple precision. Include after
- * cmocka.h. */
+/* A model in a given state, with its accelerations as computed by the library and by an oracle (an
+ * accurate solution). The oracle solves the equations with the same M, J, g and gamma in quadruple
+ * precision. Include after cmocka.h. */
 #ifndef BAUM_TEST_POSED_H
 #define BAUM_TEST_POSED_H
 

@@ -28,13 +28,13 @@ static const double OFF = 1e-6;
  * equations. */
 static const double GROWN = 1e3;
 /* A violation is considered to have decayed if it is below this fraction of the initial one. A
- * one-step method has two modes, whose factors per step are z1 and z2. If Phi' = 0 at the start, a
- * mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. Here this is at least
- * 1/100, so that no growing mode is overlooked. A multistep method has further modes, which may be
- * smaller. For this reason its runs never end early as decayed. */
+ * one-step method has two modes, which change by the factors z1 and z2 in a step. If Phi' = 0 at
+ * the start, a mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. Here this is
+ * at least 1/100, so that no growing mode is overlooked. A multistep method has further modes,
+ * which may be smaller. A run with such a method therefore never ends early as decayed. */
 static const double DECAYED = 1e-3;
 
-/* Size of the grid divided by the size of the region. */
+/* Size of the grid divided by the size of the predicted stable region. */
 static const double BEYOND = 1.1;
 
 /* Returns a step of 1e-5 / omega. At the start, omega is 3.1, 2 or 150 rad/s. */
@@ -58,8 +58,8 @@ static inline void violate(const watched_run *watched, const baum_mechanism *mec
   check(baum_simulation_set_state(watched->run, 0.0, q, v));
 }
 
-/* Starts a run whose initial state violates all constraints. `consistent` is an assembled run that
- * provides the consistent state. It is created only once. */
+/* Starts a run whose initial state violates all constraints. `consistent` is an assembled run from
+ * which the consistent state is read. It is created only once. */
 static inline watched_run start(const model *m, const watched_run *consistent,
                                 const baum_integrator *integrator, double step, baum_gains gains)
 {
@@ -118,8 +118,8 @@ static inline bool watch_decay(const watched_run *watched, bool one_step)
 
 typedef struct window {
   const baum_integrator *integrator;
-  double alpha_h;  /* the largest value of the grid; the smallest is one cell */
-  double beta2_h2; /* the largest value of the grid; the smallest is one cell */
+  double alpha_h;  /* the largest value of the grid; the smallest is the width of one cell */
+  double beta2_h2; /* the largest value of the grid; the smallest is the height of one cell */
 } window;
 
 static inline bool predict(const window *w, double alpha_h, double beta2_h2)
@@ -155,9 +155,9 @@ static inline double beta2_at(const window *w, double j)
   return fmax(0.0, w->beta2_h2 * j / CELLS);
 }
 
-/* Tells whether the prediction is different at a neighbouring grid point, or at a distance of 1e-9
- * cells. In the first case the boundary passes through the cell, and in the second case the point
- * is marginal. */
+/* Tells whether a point of the grid is next to the predicted boundary. The prediction is then
+ * different at a neighbouring grid point, or already at a distance of 1e-9 cells. In the first case
+ * the boundary passes through the cell, and in the second case through the point itself. */
 static inline bool at_boundary(const window *w, int i, int j)
 {
   static const double reach[] = {1.0, 1e-9};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the accuracy of accelerations and multipliers. They are compared with a solution in
  * quadruple precision for the same M, J, g and gamma. For every case, the test prints the largest
- * error of a and the largest error of lambda. Each is relative to the largest element. */
+ * error of a and the largest error of lambda, each relative to the largest element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 static const double PI = 3.14159265358979324;
 
 /* The limit for ordinary configurations. It is about ten times the error that remains after
- * refinement. Condition numbers of a few hundred amplify rounding errors. */
+ * refinement. This error is a rounding error, amplified by condition numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
@@ -160,7 +160,7 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* M, J and g are rounded. The condition number at 0.2 rad amplifies this. */
+    /* The rounding errors of M, J and g are amplified by the condition number at 0.2 rad. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);
@@ -270,8 +270,8 @@ static errors measure_alternating(int loops, double crank, double coupler)
 
 enum { LINKS = 100 };
 
-/* Measures a chain whose links are 1 kg. Every second link has the mass `other` instead, and the
- * mass of the last link is multiplied by `tip`. */
+/* Measures a chain whose links have a mass of 1 kg, except every second link, whose mass is
+ * `other`. In addition, the mass of the last link is multiplied by `tip`. */
 static errors measure_uneven_chain(double tip, double other)
 {
   double mass[LINKS];

@@ -99,9 +99,9 @@ typedef struct method {
 } method;
 
 /* Returns the limit of the error, of the violation and of the relative change of energy. The limits
- * are listed by order, and the first one is for variable steps. Each limit is at least three times
- * the largest measured value. For order 1 this measured value is 3e-2, after 500 steps of a double
- * pendulum. The measured value falls by a factor of about 200 from each order to the next, until it
+ * are listed by the order of the method, and the first one is for variable steps. Each limit is at
+ * least three times the largest measured value. For order 1, this value is 3e-2, after 500 steps of
+ * a double pendulum. It falls by a factor of about 200 from each order to the next, until it
  * reaches the error of the reference. */
 static double allowed(const method *with)
 {
@@ -164,7 +164,7 @@ static outcome find_reference(const joint_scene *scene)
   baum_simulation_options coarse = reference_options(2e-4);
   outcome out = run_scene(scene, &fine);
   outcome other = run_scene(scene, &coarse);
-  assert_true(difference(&out, other.q) <= 1e-11); /* the error of the finer run is 1/16 of this */
+  assert_true(difference(&out, other.q) <= 1e-11); /* the finer run has 1/16 of this error */
   assert_true(out.max_phi <= 1e-14);
   assert_true(!scene->conservative || out.energy_change <= 1e-12);
   return out;
@@ -261,8 +261,8 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
   return out;
 }
 
-/* Without degrees of freedom, the equation Phi = 0 determines the positions. A run with the
- * kinematics integrator and a run with projection may therefore differ only by rounding. */
+/* Without degrees of freedom, the equation Phi = 0 alone determines the positions. A run with the
+ * kinematics integrator may therefore differ from a run with projection only by rounding. */
 static void kinematics_carries_every_joint(void **state)
 {
   (void)state;
@@ -290,8 +290,8 @@ static void kinematics_carries_every_joint(void **state)
 
 /* ---- reactions ---- */
 
-/* A mechanism in motion, and its residual M a - g. The test subtracts all reactions from the
- * residual. Afterwards the residual must be zero. */
+/* A mechanism in motion, and its residual M a - g. When the test has subtracted all reactions from
+ * the residual, it must be zero. */
 typedef struct balance {
   test_point p;
   baum_workspace *workspace;

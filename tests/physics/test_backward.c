@@ -22,9 +22,9 @@ enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
  * steps chosen. */
 static const double MOST_VIOLATION = 4.0;
 /* The error back at the start may be at most this many times the error at the far end. A ratio of 4
- * is expected: 1 from the position error at the far end, 2 from the velocity error there, which
- * acts for twice the time, and 1 from the backward run. The limit is larger, because the error at
- * the far end may be small by chance. */
+ * is expected. It is the sum of 1 from the position error at the far end, 2 from the velocity error
+ * there, which acts for twice the time, and 1 from the backward run. The limit is larger, because
+ * the error at the far end may be small by chance. */
 static const double MOST_ERROR = 20.0;
 /* Allows for the rounding errors of about 1e4 steps. The driven crank needs this term, because its
  * positions are a function of time alone and have no other errors. */
@@ -32,7 +32,7 @@ static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s], or NaN for variable steps; sample times of tests/data are multiples of it */
+  double step; /* [s], or NaN for variable steps; it divides the sample times of tests/data */
   double rtol;
   baum_formulation formulation;
 } method;

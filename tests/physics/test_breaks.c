@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests break times that a mechanism declares. A torque acts on a body on a pin, without gravity.
- * It jumps at three times. Between the jumps the exact motion is a polynomial of degree 2. If no
- * step crosses a jump, methods of order 2 and higher reproduce this motion to rounding.
- * Generalized-alpha is an exception, see allowed(). */
+/* Tests break times (times of discontinuities) that a mechanism declares. A torque acts on a body
+ * on a pin, without gravity. The torque jumps at three times. Between the jumps the exact motion is
+ * a polynomial of degree 2. If no step crosses a jump, methods of order 2 and higher reproduce this
+ * motion to rounding. Generalized-alpha is an exception, see allowed(). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -117,7 +117,7 @@ static baum_counters counters_of(baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is the error (h/2) |torque| t of the
+ * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a break has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -214,7 +214,7 @@ static void outputs_change_nothing(void **state)
 }
 
 /* Only the torque does work. This work must therefore equal the kinetic energy. If a step crossed a
- * jump, both would differ. */
+ * jump of the torque, the two would differ. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -231,8 +231,8 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* In the work and the energy, errors of angle and angular velocity are multiplied by up to 50 N
-     * m and 6 rad/s. */
+    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
+     * angular velocity times up to 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);

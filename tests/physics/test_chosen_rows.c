@@ -66,7 +66,7 @@ static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulatio
 }
 
 /* Tells whether a method is tested. Methods of order 1 and 2 are excluded, because they give a
- * warning at this step. IDA at index 3 is excluded, because it always gives one. */
+ * warning at this step. IDA at index 3 is excluded, because it always gives a warning. */
 static bool is_asked(const baum_simulation_options *o)
 {
   int order = baum_integrator_order(o->integrator);
@@ -121,7 +121,7 @@ static void index_3_methods_make_several_revolutions(void **state)
     o.integrator = methods[k];
     o.step = STEP;
     baum_simulation *run = run_to_end(m, &o);
-    /* An error of order 2: (omega h)^2 times 20 rad. */
+    /* The error of a method of order 2 is (omega h)^2 times 20 rad. */
     assert_true(apart(baum_simulation_q(run), exact) < 1e-2);
     baum_simulation_destroy(run);
   }
@@ -139,8 +139,8 @@ static void *save(baum_simulation *run, size_t *size)
   return buffer;
 }
 
-/* At its start, the restored run has chosen rows of its own. It must replace them by the rows of
- * the saved run. */
+/* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
+ * must replace its choice by that of the saved run. */
 static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
 {
   (void)state;
@@ -170,8 +170,8 @@ static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
     }
     baum_energy_account account;
     check(baum_simulation_energy_account(one, &account, sizeof account));
-    /* The limit allows for errors of the method, and for the corrections when rows change. The
-     * kinetic energy is 100 J. */
+    /* The limit allows for errors of the method, and for the corrections when the omitted rows
+     * change. The kinetic energy is 100 J. */
     assert_true(fabs(account.residual) < 1e-4);
     baum_simulation_destroy(one);
     baum_simulation_destroy(other);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With variable steps, the residual of the energy account must be below 100 rtol. With fixed steps,
- * it must have the order of the method. The test covers all mechanisms of account_scenes.h with
- * every formulation. The residual of a run is the largest of the residuals at 8 times. It is
- * divided by the largest energy or work. */
+/* The energy account of a run compares the change of its energy with the work that was done. The
+ * difference is called the residual. With variable steps, the residual must be below 100 rtol. With
+ * fixed steps, it must have the order of the method. The test covers all mechanisms of
+ * account_scenes.h with every formulation. The residual of a run is the largest of the residuals at
+ * 8 times. It is divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -58,9 +59,9 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- fixed steps ---- */
 
-/* Returns the number of steps of the coarsest run. With this number, the step is short enough for
- * error terms of the next order to be small. It is long enough for the residuals of the finest run
- * to be above 1e-13. */
+/* Returns the number of steps of the coarsest run. With it, the step of the coarsest run is short
+ * enough for error terms of the next order to be small. The step of the finest run is long enough
+ * for its residual to be above 1e-13. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -70,9 +71,9 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* How far a measured slope may be below the order. It is smaller than the order if error terms of
- * higher order have the opposite sign. It may also be larger than the order, if such terms
- * dominate. */
+/* How far a measured slope may be below the order. The slope is smaller than the order if error
+ * terms of higher order have the opposite sign. If such terms dominate, the slope may also be
+ * larger, which is allowed. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -134,8 +135,8 @@ static void residuals_fall_with_the_order_of_fixed_step_methods(void **state)
 /* ---- variable steps ---- */
 
 /* Returns the largest allowed value of residual / rtol. IDA at index 3 does not control the error
- * of velocities, and exceeds its tolerance. The values measured were 197, and 340 with the rounding
- * of another compiler. */
+ * of velocities, and exceeds its tolerance. The measured value was 197 with one compiler, and 340
+ * with another one, because they round differently. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
@@ -195,8 +196,9 @@ static void residuals_of_sundials_fall_with_the_tolerance(void **state)
  * energy account. The error of q is known only if an exact motion is given. */
 typedef struct motion {
   double q[TIMES][WIDTH];
-  double error;    /* largest error of q, in m or rad; links are 1 m long */
-  double residual; /* this and `works` are divided by the largest kinetic energy */
+  double error; /* largest error of q, in m or rad; links are 1 m long */
+  /* The next two are divided by the largest kinetic energy. */
+  double residual; /* of the account */
   double works;    /* works of violations and of projection */
 } motion;
 
@@ -228,9 +230,9 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
 }
 
 /* If almost no work is done, the residual is the change of T + V and contains no errors of computed
- * works. It must then be comparable with the error of the motion. Both are caused by the
- * integrator. This shows that the residuals of BDF and IDA at tight tolerances come from the
- * integrators, and not from the account. */
+ * works. Then the integrator alone causes both the residual and the error of the motion, and the
+ * two must be comparable. This shows that the residuals of BDF and IDA at tight tolerances come
+ * from the integrators, and not from the account. */
 static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
 {
   (void)state;

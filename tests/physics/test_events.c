@@ -114,8 +114,8 @@ static void bounce(baum_simulation *run)
 }
 
 /* Bounces ten times at the lowest point, either forward or backward in time. The event detects
- * crossings in both directions. The test would therefore notice if the motion away from the stop
- * were reported as another event. Returns the largest error of a bounce's time. */
+ * crossings in both directions. The test therefore fails if the motion away from the stop is
+ * reported as another event. Returns the largest error of a bounce's time. */
 static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
@@ -130,8 +130,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* The limit is the rounding error of the time, 4 eps t, times 2.7 rad/s, plus the rounding
-     * error of positions. */
+    /* The limit is the sum of two rounding errors: that of the time, 4 eps t, times 2.7 rad/s, and
+     * that of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -163,8 +163,8 @@ typedef struct expected {
   int32_t direction;
 } expected;
 
-/* Compares all records of a run with the expected ones, in their order. `quarters` are times, in
- * quarter periods. */
+/* Compares all records of a run with the expected ones, in their order. The expected times are
+ * given in quarter periods. */
 static void check_records(const baum_simulation *run, const swing *s, step_mode mode,
                           const expected *want, int count)
 {
@@ -215,7 +215,7 @@ static void simultaneous_events_are_all_reported(void **state)
     baum_simulation *run = open_run(&s, &o);
     (void)add_angle(run, &s, 0.0, 0, false);
     (void)add_angle(run, &s, 0.0, -1, true);
-    (void)add_angle(run, &s, 1e-15, 0, true); /* at an angle that is reached 1e-15 rad earlier */
+    (void)add_angle(run, &s, 1e-15, 0, true); /* its angle is reached 1e-15 rad earlier */
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
     check_records(run, &s, mode, want, 3);
     assert_true(record_of(run, 0).t == baum_simulation_time(run));
@@ -314,10 +314,11 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
       assert_int_equal(status, terminal ? BAUM_STOP_EVENT : BAUM_OK);
       assert_int_equal(done, terminal ? 1 : 4);
       assert_int_equal(baum_simulation_event_count(run), 1);
-      /* The search for the time is accurate to 4 eps t. */
+      /* The search for the time of an event is accurate to 4 eps t. */
       ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0);
       assert_true(baum_simulation_time(run) == (terminal ? record_of(run, 0).t : times[3]));
-      /* Makes the samples at the remaining times. One of them is the time of the event. */
+      /* The run now makes the samples at the remaining times. One of them is the time of the
+       * event. */
       times[1] = baum_simulation_time(run);
       if (terminal) {
         status = baum_simulation_sample(run, times + 1, 3, &angle, 1, rows + 2, &done);

@@ -170,7 +170,7 @@ static worst compare_links(const double *a)
     next[0] = at[0] - turned[0];
     next[1] = at[1] - turned[1];
   }
-  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground does not move */
+  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the first link is pinned to the ground */
   return out;
 }
 
@@ -203,7 +203,7 @@ static void every_link_obeys_newton_and_euler(void **state)
   worst off = compare_links(a);
   printf("forces up to %.3g N; largest errors: moments %.1e N m, ends %.1e m/s^2\n", off.force,
          off.moment, off.gap);
-  /* F_k is a sum of up to 1e5 terms. The rounding error of each term is 1e-16 of it. */
+  /* F_k is a sum of up to 1e5 terms. Each term has a relative rounding error of 1e-16. */
   assert_true(off.moment <= 1e-11 * off.force);
   /* Refinement reduces the residuals of rows to rounding errors of accelerations, which are about
    * g. */

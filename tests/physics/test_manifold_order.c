@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator for mechanisms whose positions are on a manifold.
- * The step is halved repeatedly, for a heavy top, and for a slider-crank whose bodies represent
- * their angle by (cos, sin), and the errors are compared. The gains are chosen by the rule `auto`.
- * They are the same for all these steps. */
+ * There are two: a heavy top, and a slider-crank whose bodies represent their angle by (cos, sin).
+ * The step is halved repeatedly, and the errors are compared. The gains are chosen by the rule
+ * `auto`. They are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,7 @@ static const double END = 0.5;
  * test_order.c. The runs take only half a second, so that error terms of the next order are larger.
  * Such terms may also increase the slope. */
 static const double TOO_FLAT = 0.25;
-/* The limit for the orders 5 and 8. A wrong term would give slopes of at most 2. */
+/* The limit for the orders 5 and 8. A wrong coefficient would give slopes of at most 2. */
 static const double TOO_FLAT_HIGH = 0.6;
 static const double TOO_STEEP = 0.8;
 

@@ -174,10 +174,10 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
   return q;
 }
 
-/* If angles are represented by (cos, sin), move() is exact. A method that changes q only by move()
- * must therefore take the same steps as with the twin. For quaternions, the Euler methods add h q'
- * instead of calling move(). In scenes with quaternions, only RATTLE and generalized-alpha are
- * therefore tested. */
+/* If angles are represented by (cos, sin), the function move() of the manifold is exact. A method
+ * that changes q only by move() must therefore take the same steps as with the twin. For
+ * quaternions, the Euler methods add h q' instead of calling move(). In scenes with quaternions,
+ * only RATTLE and generalized-alpha are therefore tested. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
@@ -382,8 +382,8 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
   return fabs(account.residual);
 }
 
-/* The residual of the account is caused by the error of the method. It must be comparable with the
- * residual of the twin, because a different representation of q only changes the choice of
+/* The residual of the energy account is caused by the error of the method. It must be comparable
+ * with the residual of the twin, because the representation of q only affects the choice of
  * steps. */
 static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
 {

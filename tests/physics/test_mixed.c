@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of planar and spatial bodies. A planar slider-crank carries a spatial pendulum on its
- * rod. It is compared with the same mechanism of spatial bodies, with every integrator of this
- * build and all its formulations. Furthermore, accelerations and multipliers must satisfy the
+/* Tests mechanisms of planar and spatial bodies. A planar slider-crank carries a spatial pendulum
+ * on its rod. It is compared with the same mechanism of spatial bodies, with every integrator of
+ * this build and all its formulations. Furthermore, accelerations and multipliers must satisfy the
  * equations of motion for every kind of spatial joint on a planar body or particle. */
 #include <math.h>
 #include <setjmp.h>
@@ -200,8 +200,8 @@ static double apart(int n, const double *x, const double *y)
   return largest;
 }
 
-/* Compares both models, computed by one method. Returns the difference of their positions. Neither
- * model may be much less accurate than the other one. */
+/* Runs both models by the same method. Returns the difference of their positions. Neither model may
+ * be much less accurate than the other one. */
 static double compare(const baum_simulation_options *options, const outcome *exact)
 {
   const outcome mixed = run_to(false, false, END, options);
@@ -211,8 +211,9 @@ static double compare(const baum_simulation_options *options, const outcome *exa
   return apart(NUMBERS, mixed.places, spatial.places);
 }
 
-/* Projection and implicit methods keep both models on the same constraints, so that they differ
- * only by the formulas for rotations. In other formulations they drift apart. */
+/* Projection and implicit methods keep both models on the same constraints. Their results therefore
+ * differ only because the formulas for rotations differ. In other formulations the two models drift
+ * apart. */
 static void planar_links_move_as_spatial_ones(void **state)
 {
   (void)state;
@@ -236,7 +237,7 @@ static void planar_links_move_as_spatial_ones(void **state)
   }
 }
 
-/* Forces and moments across the plane are part of the reaction. */
+/* Spatial reactions also contain the force normal to the plane and the moments about axes in it. */
 static void reactions_and_energies_are_the_same(void **state)
 {
   (void)state;
@@ -334,7 +335,7 @@ static void add_distance(baum_mechanism *m, baum_body_id a, baum_body_id b)
 
 typedef void add_fn(baum_mechanism *m, baum_body_id a, baum_body_id b);
 
-/* The first two allow particles. */
+/* The first two of these joints can be on particles. */
 static add_fn *const KINDS[] = {
   add_spherical,   add_distance,          add_revolute,      add_universal,
   add_cylindrical, add_prismatic,         add_planar,        add_fixed,

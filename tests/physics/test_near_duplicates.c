@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank has one joint too many. The additional pin, guide or rod is almost the same as
- * another joint. Its position or direction differs by 1e-14 to 1e-6. With every solver, a run must
- * either be refused, with a message that names a joint, or have the right accelerations. These are
- * computed in quadruple precision for the same M, J, g and gamma. The reference treats two rows as
- * the same row if they differ by less than 1e-10. If there are initial velocities, the reference
- * first projects them so that they satisfy the rows. */
+/* Tests a slider-crank that has one joint too many. The additional pin, guide or rod is almost the
+ * same as another joint. Its position or direction differs by 1e-14 to 1e-6. With every solver, a
+ * run must either be refused, with a message that names a joint, or have the right accelerations.
+ * The right accelerations are computed in quadruple precision for the same M, J, g and gamma. This
+ * reference treats two rows as the same row if they differ by less than 1e-10. If there are initial
+ * velocities, the reference first projects them so that they satisfy the rows. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -32,7 +32,7 @@ typedef enum again {
   FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod along the rod; it fits only in this configuration */
+  ROD_ASIDE, /* a massless rod on the line of the rod; it fits only in this configuration */
   ROD_LONGER,
   AGAIN_COUNT
 } again;
@@ -193,7 +193,7 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   return most / rows.size;
 }
 
-/* Returns the largest allowed error. If a mechanism moves, the library tolerates a relative
+/* Returns the largest allowed error. At the start of a run, the library tolerates a relative
  * violation of Phi' of up to 1e-6 without a message (the constant OPEN in src/simulate/start.c).
  * Accelerations depend on the squares of velocities. Their relative error may therefore be more
  * than twice this violation. */
@@ -316,8 +316,8 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
 }
 
 /* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors of
- * the size that a projection leaves. The library must treat them as rest, both with gravity and
- * without. */
+ * the size that a projection leaves. The library must treat the rod as being at rest, both with
+ * gravity and without. */
 static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
 {
   (void)state;

@@ -21,11 +21,11 @@
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
 /* The slope may differ from the order by at most this. There are 4 runs, and the step changes by a
- * factor of 8 from the first to the last. If an error term of the next order is 1/4 of the error at
- * the largest step, it changes the mean slope by less than 0.11. */
+ * factor of 8 from the first to the last. An error term of the next order that is 1/4 of the error
+ * at the largest step changes the mean slope by less than 0.11. */
 static const double TOLERANCE = 0.2;
 
-/* `samples` is chosen so that runs end after 2 rad of the crank, or after 3 rad of the pendulum. */
+/* `samples` is chosen so that runs end after 2 rad of the crank, or 3 rad of the pendulum. */
 static const reference REFERENCES[] = {
   [PENDULUM] = {.samples = 3,
                 .width = A01_PENDULUM_WIDTH,
@@ -48,8 +48,8 @@ static const reference REFERENCES[] = {
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
 /* Series of runs for orders 5 and 8. Their errors reach rounding before error terms of the next
- * order become small, particularly with gains. These series therefore have fewer runs, and their
- * slope may be larger than the order. */
+ * order become small, particularly with gains. Each series therefore has fewer runs, and its slope
+ * may be larger than the order. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;

@@ -83,8 +83,9 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
  * judged. Other fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and
- * rounding errors. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the rows
- * change, and have errors of about 1e4 rtol. The errors of other methods are about 10 rtol. */
+ * rounding errors. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the
+ * omitted rows change, and have errors of about 1e4 rtol. The errors of other methods are about 10
+ * rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -106,13 +107,13 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
          counters.max_phi);
   assert_true(error <= allowed(mode));
-  assert_true(counters.max_phi <= 1e-2); /* without stabilization it would drift to 1 m */
+  assert_true(counters.max_phi <= 1e-2); /* without stabilization the violation would reach 1 m */
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
 
-/* The formulation UNSTABILIZED is tested as well, although its violation grows whenever the rows
+/* The formulation UNSTABILIZED is tested as well. Its violation grows whenever the omitted rows
  * change (docs/limits.md). */
 static void every_stabilized_method_goes_round(void **state)
 {
@@ -165,7 +166,8 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
 }
 
 /* Takes states of another run at times up to 0.8 s, sets them in this run, and continues from each
- * for 0.2 s. In these states, the rows that this run chose at its start may be nearly dependent. */
+ * for 0.2 s. In these states, the rows that this run chose at its own start may be nearly
+ * dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {
   (void)state;
@@ -190,7 +192,7 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
   model_destroy(&here);
 }
 
-/* When rows change, the run must not remove a violation that the user has given. */
+/* When the omitted rows change, the run must not remove a violation that the user has given. */
 static void a_violation_that_was_given_stays(void **state)
 {
   (void)state;

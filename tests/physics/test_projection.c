@@ -5,10 +5,11 @@
  *   |Phi_i|  <= 1e-13 L_i + rounding,   L_i = max_j |J_ij| scale_j
  *   |Phi'_i| <= 1e-13 (|J_i| |v| + |nu_i|) + rounding
  *
- * The test covers every integrator that offers this formulation, with fixed and variable steps. The
- * mechanisms stay away from singular configurations. Rounding errors are relative to the terms of a
- * row. For velocities, they are relative to the fastest velocity of the mechanism, because all
- * velocities are solved together.
+ * Here scale_j is the unit of coordinate j: the characteristic length, or 1 rad. The test covers
+ * every integrator that offers this formulation, with fixed and variable steps. The mechanisms stay
+ * away from singular configurations. Rounding errors are relative to the terms of a row. For
+ * velocities, they are relative to the fastest velocity of the mechanism, because all velocities
+ * are solved together.
  */
 #include <setjmp.h>
 #include <stdarg.h>

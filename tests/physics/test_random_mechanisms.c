@@ -25,10 +25,9 @@ static const double AS_OTHERS = 30.0;
 static const double ROUNDING = 1e-11;
 
 /* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
- * coordinates, in structures without joints, without loops, and with many loops. One kind has rows
- * of velocity level. The last two kinds
- * have a hub, which is a body that has most of the joints. The block solver can handle the smaller
- * hub, but not the larger one. */
+ * coordinates, in structures without joints, without loops, and with many loops. One kind has
+ * velocity-level rows. The last two kinds have a hub, which is a body that has most of the joints.
+ * The block solver can handle the smaller hub, but not the larger one. */
 static const random_kind kinds[] = {
   {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
   {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},
@@ -363,7 +362,8 @@ static void accelerations_are_met_or_rightly_refused(void **state)
 
 /* The numbers are seeds of difficult cases. In 39374, a poor choice of rows would keep rows that
  * are nearly dependent. In 10325, 15203, 23760 and 33361, no acceleration satisfies the omitted
- * rows. In 32478 and 36235, a contradiction is divided by a pivot that is only a rounding error. */
+ * rows together with the others. In 32478 and 36235, the residual of a contradiction is divided by
+ * a pivot that is only a rounding error. */
 static void nearly_dependent_and_contradicting_rows_are_not_silent(void **state)
 {
   static const uint64_t seeds[] = {39374, 10325, 15203, 23760, 33361, 32478, 36235};

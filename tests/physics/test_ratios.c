@@ -201,8 +201,8 @@ static void ratios_are_exact_over_100_revolutions(void **state)
   baum_mechanism_destroy(t.mechanism);
 }
 
-/* The rows are satisfied at any number of revolutions. The energy of the spring depends on it. A
- * workspace computes this energy after it has been given the angle of the shaft. */
+/* The rows are satisfied at any number of revolutions, but the energy of the spring depends on this
+ * number. A workspace computes this energy after it has been given the angle of the shaft. */
 static void a_workspace_is_given_the_revolutions(void **state)
 {
   (void)state;
@@ -296,8 +296,8 @@ static void every_method_keeps_the_ratios(void **state)
 
 /* ---- constant-velocity joints ---- */
 
-/* A shaft that rotates at a constant rate drives another one. The angle between them is between 3
- * and 123 degrees. */
+/* A shaft that rotates at a constant rate drives another one. The angle between the shafts ranges
+ * from 3 to 123 degrees. */
 static void rates_are_equal_at_any_angle(void **state)
 {
   (void)state;

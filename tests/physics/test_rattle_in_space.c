@@ -27,7 +27,7 @@ static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 /* A heavy top on a spherical joint at the origin. */
 static const double MASS = 1.2;
 static const double INERTIA[6] = {0.3, 0.5, 0.4, 0.05, -0.03, 0.02};
-/* From the centre of mass to the joint, in body axes. */
+/* The vector from the centre of mass to the joint, in body axes. */
 static const double ARM[3] = {0.1, -0.2, -0.6};
 static const double START_P[4] = {0.6, 0.0, 0.8, 0.0};
 static const double START_W[3] = {2.0, -1.0, 6.0};
@@ -147,8 +147,8 @@ static void the_order_is_two_and_constraints_hold_to_rounding(void **state)
 
 /* ---- symmetry ---- */
 
-/* RATTLE is symmetric. After the velocities are reversed, the same number of steps must lead back
- * to the start, except for rounding. */
+/* RATTLE is symmetric. If the velocities are reversed after some steps, the same number of steps
+ * must lead back to the start, except for rounding. */
 static void check_reversal(build_fn *build, int nq, int nv)
 {
   double q[2][SPATIAL_RSSR_NQ];
@@ -226,8 +226,8 @@ static void map_top(baum_simulation *run, const double p[4], const double w[3], 
   momentum_of(baum_simulation_v(run) + 3, m);
 }
 
-/* Differentiates map_top(). For k = 0 to 2, the variable is one of three rotations, and for k = 3
- * to 5, one of three angular velocities. */
+/* Differentiates map_top() with respect to variable k. The variables 0 to 2 are rotations about the
+ * three axes, and the variables 3 to 5 are the angular velocities about them. */
 static variation vary_top(baum_simulation *run, int k, double d)
 {
   double q[2][TOP_NQ];

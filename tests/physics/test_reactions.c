@@ -15,8 +15,8 @@
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
-/* In these mechanisms, multipliers of least norm are difficult. Rounding errors of large forces
- * could remain on light bodies. */
+/* Seeds of mechanisms in which multipliers of least norm are difficult to compute. Rounding errors
+ * of large forces could remain on light bodies. */
 static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 
 static baum_simulation *run_bracket(const baum_mechanism *m)
@@ -29,8 +29,8 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* Checks that the reaction is the weight of the heavy body, 9.81 N, and its moment about the joint.
- * The joint is 0.4 m beside the centre of this body. */
+/* Checks that the reaction is the weight of the heavy body, 9.81 N, and the moment of this weight
+ * about the joint. The joint is 0.4 m beside the centre of this body. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);
@@ -85,8 +85,8 @@ static void only_joints_that_share_forces_are_named(void **state)
   }
 }
 
-/* The multipliers have the least norm in rows that are scaled by M. Two joints on the same body
- * therefore each take half of the force, whatever the mass of the body. */
+/* The multipliers are those with the least norm, where each row is scaled by M. Two joints on the
+ * same body therefore each take half of the force, whatever the mass of the body. */
 static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
 {
   (void)state;

@@ -99,7 +99,8 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* The accelerations are compared with an oracle, which omits the same rows as the workspace. */
+/* The accelerations are compared with those in quadruple precision, for which the same rows are
+ * omitted as in the workspace. */
 static void accelerations_are_those_of_quadruple_precision(void **state)
 {
   (void)state;

@@ -132,7 +132,7 @@ static double error_now(const baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is the error (h/2) |torque| t of the
+ * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a jump has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -299,8 +299,8 @@ static void the_account_closes_over_jumps(void **state)
     exact(2.0, &angle, &rate, &work);
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
-    /* In the work and the energy, errors of angle and angular velocity are multiplied by up to 50 N
-     * m and 6 rad/s. */
+    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
+     * angular velocity times up to 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
     ASSERT_NEAR(account.loads, work, 0.0, most);

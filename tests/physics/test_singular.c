@@ -139,7 +139,8 @@ static void intervals_have_times_joints_and_branches(void **state)
   /* The mechanism becomes flat after 90 degrees of the crank. The reference time was computed from
    * the equation of motion in the angle, with mpmath and 25 digits. The search is accurate to a
    * millionth of two steps, which is 1e-8 s. The method has an error of 3e-9 s. The pivot is
-   * proportional to the square of the distance, so that the smallest pivot found is about 1e-12. */
+   * proportional to the square of the distance from the flat configuration. The smallest pivot
+   * found is therefore about 1e-12. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -175,8 +176,8 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
 }
 
 /* A small error in a singular configuration causes a violation. Because of this violation, the
- * mechanism cannot reach the next singular configuration. It reverses before it, and continues on
- * the other branch. */
+ * mechanism cannot reach the next singular configuration. It reverses shortly before it, and
+ * continues on the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;

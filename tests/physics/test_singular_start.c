@@ -32,8 +32,8 @@ static baum_simulation *create(const model *m, const baum_integrator *integrator
   return run;
 }
 
-/* Advances to `end`. Checks that the run reaches `end`, or stops with a message, after few
- * steps. */
+/* Advances to `end`. Checks that the run needs only few steps to reach `end` or to stop with a
+ * message. */
 static baum_status run_to(baum_simulation *run, double end)
 {
   baum_counters c;

@@ -17,8 +17,8 @@ static void check_tally(const slender_tally *tally, long mechanisms)
   assert_true(20 * tally->counts[SLENDER_UNJUDGED] < mechanisms);
 }
 
-/* Before islands and spins were judged separately, and before KLU used whitened tensors, a result
- * for each of SEEDS was wrong without a message, or refused without a reason. */
+/* SEEDS are difficult mechanisms. For each of them, an earlier version of the library gave a result
+ * that was wrong without a message, or refused a result without a reason. */
 static void accelerations_are_met(void **state)
 {
   static const uint64_t SEEDS[] = {300, 389, 494, 504, 587, 716, 808, 846, 944, 1284, 5282};
@@ -36,7 +36,7 @@ static void accelerations_are_met(void **state)
   assert_int_equal(known.counts[SLENDER_WRONG] + known.counts[SLENDER_FALSE_REFUSAL], 0);
 }
 
-/* The same mechanisms in millimetres have the same verdicts. */
+/* If lengths are given in millimetres, the same results must be right, refused or wrong. */
 static void results_do_not_depend_on_the_unit_of_length(void **state)
 {
   enum { MECHANISMS = 100 };
@@ -47,7 +47,8 @@ static void results_do_not_depend_on_the_unit_of_length(void **state)
     slender_verdict verdicts[2] = {SLENDER_RIGHT, SLENDER_RIGHT};
     slender_judge(seed, 1.0, &tally, &verdicts[0]);
     slender_judge(seed, 1000.0, &tally, &verdicts[1]);
-    /* the effect of rounding makes an error near the limit right or rounded */
+    /* An error near the limit may count as right in one unit and as explained by rounding in the
+     * other. */
     differ += (verdicts[0] > SLENDER_ROUNDED) != (verdicts[1] > SLENDER_ROUNDED) ? 1 : 0;
   }
   assert_int_equal(differ, 0);

@@ -19,7 +19,7 @@
 /* The limit for ordinary scenes. It is about ten times the rounding error, amplified by condition
  * numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
-/* A chain of 1000 links on revolute joints moves slowly compared with the forces in it. */
+/* In a chain of 1000 links on revolute joints, forces are large compared with accelerations. */
 static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
@@ -167,7 +167,8 @@ static void meet(posed *p, double gain, double rounded, errors *worst)
   worst->lambda = worse(quad_error(p->nc, p->lambda, p->want_lambda), worst->lambda);
 }
 
-/* Includes the errors at a state, and at a second state that violates the constraints. */
+/* Adds to `worst` the errors at a state, and those at a second state that violates the
+ * constraints. */
 static void meet_all(posed *p, uint64_t *seed, double rounded, errors *worst)
 {
   meet(p, 0.0, rounded, worst);
@@ -356,7 +357,8 @@ static void thin_shafts_between_heavy_rods_keep_eleven_digits(void **state)
   assert_int_equal(failures, 0);
 }
 
-/* The solver raises the moments of such bodies, and corrects the solution. */
+/* The solver increases the smallest moments of inertia of slender rods, and then corrects the
+ * solution. */
 static void slender_rods_keep_eleven_digits(void **state)
 {
   (void)state;
@@ -386,7 +388,7 @@ static baum_body_id add_rod(baum_mechanism *m, int k, baum_body_id before, const
 }
 
 /* The second and the third of three rods can turn about their common axis. Even a tiny moment about
- * this axis causes a large acceleration, which a raised moment of inertia would hide. */
+ * this axis causes a large acceleration, which an increased moment of inertia would hide. */
 static void slender_rods_may_turn_freely(void **state)
 {
   (void)state;

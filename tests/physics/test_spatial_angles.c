@@ -170,8 +170,8 @@ static void a_continued_run_goes_on_counting(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Steps follow the angle only after a tenth of a radian. A state that is set 3.1 rad ahead must
- * count from the angle that the run has at that moment. */
+/* During steps, the angle is followed only every tenth of a radian. If a state is set 3.1 rad
+ * ahead, its revolutions must nevertheless be counted from the present angle of the run. */
 static void a_state_that_is_set_is_compared_with_the_present_angle(void **state)
 {
   (void)state;

@@ -396,7 +396,7 @@ static void a_bushing_that_passes_pi_warns(void **state)
   for (int fixed = 0; fixed < 2; fixed++) {
     assert_int_equal(warning_of(3.1, 4.0, fixed), 0);
     assert_int_equal(warning_of(3.2, 4.0, fixed), BAUM_WARNING_BUSHING);
-    assert_int_equal(warning_of(3.2, 0.0, fixed), 0); /* without a moment nothing jumps */
+    assert_int_equal(warning_of(3.2, 0.0, fixed), 0); /* without stiffness, no moment can jump */
   }
 }
 

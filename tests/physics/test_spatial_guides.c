@@ -513,7 +513,8 @@ static void the_energy_account_holds_across_slack(void **state)
     check(baum_simulation_advance_to(run, 3.0));
     check(baum_simulation_energy_account(run, &account, sizeof account));
     assert_true(account.dampers < -1.0);
-    /* A fixed step of 3e-4 m is longer than the transition of 1e-4 m. */
+    /* In a fixed step, the weight moves by 3e-4 m. The transition to a taut cable takes only 1e-4
+     * m. */
     assert_true(fabs(account.residual) <= (fixed ? 2e-3 : 2e-5));
     baum_simulation_destroy(run);
   }
@@ -539,7 +540,7 @@ static void the_tension_is_continuous_and_only_pulls(void **state)
       check(baum_workspace_force(w, 0.0, q, v, force));
       const double tension = force[2] + G;
       assert_true(tension >= -1e-14 && (s > 0.0 || fabs(tension) <= 1e-14));
-      /* the steepest slope is k + 1.5 c |l'| / d with d = 1e-4 m */
+      /* the largest slope of the tension over the length is k + 1.5 c |l'| / d with d = 1e-4 m */
       assert_true(fabs(tension - before) <= 1e-6 * (200.0 + 1.5 * 5.0 * 2.0 / 1e-4) + 1e-12);
       before = tension;
       const double x = fmin(s / 1e-4, 1.0);

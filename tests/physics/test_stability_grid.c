@@ -15,8 +15,9 @@ EVERY_INTEGRATOR(DEFINE)
 
 enum { TAYLOR_STEPS = 400 };
 
-/* For the Taylor gains z^2 = -1. Violations must therefore repeat with Phi(n + 2) = -Phi(n).
- * Because Phi' = 0 at the start, Phi(1) = Phi(0). */
+/* With the Taylor gains, both factors z by which the modes change in a step satisfy z^2 = -1.
+ * Violations must therefore repeat with Phi(n + 2) = -Phi(n), where n counts steps. Because Phi' =
+ * 0 at the start, Phi(1) = Phi(0). */
 static void watch_circle(physics_mechanism which)
 {
   model m = build_mechanism(which);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the steady violations of the Euler methods with Baumgarte's gains. After the initial
- * violation has decayed, every row must satisfy these equations, in which gamma is that at the
- * present state (docs/theory/stabilization.md):
+ * violation has decayed, every row must satisfy these equations, with gamma at the present state
+ * (docs/theory/stabilization.md):
  *
  *   |Phi'_i| = (h / 2) |gamma_i|,   |Phi_i| = (alpha / beta^2) h |gamma_i|
  */

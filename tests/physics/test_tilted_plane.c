@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Builds planar mechanisms of the catalogue from spatial elements, in a tilted plane. These are
- * called twins, and they are compared with the planar references. */
+/* Builds spatial twins of planar mechanisms of the catalogue. A twin is the same mechanism made of
+ * spatial elements in a tilted plane. It is compared with the planar reference. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -101,7 +101,7 @@ static void tilted_mechanisms_move_as_planar_ones(void **state)
 }
 
 /* The rows that hold the bodies in the plane contain only rounding errors. Their multipliers are
- * therefore amplified rounding errors. QR must accept this. */
+ * therefore amplified rounding errors. The QR solver must accept this. */
 static void qr_solves_rows_that_contain_only_rounding(void **state)
 {
   (void)state;

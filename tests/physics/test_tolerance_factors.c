@@ -92,8 +92,8 @@ static void try_factors(const baum_integrator *integrator, baum_formulation form
     compare("tolerance_v", integrator, formulation, (factors){OUT_OF_THE_WAY, 1.0},
             (factors){OUT_OF_THE_WAY, SMALL});
   }
-  /* Both runs have the same tolerances. With some methods only the first step differs, because it
-   * depends only on rtol. */
+  /* Both runs have the same tolerances. With some methods the first step differs, because its
+   * choice uses rtol without the factors. */
   reference_run both = run_with(integrator, formulation, RTOL, (factors){SMALL, SMALL});
   reference_run rtol = run_with(integrator, formulation, RTOL * SMALL, (factors){1.0, 1.0});
   printf("%-14s %-14s %-12s error %.1e and %.1e, steps %5lld and %5lld\n", "both, or rtol",

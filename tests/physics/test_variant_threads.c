@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several threads at once make a thousand variants of one mechanism. Each is copied, changed and
- * frozen. This test also runs under the thread sanitizer.
+/* Several threads at once make a thousand variants of one mechanism. Each variant is a copy, which
+ * is changed and frozen. This test also runs under the thread sanitizer.
  *
  * The variants have different slider masses m. The crank is driven, so that accelerations do not
  * depend on m. The multipliers are lambda_0 + m lambda_1.

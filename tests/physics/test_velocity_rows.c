@@ -345,8 +345,8 @@ static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
 }
 
 /* A guide along the blade makes the row of the blade redundant. The row of the blade must be
- * omitted, although the blade is added first. Only the guide also constrains positions, so that a
- * projection returns the body to the guide. */
+ * omitted, although the blade is added first. The reason is that only the guide also constrains
+ * positions, so a projection can return the body to the guide only if the guide's row is kept. */
 static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **state)
 {
   (void)state;

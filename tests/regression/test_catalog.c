@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the parts of the catalogue with each other and with the tables of tests/data, which were
  * computed in another way. References must satisfy the constraints of their mechanisms and agree
- * with the initial states. Runs must agree with the references. Formulas must be as accurate as
- * they state. */
+ * with the initial states. Runs must agree with the references. Formulas must be as accurate as the
+ * catalogue states. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

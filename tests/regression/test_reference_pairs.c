@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares dp5 and rk8 with reference motions that avoid singular configurations. They are used
+/* Compares runs with reference motions that avoid singular configurations. The runs use dp5 and rk8
  * with projection, at rtol from 1e-4 to 1e-12. These integrators do not need SUNDIALS. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -191,7 +191,8 @@ static const decades DECADES[] = {
    KIND(WHEEL) | KIND(DISC) | KIND(SCREW) | KIND(SHAFTS), -6, 6, 3, WAYS, false, 0},
   {"elements_speed", "elements: speed", NUMBER(scene.rate),
    KIND(WHEEL) | KIND(SCREW) | KIND(SHAFTS), 0, 6, 1, WAYS, false, 0},
-  /* A slower disc would not roll steadily. The circle of a faster one is larger than 1e7 m. */
+  /* A slower disc would not roll steadily. A faster one would roll on a circle larger than 1e7
+   * m. */
   {"elements_speed", "elements: speed", NUMBER(scene.rate), KIND(DISC), 1, 4, 1, WAYS, false, 0},
 };
 

@@ -304,7 +304,7 @@ static bool start_cvode(problem *p, const cell *c, double t)
   return fine && CVodeSetLinearSolver(p->memory, p->solver, p->matrix) == 0;
 }
 
-/* Starts IDA with consistent accelerations and multipliers, as its user guide recommends. */
+/* Starts IDA with consistent accelerations and multipliers, as the user guide of IDA recommends. */
 static bool start_ida(problem *p, const cell *c, double t)
 {
   int n = p->h.n;

@@ -149,7 +149,8 @@ static void close_four_bar(long double x, turn *a, turn *b)
   long double sa = COUPLER * sinl(a->at);
   long double cb = ROCKER * cosl(b->at);
   long double sb = ROCKER * sinl(b->at);
-  long double det = sa * cb - ca * sb; /* determinant of -sa a' + sb b' = f, ca a' - cb b' = g */
+  /* The derivatives satisfy -sa a' + sb b' = f and ca a' - cb b' = g, with this determinant. */
+  long double det = sa * cb - ca * sb;
   long double f = CRANK * sinl(x);
   long double g = -CRANK * cosl(x);
   a->d = (-cb * f - sb * g) / det;

@@ -39,7 +39,8 @@ typedef struct scene {
   double gravity; /* [m/s^2] */
   double ratio;   /* [-] mass of the last body divided by that of the first */
   double rod;     /* [m] length of the slider-crank's rod; the length of its crank is 1 m */
-  /* [N m/rad] of the torsion spring at the first pin, which is relaxed at `angle` - 0.1 rad. */
+  /* [N m/rad] of the torsion spring at the first pin. It is relaxed at the angle `angle` - 0.1
+   * rad. */
   double stiffness;
   double damping;   /* [N m s/rad] of the torsion damper at the first pin */
   bool driven;      /* whether a driver keeps the angular velocity of the first body at `rate` */

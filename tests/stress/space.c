@@ -198,8 +198,8 @@ static void inertia_of(const scene *s, int body, long double out[4])
   }
 }
 
-/* Returns the length of the spring [m] at 0.1 rad before the start. It is rounded to double as in
- * the mechanism. */
+/* Returns the free length of the spring [m]. This is its length at the angle 0.1 rad before the
+ * start, rounded to double as in the mechanism. */
 static long double relaxed_length(const scene *s)
 {
   jets at = crank_body(2, (jets){{s->angle - 0.1L, 1, 0}}).r[0];

@@ -254,7 +254,7 @@ static void wrong_bodies_are_refused(void **state)
   def.follows_body = true;
   check_refused(scene.mechanism, add, &def,
                 "force 1 \"push\": follows_body is true, but the body is a particle and does not "
-                "turn");
+                "rotate");
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -32,7 +32,7 @@ typedef struct gain_problem {
 int gain_problem_count(void);
 
 /* Builds problem k, perturbs its start with the random numbers of set `lot`, and integrates the
- * references. They use RK4 with projection and small steps. If this fails, returns false, and
+ * references by RK4 with projection and small steps. If this fails, returns false, and
  * baum_message() gives the reason. */
 bool gain_problem_make(int k, int lot, gain_problem *out);
 void gain_problem_clear(gain_problem *problem);

@@ -51,7 +51,7 @@ static const solver FRONT = {.name = "klu_checked",
                              .read = front_read,
                              .destroy = front_destroy};
 
-/* ---- what KLU alone and dense elimination have in common ---- */
+/* ---- code that "KLU alone" and dense elimination share ---- */
 
 typedef struct common {
   scene *at;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solvers that compute the accelerations of the same scene with the same geometry. To add a solver,
- * define its struct in solvers.c or in a separate file, and add a line to solver_at(). */
+/* Solvers that compute the accelerations of the same scene, with the same code for the geometry. To
+ * add a solver, define its struct in solvers.c or in a separate file, and add a line to
+ * solver_at(). */
 #ifndef BAUM_BENCH_SOLVERS_H
 #define BAUM_BENCH_SOLVERS_H
 

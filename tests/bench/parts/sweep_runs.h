@@ -9,8 +9,8 @@
 
 enum { SWEEP_METHODS = 64, SWEEP_FAULTS = 8000 };
 
-/* The class of a run by its largest error, relative to the scales: below 0.01, below 0.1, or
- * above. */
+/* The class of a run. Its largest error, relative to the units of the scene, is below 0.01 (right),
+ * below 0.1 (grey), or larger (wrong). */
 typedef enum sweep_class {
   SWEEP_RIGHT,
   SWEEP_GREY,

@@ -140,8 +140,7 @@ static long double linkage_energy(const linkage *k, const long double *y)
   return inertia(k, y, n) * y[3] * y[3] / 2.0L + potential(k, y);
 }
 
-/* Returns the largest of three numbers, which are both violations and the relative change of
- * energy. */
+/* Returns the largest of the two violations and the relative change of energy. */
 static long double linkage_fault(const linkage *k, const long double *y, long double energy,
                                  long double size)
 {
@@ -215,8 +214,8 @@ static void follow_linkage(sweep_scene *s, const linkage *k, const long double t
 
 typedef struct four_bar {
   const char *name;
-  double lengths[4]; /* [m] crank, coupler, rocker and ground; they are exactly at a change point */
-  int longer;        /* index of the length that is then multiplied by 1 + by */
+  double lengths[4]; /* [m] crank, coupler, rocker and ground, exactly at a change point */
+  int longer;        /* index of the length that is multiplied by 1 + by, to leave this point */
   double by;         /* [-] */
   bool left;
 } four_bar;

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* Stores the function for a field of a definition. It is stored as bytes, which have the size of a
+/* Copies the address of the function for a field of a definition to `out`, which has the size of a
  * pointer to a function. Returns false if the field is not a function. */
 int design_function(const char *kind, const char *field, void *out);
 
