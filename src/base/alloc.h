@@ -14,8 +14,8 @@ void *baum_i_alloc(size_t count, size_t size);
 void *baum_i_grow(void *old, size_t count, size_t size);
 
 /* Grow an array by one element to count elements. The array must come from this function or from
- * baum_i_grow(). NULL stands for an empty array. The array moves in memory only when its length
- * exceeds a power of two. */
+ * baum_i_grow(). NULL stands for an empty array. The array is moved in memory only when its length
+ * grows from a power of two to the next number. */
 void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
 /* Copy count elements. Returns NULL when out of memory. */

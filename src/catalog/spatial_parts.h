@@ -28,7 +28,7 @@ void baum_i_axes_go(baum_i_axes *axes, double x, double y, double z);
 baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *end);
 /* Writes the direction of one of the axes (0 is x, 1 is y, 2 is z), in ground axes. */
 void baum_i_axes_direction(const baum_i_axes *axes, int axis, double out[3]);
-/* Returns the state of a body whose axes these are. */
+/* Returns the state of the body that has these axes. */
 baum_i_body_state baum_i_axes_state(const baum_i_axes *axes);
 
 /* The two bodies of a joint, and its point and its axis in ground axes, in the design

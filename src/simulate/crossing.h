@@ -50,7 +50,8 @@ static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossi
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is allowed */
 
-/* The following functions do nothing if crossings are NULL, except where noted. */
+/* The following functions do nothing if `crossings` or run->crossings is NULL, except where
+ * noted. */
 
 /* Discard the states, because another motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);

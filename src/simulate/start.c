@@ -168,8 +168,8 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
   return baum_i_message_settle(status, &kept);
 }
 
-/* Assembly has moved some body most. Add this body and its displacement to the message about given
- * velocities v. Velocities that satisfy the constraints in an inaccurate design configuration do
+/* Add to the message about given velocities v the body that assembly has moved most, and its
+ * displacement. Velocities that satisfy the constraints in an inaccurate design configuration do
  * not satisfy them in the assembled one. */
 static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
 {
