@@ -172,7 +172,7 @@ typedef enum model_parallelogram {
 typedef struct model_parallelogram_data {
   model_parallelogram which;
   double angle; /* [rad] of the cranks at the start */
-  double rate;  /* [rad/s] of the cranks at the start, or 0 for 2 rad/s */
+  double rate;  /* [rad/s] of the cranks at the start; 0 stands for 2 rad/s */
   /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
    * rows. */
   bool doubled;

@@ -59,9 +59,9 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- fixed steps ---- */
 
-/* Returns the number of steps of the coarsest run. With it, the step of the coarsest run is short
- * enough for error terms of the next order to be small. The step of the finest run is long enough
- * for its residual to be above 1e-13. */
+/* Returns the number of steps of the coarsest run. With this number, the step of the coarsest run
+ * is short enough for error terms of the next order to be small. The step of the finest run is long
+ * enough for its residual to be above 1e-13. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);

@@ -62,8 +62,8 @@ typedef struct task {
   double want[NQ_MAX];
 } task;
 
-/* Returns the allowed error for h = 1e-3 s or rtol = 1e-8, by order. The first number is for
- * variable steps. Each is at least three times the largest measured value. */
+/* Returns the allowed error for h = 1e-3 s or rtol = 1e-8. The limits are listed by order, and the
+ * first one is for variable steps. Each is at least three times the largest measured value. */
 static double allowed(step_mode mode, baum_formulation formulation)
 {
   static const double by_order[] = {2e-6, 0.2, 1e-4, 1.5e-6, 4e-10, 1e-12, 2e-14, 2e-14, 2e-14};
