@@ -96,7 +96,7 @@ static void going_on_without_memory_changes_nothing(void **state)
     (void)heap_stop();
   }
   assert_int_equal(status, BAUM_OK);
-  /* These are allocations for q, v, inputs, numbers of drivers, and schedules. */
+  /* The allocations for q, v, inputs, numbers of drivers, and schedules have failed. */
   assert_true(failures > 4);
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);

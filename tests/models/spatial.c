@@ -27,8 +27,8 @@ static baum_status build_slider_crank(model *out)
   return from_catalog("spatial_slider_crank", settings, 1, out);
 }
 
-/* axial: moment of inertia of the rods about their own axes, relative to that about transverse
- * axes */
+/* `axial` is the moment of inertia of the rods about their own axes, divided by that about
+ * transverse axes. */
 static baum_status build_bricard(double axial, model *out)
 {
   const baum_catalog_setting settings[] = {{"axial", axial}, {"angle", 0.3}, {"speed", 2.0}};

@@ -259,7 +259,7 @@ static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* values from 0.7 to 1.3 were measured */
+    assert_true(got.residual <= 2.0 * got.error); /* ratios from 0.7 to 1.3 were measured */
   }
   baum_mechanism_destroy(m);
 }

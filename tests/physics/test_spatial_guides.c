@@ -220,8 +220,8 @@ static void the_helix_carries_the_bead(void **state)
 
 static const double ANGLE = 0.4;
 
-/* Adds the sleigh: a body in the plane, or, in space, a body on a plane. Its blade is 0.3 m behind
- * the centre of mass. */
+/* Adds the sleigh. It is a planar body, or a spatial body on a plane. Its blade is 0.3 m behind the
+ * centre of mass. */
 static baum_mechanism *make_sleigh(bool spatial_body, bool spatial_edge)
 {
   baum_mechanism *m = start(false);
@@ -478,7 +478,7 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   const double fall = sqrt(2.0 * 0.5 / G);
   const double w = sqrt(200.0);
   const double speed = G * fall;
-  /* On the cable, z + 1 = -g / w^2 + a cos(w t + p). It is 0 at both ends of this time. */
+  /* While the cable is taut, z + 1 = -g / w^2 + a cos(w t + p). This is 0 at both ends. */
   const double on_cable = 2.0 / w * (0.5 * 3.14159265358979324 + atan(G / w / speed));
   o.integrator = baum_dp5();
   o.rtol = 1e-10;

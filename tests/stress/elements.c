@@ -284,7 +284,8 @@ static void add_constant_velocity(builder *b, int k)
   ADD(constant_velocity, def, NULL)
 }
 
-/* The axis of the bushing is along the pendulum on the ground, at the relaxed angle. */
+/* On the pendulum, the axis of the bushing is the pendulum's x axis. On the ground, it has the
+ * direction of this axis at the relaxed angle. */
 static void add_bushing(builder *b)
 {
   const scene *s = b->s;
@@ -304,7 +305,7 @@ static void add_bushing(builder *b)
   ADD(bushing, def, NULL)
 }
 
-/* The axes do not vary the units of this scene, so all lengths are in m. */
+/* No axis of the stress grid varies the units of this scene, so all lengths are in m. */
 static int helix(const double xyz[3], double out[20], void *user)
 {
   const double r = (double)RADIUS;

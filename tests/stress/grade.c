@@ -280,7 +280,7 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
 }
 
 /* If a configuration is closer than this to a singular one, it is considered singular, because
- * rounding errors do not allow to distinguish them. */
+ * rounding errors hide the difference. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
