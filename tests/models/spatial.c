@@ -47,7 +47,7 @@ static baum_status build_stewart(model *out)
 
 static const double LINK_INERTIA[3] = {0.00167, 0.08417, 0.08417}; /* of a cylinder */
 
-/* An irregular number from -1 to 1 for link k. */
+/* Returns a number from -1 to 1 that varies irregularly with k. */
 static double irregular(int k, int which)
 {
   double x = 0.6180339887498949 * (k + 1.0) + 0.37 * which;

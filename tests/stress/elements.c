@@ -38,7 +38,7 @@ static const double RELAXED = 0.1;
 static const double RISE = 0.4; /* c [m/rad] */
 static const double TOP = 2.0;  /* h */
 static const double SIDE = 0.5;
-static const double RELAXED_LENGTH = 1.0; /* without SIDE; the cable is always taut */
+static const double RELAXED_LENGTH = 1.0; /* of the cable without SIDE; the cable is always taut */
 
 static const long double MASSES[2][4] = {{1, 0.04L, 0.05L, 0.06L}, {1, 0.02L, 0.03L, 0.04L}};
 static const long double DISC_MASS[4] = {1, 0.0625L, 0.0625L, 0.125L};

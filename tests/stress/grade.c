@@ -300,9 +300,9 @@ static outcome judge(const trial *t, const grade *g)
   return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
 
-/* Returns true if the library should not have refused the run. This can happen in two ways. The
- * start is neither singular nor inconsistent. Or the gains were called unstable, but a run with
- * them meets its promise. */
+/* Returns true if the library should not have refused the run. There are two such cases. In one,
+ * the start is neither singular nor inconsistent. In the other, the gains were called unstable, but
+ * a run with them meets its promise. */
 static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {
