@@ -81,7 +81,7 @@ static long heap_blocks(void)
 #else
 #define HEAP_REAL(name) __libc_##name
 #endif
-/* These functions are called before the sanitizer has been set up. */
+/* Functions with this mark are also called before the sanitizer has been set up. */
 #define HEAP_EARLY  __attribute__((no_sanitize("address", "undefined")))
 #define HEAP_PUBLIC __attribute__((visibility("default"))) HEAP_EARLY
 
@@ -150,7 +150,7 @@ typedef int heap_create_logger(void *communicator, int rank, void **logger);
 static heap_create_logger *heap_real_create_logger;
 static bool heap_find_excluded(void);
 
-/* This is the declaration of SUNDIALS' header, with other type names. */
+/* This is the declaration from SUNDIALS' header, with other type names. */
 int SUNLogger_Create(void *communicator, int rank, void **logger);
 
 HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)

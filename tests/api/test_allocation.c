@@ -448,8 +448,8 @@ static baum_status simulate(void *context)
   return reached_the_end(status) ? BAUM_OK : status;
 }
 
-/* Excludes SUNDIALS 7.1. It writes its message about a failed allocation to memory that it has
- * allocated without checking. */
+/* Excludes SUNDIALS 7.1. If an allocation fails, it allocates memory for its message, and writes to
+ * this memory without checking that this allocation has succeeded. */
 static bool survives_without_memory(const baum_integrator *integrator)
 {
   const char *name = baum_integrator_name(integrator);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls every public function with NULL arguments, and at a wrong stage of its objects. Functions
- * of elements are tested in test_bad_definition.c. Functions of stabilization.h are also tested in
- * tests/unit/test_stability.c. */
+/* Calls every public function with NULL arguments, and with objects at a wrong stage, for example a
+ * mechanism that is not frozen. Functions of elements are tested in test_bad_definition.c.
+ * Functions of stabilization.h are also tested in tests/unit/test_stability.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

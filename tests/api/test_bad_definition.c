@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, ids and mechanisms that must be refused. Each test compares the message, and checks
- * that nothing has changed. */
+/* Tests definitions, ids and mechanisms that must be refused. Each test compares the message, and
+ * checks that nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

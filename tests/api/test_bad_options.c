@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options, starts, targets and channels that are refused: each test compares the message and checks
- * that nothing has changed. */
+/* Tests options, starts, targets and channels that are refused. Each test compares the message, and
+ * checks that nothing has changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

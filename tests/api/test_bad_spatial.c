@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Errors that only spatial elements can have, and their messages. They concern orientations,
+/* Tests errors that only spatial elements can have, and their messages. They concern orientations,
  * inertias, axes, points on particles, bodies of the wrong kind, and joints that are mounted the
  * wrong way round. */
 #include <math.h>
@@ -418,7 +418,7 @@ static void loads_that_a_particle_cannot_take_are_refused(void **state)
 
 /* ---- opposite axes ---- */
 
-/* Joins a body to ground. The axis is z in ground, and axis_b in the body. axis_b may be NULL. */
+/* Joins a body to ground. The joint's axis is z on ground, and axis_b on the body, or NULL. */
 static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Starts that are inconsistent, and user functions that fail. Messages must name the cause, and the
+/* Tests inconsistent starts, and user functions that fail. Messages must name the cause, and the
  * run must keep its last good step. */
 #include <math.h>
 #include <setjmp.h>

@@ -549,8 +549,8 @@ static uint64_t look_at_element(const every_element *parts, const element_kind *
   return d.value;
 }
 
-/* Adds a second element of a kind, or replaces the definition of the first one. One more allocation
- * succeeds each time, until none fails any more. Returns the number of failures. */
+/* Adds a second element of a kind, or replaces the definition of the first one. In each attempt one
+ * more allocation succeeds, until none fails. Returns the number of failures. */
 static int until_it_works(every_element *parts, const element_kind *kind, bool replace)
 {
   any_def def;

@@ -274,7 +274,7 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
       {"axial", 1e-6},
       {"tilt", 0.3},
       {"turning", 0.32045}}}, /* sqrt(9.81e-2 / cos 0.3), rounded */
-    /* 0.3 9.81 arm = -(across + inner / 2) 2^2 sin 0.4, almost */
+    /* Two terms nearly cancel: 0.3 9.81 arm + (across + inner / 2) 2^2 sin 0.4 is almost 0. */
     {"gimbals", "may be off by", 1.0, 2, {{"axial", 1e-9}, {"arm", -8.47e-4}}},
     {"differential", "may be off by", 1.0, 1, {{"damping", 1e-9}}},
     {"chaplygin_sleigh", "off by inf", 1e4, 0, {{NULL, 0.0}}},

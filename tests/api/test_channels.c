@@ -44,8 +44,8 @@ static int64_t evaluations(baum_simulation *run)
 
 enum { AROUND = 5, WIDTH = 8 };
 
-/* The times are from t - 2 d to t + 2 d. The channels are velocities and accelerations of the rod's
- * end and of the slider. */
+/* The samples are at times from t - 2 d to t + 2 d. The channels are velocities and accelerations
+ * of the rod's end and of the slider. */
 static void accelerations_are_the_slopes_of_velocities(void **state)
 {
   (void)state;

@@ -182,7 +182,8 @@ static void a_file_of_another_owner_keeps_that_owner(void **state)
   end_scene(&s);
 }
 
-/* Other files have the name "X.part", or the names that the library gives to temporary files. */
+/* Files of other programs have the name "X.part", or a name that the library gives to temporary
+ * files. */
 static void files_of_others_are_not_touched(void **state)
 {
   (void)state;

@@ -109,7 +109,7 @@ static void times_do_not_drift_however_many_steps(void **state)
   o.step = 0.001;
   o.start_time = 0.1;
   scene s = open_with(&o);
-  assert_true(baum_simulation_step(s.run, 2000) >= BAUM_OK); /* the motion is not accurate */
+  assert_true(baum_simulation_step(s.run, 2000) >= BAUM_OK); /* inaccurate, may warn */
   assert_true(baum_simulation_time(s.run) == 0.1 + 2000 * 0.001);
   close_scene(&s);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saving and restoring must allocate no memory. If a run factors only blocks, its later steps must
- * also allocate no memory. If there is not enough memory, continuing from another run may fail, but
- * then it must change nothing. */
+/* Saving and restoring must allocate no memory. If a run factors only the matrices of the block
+ * solver, its later steps must also allocate no memory. If there is not enough memory, continuing
+ * from another run may fail, but then it must change nothing. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -21,8 +21,8 @@ static bool chooses_pivots(const saved_scene *scene)
 {
   const baum_simulation_options *o = &scene->options;
   bool by_blocks = o->solver == BAUM_SOLVER_AUTO || o->solver == BAUM_SOLVER_BLOCK;
-  /* Explicit methods with a fixed step factor only blocks. All other methods factor matrices of
-   * their own. */
+  /* Explicit methods with a fixed step factor only the matrices of the block solver. All other
+   * methods factor matrices of their own. */
   bool explicit = isnan(o->rtol) && baum_integrator_has_fixed_step(o->integrator) &&
                   o->integrator != baum_generalized_alpha() && o->integrator != baum_rattle();
   return !(by_blocks && explicit);
@@ -96,7 +96,7 @@ static void going_on_without_memory_changes_nothing(void **state)
     (void)heap_stop();
   }
   assert_int_equal(status, BAUM_OK);
-  /* These are allocations for q, v, inputs, numbers of drivers, and schedules. */
+  /* The allocations for q, v, inputs, numbers of drivers, and schedules have failed. */
   assert_true(failures > 4);
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);

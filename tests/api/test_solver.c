@@ -210,8 +210,8 @@ static void all_solvers_find_the_same(void **state)
     check(baum_simulation_get(run, channels, 2, row));
     for (int i = 0; i < 17; i++) {
       want[i] = k == 0 ? row[i] : want[i];
-      /* The tolerances are rounding errors, for accelerations of 1e4 m/s^2 and multipliers of 1e3
-       * N, times a condition number. */
+      /* The tolerances allow for rounding errors of accelerations of 1e4 m/s^2 and of multipliers
+       * of 1e3 N, multiplied by a condition number. */
       ASSERT_NEAR(row[i], want[i], 1e-11, i < 9 ? 1e-7 : 1e-9);
     }
     baum_simulation_destroy(run);

@@ -261,7 +261,7 @@ static void a_file_of_another_version_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The first line of this study, but from another version of the library. */
+/* The file has the first line of this study, but as another version of the library writes it. */
 static void a_file_of_another_library_is_refused(void **state)
 {
   (void)state;

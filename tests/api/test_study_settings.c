@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the names of a study's entries, which settings belong to separate methods, and the
- * definition of the error. */
+/* Tests how a study names its entries, which settings it treats as separate methods, and how it
+ * defines the error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the time of a run in baum_sweep() with that of the same run alone. In baum_sweep(), each
  * run also copies, changes and freezes the mechanism. The mechanism is a slider-crank without a
- * driver. A run simulates 0.2 s by rk8 with rtol 1e-8. Both CPU times are measured in turn, in
- * pairs. The printed ratio divides the sums over all pairs. */
+ * driver. A run simulates 0.2 s by rk8 with rtol 1e-8. The program measures both CPU times
+ * alternately, and prints the ratio of their sums. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

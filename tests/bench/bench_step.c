@@ -130,8 +130,8 @@ static bool evaluate(bench *b)
   return fine;
 }
 
-/* The cost is the smallest of these measurements. The resolution of CPU times is better than a
- * tenth of a measurement. */
+/* Number of measurements of a cost, of which the smallest is used. The resolution of CPU times is
+ * better than a tenth of a measurement. */
 enum { REPETITIONS = 5 };
 
 typedef struct cost {

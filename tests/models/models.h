@@ -98,7 +98,7 @@ baum_status model_andrews_angles(bool with_jacobian, model *out);
  * rows. */
 baum_status model_andrews_bodies(model *out);
 baum_status model_andrews_bodies_in(const model_units *units, model *out); /* NULL for SI units */
-/* Converts the 21 coordinates to the 7 angles of the test set. Velocities are converted to the
+/* Converts the 21 coordinates to the 7 angles of the Bari test set. Velocities are converted to the
  * rates of these angles in the same way. */
 void model_andrews_from_bodies(const double *q, double angles[MODEL_ANDREWS_ANGLES]);
 
@@ -172,7 +172,7 @@ typedef enum model_parallelogram {
 typedef struct model_parallelogram_data {
   model_parallelogram which;
   double angle; /* [rad] of the cranks at the start */
-  double rate;  /* [rad/s] of the cranks at the start, or 0 for 2 rad/s */
+  double rate;  /* [rad/s] of the cranks at the start; 0 stands for 2 rad/s */
   /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
    * rows. */
   bool doubled;

@@ -27,8 +27,8 @@ static baum_status build_slider_crank(model *out)
   return from_catalog("spatial_slider_crank", settings, 1, out);
 }
 
-/* axial: moment of inertia of the rods about their own axes, relative to that about transverse
- * axes */
+/* `axial` is the moment of inertia of the rods about their own axes, divided by that about
+ * transverse axes. */
 static baum_status build_bricard(double axial, model *out)
 {
   const baum_catalog_setting settings[] = {{"axial", axial}, {"angle", 0.3}, {"speed", 2.0}};
@@ -47,7 +47,7 @@ static baum_status build_stewart(model *out)
 
 static const double LINK_INERTIA[3] = {0.00167, 0.08417, 0.08417}; /* of a cylinder */
 
-/* An irregular number from -1 to 1 for link k. */
+/* Returns a number from -1 to 1 that varies irregularly with k. */
 static double irregular(int k, int which)
 {
   double x = 0.6180339887498949 * (k + 1.0) + 0.37 * which;

@@ -59,9 +59,9 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- fixed steps ---- */
 
-/* Returns the number of steps of the coarsest run. With it, the step of the coarsest run is short
- * enough for error terms of the next order to be small. The step of the finest run is long enough
- * for its residual to be above 1e-13. */
+/* Returns the number of steps of the coarsest run. With this number, the step of the coarsest run
+ * is short enough for error terms of the next order to be small. The step of the finest run is long
+ * enough for its residual to be above 1e-13. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -259,7 +259,7 @@ static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* values from 0.7 to 1.3 were measured */
+    assert_true(got.residual <= 2.0 * got.error); /* ratios from 0.7 to 1.3 were measured */
   }
   baum_mechanism_destroy(m);
 }

@@ -161,7 +161,7 @@ static assembly make(bool spatial, bool driven)
 
 /* ---- runs ---- */
 
-/* Where a run ends. The reaction is that of the joint on the bob. */
+/* The state at the end of a run. The reaction is that of the joint that holds the bob. */
 typedef struct outcome {
   double places[NUMBERS]; /* x, y of three links, pose of the bob */
   double reaction[6];

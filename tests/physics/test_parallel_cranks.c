@@ -228,8 +228,8 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return run;
 }
 
-/* A run is restored in which other rows are omitted than in the saved run. It must then omit the
- * same rows as the saved run. */
+/* A buffer is restored in a run that omits other rows than the saved run. This run must then omit
+ * the same rows as the saved run. */
 static void a_restored_run_leaves_out_the_same_rows(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests random mechanisms. Accelerations and projections by the block solver are compared with
- * those by the solver of the whole system. Accelerations are also compared with quadruple
+ * those by the solver of the whole system. Accelerations are also compared with those in quadruple
  * precision. */
 #include <math.h>
 #include <setjmp.h>
@@ -336,7 +336,7 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* ---- random kinds ---- */
 
-/* Lets random_judge() compare the accelerations of random mechanisms with quadruple precision.
+/* Lets random_judge() compare accelerations of random mechanisms with those in quadruple precision.
  * bench_random tests more mechanisms in the same way. */
 static void accelerations_are_met_or_rightly_refused(void **state)
 {

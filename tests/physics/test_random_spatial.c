@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares random spatial mechanisms with an oracle in quadruple precision. bench_random_spatial
- * tests more of them. */
+/* Compares results for random spatial mechanisms with those in quadruple precision.
+ * bench_random_spatial tests more of them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

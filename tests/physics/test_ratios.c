@@ -44,7 +44,7 @@ static double frequency(void)
   return sqrt(STIFFNESS / total_moment());
 }
 
-/* The speed is the rate about `axis`. If it is NaN, the angular velocity is free. */
+/* `speed` is the angular velocity about `axis`. If it is NaN, the angular velocity is not given. */
 static baum_body_id add_body(baum_mechanism *m, const double position[3], const double axis[3],
                              double speed)
 {

@@ -76,7 +76,8 @@ static void only_joints_that_share_forces_are_named(void **state)
     assert_int_equal(warning.code, BAUM_WARNING_REDUNDANT_ROWS);
     assert_non_null(strstr(warning.text, "among \"joint1\", \"joint2\":"));
     check(baum_simulation_unique_multipliers(run, unique));
-    /* Only the moment of the weld, which is the third joint, is unique. */
+    /* The pin and the first weld share the force. The moment of this weld is unique, and so are all
+     * multipliers of the second weld. */
     for (int i = 0; i < 8; i++) {
       assert_true(unique[i] == (i >= 4));
     }

@@ -36,7 +36,7 @@ static void accelerations_are_met(void **state)
   assert_int_equal(known.counts[SLENDER_WRONG] + known.counts[SLENDER_FALSE_REFUSAL], 0);
 }
 
-/* If lengths are given in millimetres, the same results must be right, refused or wrong. */
+/* Whether a result is right must not depend on the unit of length. */
 static void results_do_not_depend_on_the_unit_of_length(void **state)
 {
   enum { MECHANISMS = 100 };

@@ -327,7 +327,7 @@ static void uneven_masses_keep_eleven_digits(void **state)
   assert_int_equal(failures, 0);
 }
 
-/* In chains, only masses and weights act, so accelerations do not depend on a common factor. */
+/* In chains, only masses and weights act, so a common factor of all masses does not matter. */
 static void accelerations_do_not_depend_on_the_unit_of_mass(void **state)
 {
   (void)state;

@@ -62,8 +62,8 @@ typedef struct task {
   double want[NQ_MAX];
 } task;
 
-/* Returns the allowed error for h = 1e-3 s or rtol = 1e-8, by order. The first number is for
- * variable steps. Each is at least three times the largest measured value. */
+/* Returns the allowed error for h = 1e-3 s or rtol = 1e-8. The limits are listed by order, and the
+ * first one is for variable steps. Each is at least three times the largest measured value. */
 static double allowed(step_mode mode, baum_formulation formulation)
 {
   static const double by_order[] = {2e-6, 0.2, 1e-4, 1.5e-6, 4e-10, 1e-12, 2e-14, 2e-14, 2e-14};
@@ -220,8 +220,8 @@ static void the_helix_carries_the_bead(void **state)
 
 static const double ANGLE = 0.4;
 
-/* Adds the sleigh: a body in the plane, or, in space, a body on a plane. Its blade is 0.3 m behind
- * the centre of mass. */
+/* Adds the sleigh. It is a planar body, or a spatial body on a plane. Its blade is 0.3 m behind the
+ * centre of mass. */
 static baum_mechanism *make_sleigh(bool spatial_body, bool spatial_edge)
 {
   baum_mechanism *m = start(false);
@@ -478,7 +478,7 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   const double fall = sqrt(2.0 * 0.5 / G);
   const double w = sqrt(200.0);
   const double speed = G * fall;
-  /* On the cable, z + 1 = -g / w^2 + a cos(w t + p). It is 0 at both ends of this time. */
+  /* While the cable is taut, z + 1 = -g / w^2 + a cos(w t + p). This is 0 at both ends. */
   const double on_cable = 2.0 / w * (0.5 * 3.14159265358979324 + atan(G / w / speed));
   o.integrator = baum_dp5();
   o.rtol = 1e-10;

@@ -17,13 +17,9 @@
 
 enum { SAMPLES = 40, STRIDE = 200, PAIRS = 6 };
 
-static const double GAINS[PAIRS][2] = {{0.3, 0.3},
-                                       {0.3, 0.7},
-                                       {0.5, 0.5},
-                                       /* Pairs of (alpha h, beta h). */
-                                       {0.5, 0.8},
-                                       {0.8, 0.4},
-                                       {0.8, 0.8}};
+/* Pairs of (alpha h, beta h). */
+static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
+                                       {0.5, 0.8}, {0.8, 0.4}, {0.8, 0.8}};
 
 /* How much a row may differ from the formula, as a fraction of the value that the formula gives. */
 static const double TOLERANCE = 0.02;

@@ -196,7 +196,8 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_true(fabs(method.slope - 4.0) < 0.3);
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
   baum_study_entry entry = study_entry(study, 5);
-  /* At the floor, the reported error is the accuracy that was stated for the solution. */
+  /* At the floor (the accuracy of the reference), the reported error is the accuracy that was
+   * stated for the solution. */
   assert_true(entry.at_floor && entry.error == 1e-12);
   /* The error of the multipliers is unknown, because the solution gives no multipliers. */
   assert_true(isnan(entry.error_lambda));

@@ -24,7 +24,8 @@
 
 enum { THREADS = 8, STUDIES = 3 };
 
-/* What a progress function counts. No call of it may begin while another call is running. */
+/* What the progress function of a study counts. No call of this function may begin while another
+ * one is running. */
 typedef struct seen {
   atomic_int inside;
   atomic_int together; /* number of calls that began while another one was running */

@@ -31,8 +31,8 @@ static const double LEAST_FALL_OF_BDF = 6.0;
  * influence. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
-/* The runs have nine samples. This is 1 to 2 revolutions of the crank, or 2 swings of the pendulum.
- * In longer runs, the errors at rtol 1e-4 would reach 1 rad and stop growing. */
+/* The runs end after nine samples. These are 1 to 2 revolutions of the crank, or 2 swings of the
+ * pendulum. In longer runs, the errors at rtol 1e-4 would reach 1 rad and stop growing. */
 static const reference REFERENCES[REFERENCE_COUNT] = {
   [PENDULUM] = {.samples = 9,
                 .width = A01_PENDULUM_WIDTH,

@@ -29,7 +29,7 @@ static double mass_of(int k)
   return 0.05 + 1e-3 * k;
 }
 
-/* The part of one thread. It makes the variants first, first + threads, first + 2 threads, and so
+/* The work of one thread. It makes the variants first, first + threads, first + 2 threads, and so
  * on. */
 typedef struct share {
   const variant_plan *plan;

@@ -167,7 +167,8 @@ static baum_simulation_options with_alpha(const baum_integrator *integrator, dou
   return options;
 }
 
-/* Returns the factor by which the violation grows per step, averaged over the second half. */
+/* Returns the factor by which the violation grows per step, as a mean over the second half of a
+ * run. */
 static double growth_of(const baum_mechanism *m, const baum_integrator *integrator, double alpha_h)
 {
   baum_simulation_options options = with_alpha(integrator, alpha_h);

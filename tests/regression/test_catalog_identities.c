@@ -145,8 +145,8 @@ static double length_error(double t, const double *q)
 }
 
 /* In each start, every body has another wrong pose, and the lengths of the legs are those of
- * another time. Assembly must find a pose of the platform with these lengths. There are several
- * such poses. Assembly nearly always finds the one of the given motion. */
+ * another time of the given motion. Assembly must find a pose of the platform with these lengths.
+ * There are several such poses. Assembly nearly always finds the one of the given motion. */
 static void assembly_solves_the_forward_kinematics_from_100_starts(void **state)
 {
   (void)state;

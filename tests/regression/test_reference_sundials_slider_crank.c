@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the slider-crank of SUNDIALS' idaSlCrank_dns with the catalogue's reference, which has
- * 20 digits. It is built of two bodies. */
+ * 20 digits. The mechanism is built of two bodies. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

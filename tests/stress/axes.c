@@ -322,7 +322,8 @@ static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
       cell c = ordinary(axis, kind);
       c.scene.spare = SPARES[n];
       c.scene.off = OFF[i];
-      /* The redundant joints differ from the others by OFF[i]. */
+      /* This error is permitted, because redundant joints are displaced by OFF[i] from the
+       * others. */
       c.share = 10.0 * SPARES[n] * OFF[i];
       with_ways(list, c, OFF[i], WAYS);
     }

@@ -32,7 +32,7 @@ typedef struct cell {
 } cell;
 
 typedef enum outcome {
-  MET,     /* the error is at most the promise */
+  MET,     /* the error is at most the promise, which is the largest permitted error */
   REFUSED, /* the run was not started */
   STOPPED, /* the run ended early with a message */
   WARNED,  /* a warning says that the motion may be wrong */

@@ -38,7 +38,7 @@ static const double RELAXED = 0.1;
 static const double RISE = 0.4; /* c [m/rad] */
 static const double TOP = 2.0;  /* h */
 static const double SIDE = 0.5;
-static const double RELAXED_LENGTH = 1.0; /* without SIDE; the cable is always taut */
+static const double RELAXED_LENGTH = 1.0; /* of the cable without SIDE; the cable is always taut */
 
 static const long double MASSES[2][4] = {{1, 0.04L, 0.05L, 0.06L}, {1, 0.02L, 0.03L, 0.04L}};
 static const long double DISC_MASS[4] = {1, 0.0625L, 0.0625L, 0.125L};
@@ -284,7 +284,8 @@ static void add_constant_velocity(builder *b, int k)
   ADD(constant_velocity, def, NULL)
 }
 
-/* The axis of the bushing is along the pendulum on the ground, at the relaxed angle. */
+/* On the pendulum, the axis of the bushing is the pendulum's x axis. On the ground, it has the
+ * direction of this axis at the relaxed angle. */
 static void add_bushing(builder *b)
 {
   const scene *s = b->s;
@@ -304,7 +305,7 @@ static void add_bushing(builder *b)
   ADD(bushing, def, NULL)
 }
 
-/* The axes do not vary the units of this scene, so all lengths are in m. */
+/* No axis of the stress grid varies the units of this scene, so all lengths are in m. */
 static int helix(const double xyz[3], double out[20], void *user)
 {
   const double r = (double)RADIUS;

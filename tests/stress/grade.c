@@ -280,7 +280,7 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
 }
 
 /* If a configuration is closer than this to a singular one, it is considered singular, because
- * rounding errors do not allow to distinguish them. */
+ * rounding errors hide the difference. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
@@ -300,9 +300,9 @@ static outcome judge(const trial *t, const grade *g)
   return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
 
-/* Returns true if the library should not have refused the run. This can happen in two ways. The
- * start is neither singular nor inconsistent. Or the gains were called unstable, but a run with
- * them meets its promise. */
+/* Returns true if the library should not have refused the run. There are two such cases. In one,
+ * the start is neither singular nor inconsistent. In the other, the gains were called unstable, but
+ * a run with them meets its promise. */
 static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {

@@ -22,7 +22,7 @@ static const long double CRANK = 0.08L;
 static const long double ROD = 0.3L;
 static const long double BESIDE = 0.1L;
 static const long double ABOVE = 0.12L;
-static const long double ANCHOR = 1; /* [m] x of that end of the spring which is on the ground */
+static const long double ANCHOR = 1; /* [m] x of the end of the spring that is on the ground */
 
 static const long double SHORT_CRANK = 0.1L;
 static const long double COUPLER = 0.4L;

@@ -17,7 +17,7 @@ typedef struct problem {
 const problem *problem_at(int k);
 
 enum { PAIR_SIZE = 64 };
-/* Writes a pair as a text of the form "integrator/formulation". */
+/* Writes an integrator and a formulation as a text of the form "integrator/formulation". */
 void problem_pair(const baum_integrator *integrator, baum_formulation formulation,
                   char text[PAIR_SIZE]);
 

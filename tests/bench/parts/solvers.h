@@ -18,7 +18,7 @@ typedef enum solver_phase {
   PHASE_WHOLE = PHASE_COUNT
 } solver_phase;
 
-/* The gains alpha and beta [1/s]. The time does not depend on their values. */
+/* The value of both gains, alpha and beta [1/s]. Times do not depend on it. */
 static const double SOLVER_GAIN = 10.0;
 
 typedef struct solver {
