@@ -34,8 +34,7 @@ static const baum_i_catalog_parameter PARAMETERS[BAUM_I_SLIDER_CRANK_COUNT] = {
                         BAUM_I_POSITIVE},
   AT(GRAVITY) = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
   AT(ANGLE) = {"angle", "rad", "of the crank at start", BAUM_I_ANY},
-  AT(SPEED) = {"speed", "rad/s", "of the crank; at start only, or constant if the crank is driven",
-               BAUM_I_ANY},
+  AT(SPEED) = {"speed", "rad/s", "of the crank at start; a driven crank keeps it", BAUM_I_ANY},
 };
 
 const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {

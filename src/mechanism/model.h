@@ -215,8 +215,8 @@ baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism
 /* Set the spatial frames of a point. */
 void baum_i_point_set_spatial(baum_i_point *point);
 
-/* Implement baum_i_point_set(), the first function for flat mechanisms, in which q is a vector, and
- * the second one for all others. */
+/* These functions implement baum_i_point_set(): the first one if the mechanism is flat, that is, if
+ * q is a vector, and the second one otherwise. */
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 

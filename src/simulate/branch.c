@@ -141,8 +141,9 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
-/* Between two states of the run, a violation shows a gap if it is larger than the violation of the
- * run and the error of the polynomial together. */
+/* Tell whether the branches have a gap at a time between two states of the run. A polynomial
+ * through the states gives the configuration there. Its violation shows a gap if it is larger than
+ * the violations of the states and the error of the polynomial together. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;
