@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations by the block solver, which most evaluations use.
  *
- * Revolute joints enter the solver directly from frames (pins.h); other joints enter as blocks of
- * J. Constant masses and forces are set once. If the path cannot solve a system reliably, it gives
- * up without a message, and kkt.h factors the whole system.
+ * A *block path* is a block solver together with what is needed to fill it: the joints, the omitted
+ * rows, and the constant forces. Revolute joints are written directly from frames (pins.h); other
+ * joints are written as blocks of J. Constant masses and forces are set once. If the path cannot
+ * solve a system reliably, it gives up without a message, and kkt.h factors the whole system.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -38,13 +39,13 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;              /* (pin_count, made even, x 4) points of the pins */
-  int group_count;             /* groups of joints that no hot file evaluates */
+  double *points;  /* (4 x pin_count, rounded up to an even count of pins) points of the pins */
+  int group_count; /* groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
-  int rated_count;             /* those whose Phi' comes from J; they are first in the list */
-  baum_i_omitted_row *omitted; /* (omitted_count) */
+  int rated_count;             /* number of omitted rows whose Phi' is computed from J */
+  baum_i_omitted_row *omitted; /* (omitted_count) those whose Phi' is computed come first */
   double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;

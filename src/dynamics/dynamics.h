@@ -120,8 +120,8 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
  * block solver does not suit but no other solver is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
-/* The first function describes the solver and the reason for its choice, the second why the block
- * solver is not used. Both texts end without a full stop. */
+/* The first function describes the solver and the reason for its choice. The second one states why
+ * the block solver is not used. Both texts end without a full stop. */
 baum_i_text baum_i_solver_text(const baum_workspace *workspace);
 baum_i_text baum_i_blocks_reason(const baum_workspace *workspace);
 
@@ -215,8 +215,8 @@ baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double 
 
 baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, const double *v,
                           double *kinetic, double *potential);
-/* The number of values of a joint's reaction, and the values. Call baum_i_reaction() after a
- * position stage. */
+/* The first function returns the number of values of a joint's reaction. The second one computes
+ * them, and is called after a position stage. */
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
@@ -261,8 +261,9 @@ baum_status baum_i_residual_jacobian(baum_workspace *workspace, const baum_dae *
 
 /* ---- finite.c ---- */
 
-/* Fail with BAUM_ERR_NOT_FINITE if a number of rows (nc), velocities (nv), positions (nq) or J is
- * not finite. The message names the joint or body, and `what` in it names the numbers. */
+/* Fail with BAUM_ERR_NOT_FINITE if a number in an array is not finite. The array has a number for
+ * each row (nc), velocity (nv) or position (nq); the last function checks J. The message names the
+ * joint or body, and calls the numbers `what`. */
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
 baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
@@ -310,10 +311,11 @@ baum_status baum_i_displaced_part(baum_workspace *workspace, const double *x, do
  * workspace->work_c. Returns the same statuses. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
-/* As baum_workspace_assemble(). v may be NULL; held is (nv) flags or NULL. */
+/* Do the same as baum_workspace_assemble(). v may be NULL. held (nv) marks the velocities that are
+ * held, or is NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held);
-/* Assemble positions until Phi = left (nc). */
+/* Assemble positions until Phi has the values left (nc) instead of 0. */
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left);
 /* Assemble positions. On BAUM_ERR_INCONSISTENT q is where assembly gave up. */
@@ -326,8 +328,9 @@ baum_status baum_i_check_sides(const baum_workspace *workspace, double t, const 
 
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 
-/* Replace workspace->lambda by the multipliers of least norm, in rows scaled by M, that give the
- * same forces. BAUM_ERR_SINGULAR if they do not balance the forces; also BAUM_ERR_MEMORY. */
+/* Replace workspace->lambda by multipliers that give the same forces and have the least norm, where
+ * rows are scaled by M. Returns BAUM_ERR_SINGULAR if these multipliers do not balance the forces.
+ * May also return BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
 /* Write the names of joints whose multipliers are not unique. Returns the same statuses; after a

@@ -44,7 +44,7 @@ static const double CLEAR = 1e-5;
 static const double FIRST = 1e-3;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* relative to the scales */
 
-/* Rank at a configuration; it is clear if both numbers are equal. */
+/* The rank at a configuration. If both numbers are equal, the rank is certain (clear). */
 typedef struct rank_found {
   int all;
   int clear; /* rank without nearly dependent rows */

@@ -49,8 +49,10 @@ enum {
 typedef struct baum_i_space_joint {
   int32_t shape; /* baum_i_space_shape */
   int32_t node;
-  int32_t row;     /* the first of its rows */
-  int32_t body[2]; /* Phi is x_1 - x_0; for a pin, whose Phi is x_a - x_b, body_b is the first */
+  int32_t row; /* the first of its rows */
+  /* The bodies in the order for which Phi is x_1 - x_0. Phi of a pin is x_a - x_b, so its first
+   * body is body_b. */
+  int32_t body[2];
   int32_t side[2]; /* -1: the body is ground */
   int32_t numbers; /* start of its constants */
 } baum_i_space_joint;
@@ -73,11 +75,11 @@ typedef struct baum_i_space_pass {
   const baum_i_body_place *places; /* (body_count) */
   const double *q;
   const double *v;               /* NULL: at rest */
-  double *normalized;            /* (nq) receives q, normalized; NULL: not wanted */
+  double *normalized;            /* (nq) receives q with unit quaternions, or NULL */
   const baum_i_frame *frames;    /* (body_count) planar frames */
   baum_i_spatial_frame *spatial; /* (body_count) the same frames for other elements */
   const double *gravity;         /* NULL: no forces are wanted */
-  const double *moments;         /* (nv) in place of gyroscopic moments, or NULL */
+  const double *moments;         /* (nv) replace the gyroscopic moments unless NULL */
   double *force;                 /* (nv) receives weights and gyroscopic moments */
   double bending;                /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;

@@ -59,7 +59,7 @@ typedef enum baum_i_kkt_quality {
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
-  int64_t factorizations;      /* with kept or new pivots */
+  int64_t factorizations;      /* all, whether pivots are kept or new */
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
   int64_t refinements;
   int64_t fallbacks; /* number of times that QR replaced an inaccurate LU */
