@@ -222,7 +222,21 @@ static double size_of_state(const baum_workspace *w, const double *q, const doub
   return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
 }
 
-/* If `last` is true, no later solution corrects this one, so the residual must be checked. */
+/* The relative error of a solution with good pivots, and of one in space that judge() trusts, is far
+ * below 1e-8. If a projection changes the velocities by less than this fraction, its solution need
+ * not be better than that of an acceleration. */
+static const double SMALL_CHANGE = 1e-8;
+
+static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
+{
+  double size = SMALL_CHANGE * baum_i_scaled_size(w->mechanism, v);
+  bool finite = path->space ? path->space_kernel->read_motion(path->space, w->a)
+                            : path->kernel->read_motion(path->block, w->a);
+  return finite && baum_i_scaled_size(w->mechanism, w->a) <= size;
+}
+
+/* If `last` is true, no later solution corrects this one, so the residual must be checked, unless
+ * the solution is a small change of the velocities v. */
 BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last,
                                 const double *q, const double *v, bool force)
 {
@@ -233,6 +247,7 @@ BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(block, w->lambda);
+  last = last && !is_small_change(w, path, v);
   bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
                (path->uneven && has_cancelled(block->from, block->motion, block->motion_size));
   if (!check) {
@@ -386,17 +401,6 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* With good pivots and even masses the relative error of a solution is far below 1e-8. A
- * projection that changes the velocities by less than this fraction therefore is not refined. */
-static const double SMALL_CHANGE = 1e-8;
-
-static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
-{
-  double size = SMALL_CHANGE * baum_i_scaled_size(w->mechanism, v);
-  return !path->uneven && path->space_kernel->read_motion(path->space, w->a) &&
-         baum_i_scaled_size(w->mechanism, w->a) <= size;
-}
-
 /* How far a solution in space can be trusted. */
 typedef struct trust {
   bool good;   /* it needs no refinement, unless the residual is large */
@@ -433,7 +437,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(space, w->lambda);
-  last = last && !(pivots == BAUM_I_PIVOTS_GOOD && is_small_change(w, path, v));
+  last = last && !is_small_change(w, path, v);
   const trust of = judge(path, pivots, last);
   if (of.good && !last) {
     return BAUM_OK;
