@@ -199,7 +199,7 @@ typedef struct motion {
   double error; /* largest error of q, in m or rad; links are 1 m long */
   /* The next two are divided by the largest kinetic energy. */
   double residual; /* of the account */
-  double works;    /* works of violations and of projection */
+  double works;    /* work done by violations and by projection */
 } motion;
 
 static motion follow(const baum_mechanism *m, baum_simulation_options options, const motion *exact)

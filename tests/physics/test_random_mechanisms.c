@@ -74,7 +74,7 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* number of configurations, as for the next two members */
+  int solved; /* number of configurations, as are the next two members */
   int singular;
   int projected;
   int by_blocks; /* number of mechanisms */

@@ -21,7 +21,8 @@
 /* ---- mechanisms ---- */
 
 /* [rad/s] Angular velocity of the precession of the gyroscope below. The axis of this gyroscope is
- * horizontal, so that the precession is m g a / (I w). */
+ * horizontal, so that the precession is m g a / (I w). Its mass m, arm a, axial moment of inertia I
+ * and spin w are the numbers below. */
 static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 
 /* A heavy top on a spherical joint at the origin. */

@@ -86,8 +86,9 @@ static void only_joints_that_share_forces_are_named(void **state)
   }
 }
 
-/* The multipliers are those with the least norm, where each row is scaled by M. Two joints on the
- * same body therefore each take half of the force, whatever the mass of the body. */
+/* The multipliers are those of least norm. For this norm, each row is scaled with the mass matrix
+ * M. Two joints on the same body therefore each take half of the force, whatever the mass of the
+ * body. */
 static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
 {
   (void)state;

@@ -352,8 +352,8 @@ static void every_method_makes_the_same_motion(void **state)
 
 /* ---- a bushing that rotates too far ---- */
 
-/* Runs a sphere that rotates in a bushing about a tilted axis, and returns its warning, or 0. The
- * angle swings to w_0 / sqrt(k / I). */
+/* Runs a sphere that rotates in a bushing about a tilted axis, and returns its warning, or 0. With
+ * the initial angular velocity w_0, the angle swings up to w_0 / sqrt(k / I). */
 static int warning_of(double angle, double stiffness, bool fixed)
 {
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Curves, knife edges and cables in space, compared with closed forms and with other elements, with
- * every integrator and all its formulations:
+/* Tests curves, knife edges and cables in space, with every integrator and all its formulations.
+ * They are compared with closed forms and with other elements:
  *
  *   a bead on a helix, which slides down with constant acceleration
  *   a Chaplygin sleigh on a plane in space, compared with the knife edge in the plane

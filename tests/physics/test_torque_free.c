@@ -4,7 +4,8 @@
  *
  *   I w' = (I w) x w,   p' = p o (0, w) / 2
  *
- * The energy and the angular momentum of the body must be constant.
+ * Here w is the angular velocity in body axes, and p is the quaternion of the orientation. The
+ * energy and the angular momentum of the body must be constant.
  */
 #include <math.h>
 #include <setjmp.h>

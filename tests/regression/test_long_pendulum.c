@@ -4,9 +4,9 @@
  *
  *   sin(angle / 2) = k sn(w t + K),   k^2 = 1/2,   w^2 = g / L,   x = -sin angle,   y = -cos angle
  *
- * The angle is measured from the lowest point. The function sn is computed in long double by the
- * arithmetic-geometric mean (M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 1964,
- * 16.4).
+ * K is the complete elliptic integral of the first kind, and L is the length. The angle is measured
+ * from the lowest point. The function sn is computed in long double by the arithmetic-geometric
+ * mean (M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 1964, 16.4).
  */
 #include <math.h>
 #include <setjmp.h>

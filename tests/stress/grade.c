@@ -87,8 +87,8 @@ static double stiff_rate(const scene *s)
   return slope > 0 ? sqrt((double)slope / 1e-3) : 0.0;
 }
 
-/* Returns the fastest rate within the first LOOKS radians. The period of this rate is the unit of
- * time for a cell. */
+/* Returns the fastest rate of the motion within its first LOOKS radians. The period of this rate is
+ * the unit of time for a cell. */
 static double find_rate(const scene *s)
 {
   oracle o = {scene_acceleration, s};

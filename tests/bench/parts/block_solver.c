@@ -122,7 +122,7 @@ static void block_read(const void *self, double *a, double *lambda)
   solver_read_workspace(s->at->workspace, a, lambda);
 }
 
-/* The solver that the library chooses, without phases. */
+/* Creates the solver that the library chooses. Its phases cannot be run separately. */
 static void *automatic_create(scene *at)
 {
   block_solver *s = calloc(1, sizeof *s);
