@@ -222,9 +222,9 @@ static double size_of_state(const baum_workspace *w, const double *q, const doub
   return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
 }
 
-/* The relative error of a solution with good pivots, and of one in space that judge() trusts, is far
- * below 1e-8. If a projection changes the velocities by less than this fraction, its solution need
- * not be better than that of an acceleration. */
+/* The relative error of a solution with good pivots, and of one in space that judge() trusts, is
+ * far below 1e-8. If a projection changes the velocities by less than this fraction, its solution
+ * need not be better than that of an acceleration. */
 static const double SMALL_CHANGE = 1e-8;
 
 static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
