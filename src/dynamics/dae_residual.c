@@ -36,7 +36,7 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }
 
-/* Phi, or Phi' of rows of velocity level. */
+/* Compute Phi, but Phi' in rows of velocity level. */
 static void position_level_rows(const baum_workspace *w, double *out)
 {
   for (int i = 0; i < w->mechanism->nc; i++) {
@@ -79,7 +79,7 @@ static void position_rows(const baum_mechanism *m, const double *q, const double
   }
 }
 
-/* mu = 0 of rows of velocity level. */
+/* Set the residual of rows of velocity level, whose equation in GGL is mu = 0. */
 static void hold_velocity_rows(const baum_mechanism *m, const double *mu, double *rows)
 {
   for (int i = 0; i < m->nc && m->velocity_rows; i++) {

@@ -30,7 +30,7 @@ static void unite_joined(const baum_mechanism *m, int *parent)
   }
 }
 
-/* ---- counting; the root of a set stores the counts of the set ---- */
+/* ---- counting: the smallest body of an island (its root) stores the counts of the island ---- */
 
 static void count_all(const baum_mechanism *m, int *parent, baum_i_island *island)
 {

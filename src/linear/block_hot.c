@@ -28,7 +28,8 @@ static const double rounding = 0x1p-47;
 
 /* ---- what multipliers do to the motion ---- */
 
-/* motion -= W G^T lambda for the sides of one pin; arm and weight have 4 numbers. */
+/* Subtracts W G^T lambda of both sides G of one pin from the motion. arm and weight have 4 numbers
+ * each. */
 static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, const double *weight,
                                baum_i_pair lambda, double *motion)
 {
@@ -40,8 +41,8 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-/* motion -= W G^T lambda for the sides of all general nodes. Also stores their rows of lambda
- * unless rows is NULL. */
+/* Subtracts W G^T lambda of all sides G of general nodes from the motion. Also stores lambda of
+ * their rows unless `rows` is NULL. */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;
@@ -258,7 +259,7 @@ typedef struct couplings {
   ptrdiff_t end; /* end of the couplings of the node to be processed next */
 } couplings;
 
-/* lambda_k -= sum of L^T lambda_later */
+/* Subtracts L^T lambda of all later nodes from lambda of node k, and returns the result. */
 static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
 {
   baum_i_pair lambda = baum_i_load(c->nodes[k].lambda);
@@ -305,7 +306,7 @@ BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
   scatter_fulls(b, rows);
 }
 
-/* lambda = D^-1 L^-1 lambda with the present factors. */
+/* Replaces lambda by D^-1 L^-1 lambda, with the present factors. */
 static void forward(const baum_i_block *b)
 {
   baum_i_node *nodes = b->nodes;
@@ -414,7 +415,7 @@ static bool check(const baum_i_block *b, const double *beside)
   return fine;
 }
 
-/* lambda = J pull - rest at all nodes. */
+/* Sets lambda to J pull - rest at all nodes. */
 static void gather(const baum_i_block *b)
 {
   for (int i = 0; i < b->pin_count; i++) {
@@ -470,7 +471,7 @@ static double correct(baum_i_block *b)
 
 /* ---- results ---- */
 
-/* L^T a = y */
+/* Solves L^T a = y for a dense body. */
 static void read_dense(const baum_i_block *b, const baum_i_dense_body *dense, double *a)
 {
   const baum_i_mass_block *body = &b->structure->mass_blocks[dense->mass_block];

@@ -16,7 +16,7 @@ static void clear(baum_i_block *block)
   }
 }
 
-/* y = L^T x */
+/* Computes y = L^T x for a dense body. */
 static void pull_dense(baum_i_block *block, const baum_i_dense_body *dense, const double *x)
 {
   const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];

@@ -66,7 +66,7 @@ static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
   }
 }
 
-/* f - M a */
+/* Sets pull[] to f - M a. */
 static void begin_motion(baum_i_block *b)
 {
   for (int i = 0; i < b->motion_size; i++) {

@@ -8,7 +8,7 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* L y = f */
+/* Solves L y = f for a dense body. */
 static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
                             const double *force)
 {

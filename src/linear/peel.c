@@ -27,8 +27,8 @@ typedef struct peeling {
   const double *jacobian;
   const double *column_scale;
   int *users;  /* (nv) number of blocks in which a velocity occurs */
-  int *user;   /* (nv) exclusive or of the indices of these blocks, which is the index if there is
-                * one */
+  int *user;   /* (nv) exclusive or of the indices of these blocks: the index itself if there is
+                * only one block */
   int *state;  /* (row_block_count) */
   int *stack;  /* (row_block_count) blocks to examine */
   int waiting; /* number of blocks on the stack */

@@ -274,7 +274,7 @@ static void raise_moment(baum_i_space_body *body, double u[4])
   for (int i = 0; i < 12; i++) {
     tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
   }
-  (void)whiten(tensor, body); /* it has a factor, because I has one */
+  (void)whiten(tensor, body); /* cannot fail, because I has a factor */
   set_spin(body);
   for (int k = 0; k < 3; k++) {
     u[k] = sqrt(weight) * body->spin[k];

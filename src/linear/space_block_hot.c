@@ -19,7 +19,7 @@ static const double rounding = 0x1p-46;
 
 /* ---- substitute ---- */
 
-/* G^T lambda for a matrix with three columns. */
+/* Returns G^T lambda for a matrix G with three columns. */
 BAUM_I_INLINE baum_i_four transposed_times(const double *m, column lambda, bool tall)
 {
   baum_i_four products[4];
@@ -34,7 +34,7 @@ BAUM_I_INLINE baum_i_four transposed_times(const double *m, column lambda, bool 
   return baum_i_four_sums(products);
 }
 
-/* motion -= W J^T lambda for one node. */
+/* Subtracts W J^T lambda of one node from the motion. */
 BAUM_I_INLINE void scatter(const baum_i_space *b, const baum_i_space_node *node, column lambda,
                            bool tall)
 {

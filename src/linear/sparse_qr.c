@@ -74,7 +74,7 @@ struct baum_i_sparse_qr {
   int32_t front_count;
   front *fronts;      /* each parent after its children */
   int32_t *memory;    /* memory of the six arrays below */
-  int32_t *order;     /* (n) column of A with each number */
+  int32_t *order;     /* (n) order[k] is the column of A with number k */
   int32_t *position;  /* (n) index of each column in the present front */
   int32_t *row_start; /* (m + 1) start of each row of A in place[] and source[] */
   int32_t *next_row;  /* (m) next row that begins in the same front, or NONE */
@@ -266,7 +266,8 @@ static bool make_room(baum_i_sparse_qr *qr)
   return true;
 }
 
-/* Parts of baum_i_sparse_qr_create(); false when out of memory. */
+/* The next functions are parts of baum_i_sparse_qr_create(). They return false when out of
+ * memory. */
 static bool copy_pattern(baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern,
                          const int32_t *order)
 {

@@ -76,8 +76,9 @@ void baum_i_crossings_look(baum_simulation *run);
  * Call baum_i_crossings_look() for the end of the step afterwards. */
 bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
-/* branch.c: decide on which branch the motion has left the singular configuration: compare the
- * newest state with continuations of the clear states. Write the result to *out. */
+/* branch.c: decide on which branch the motion has left the singular configuration. For this,
+ * compare the newest state with continuations of the states before the near-singular interval.
+ * Write the result to *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
 /* branch.c: return the least pivot, relative to the usual one, of the motion through `knots`, and

@@ -51,7 +51,7 @@ static void coordinates_come_in_the_order_in_which_bodies_are_named(void **state
   def.phi = weights_phi;
   def.user = &count;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &def, NULL), BAUM_OK);
-  memset(bodies, 0, sizeof bodies); /* the mechanism must have made a copy */
+  memset(bodies, 0, sizeof bodies); /* the mechanism must have copied them */
   (void)extra;
 
   test_point p;
