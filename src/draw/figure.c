@@ -13,7 +13,7 @@
 #include "simulate/run.h"
 
 enum { SEEN = 100, ARC = 24 };
-static const double REACH = 12.0;  /* [units] length of the arrow of the largest reaction */
+static const double REACH = 12.0;  /* length of the longest arrow, in units of the drawing */
 static const double NEAREST = 0.5; /* [px] smallest distance between points of a path */
 /* Arrows shorter than this fraction of the longest one are not drawn. */
 static const double SMALLEST = 0.01;

@@ -29,7 +29,7 @@ extern const unsigned char baum_i_page_html[], baum_i_solids_js[];
 
 /* A column of the table. */
 typedef struct column {
-  const double *values; /* the value in the first sample */
+  const double *values; /* address of the value in the first sample */
   int64_t stride;
   bool angle; /* an angle, which is stored as a value from -pi to pi */
   bool plotted;

@@ -12,8 +12,8 @@
  * ring of an internal gear outside of its pitch circle. */
 static const double TOOTH = 0.6, RING = 1.8;
 
-/* Finds the centre of a wheel. It is the first revolute joint of the body, or else its centre of
- * mass. */
+/* Finds the centre of a wheel. It is the point of the first revolute joint of the body. If there is
+ * no such joint, it is the centre of mass. */
 static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
 {
   centre[0] = centre[1] = centre[2] = 0.0;

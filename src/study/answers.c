@@ -24,7 +24,7 @@
 /* The increase of work from which margins are computed. */
 static const double MORE_WORK = 1.15;
 static const double MARGINS[2] = {2.0, 4.0}; /* the smallest and the largest margin */
-static const double SPEED_MARGIN = 1.25;     /* margin on times, which are different in every run */
+static const double SPEED_MARGIN = 1.25;     /* margin on times, because they vary between runs */
 
 /* ---- front ---- */
 

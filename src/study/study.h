@@ -262,8 +262,8 @@ typedef struct baum_i_study_file baum_i_study_file;
 /* Opens the study file that the options name, and reads entries and the reference from it. Results
  * that become known later are appended to it. *out is NULL if the options name no file. */
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
-/* The first two functions append the reference or an entry to the study file. If `file` is NULL,
- * all three return BAUM_OK. */
+/* The first two of these functions append the reference or an entry to the study file. The third
+ * one closes it. If `file` is NULL, all three return BAUM_OK. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);

@@ -13,13 +13,13 @@ typedef struct sweep {
   const baum_mechanism *mechanism;
   const baum_simulation_options *options;
   const baum_sweep_def *def;
-  int32_t width; /* count of the numbers of all channels */
-  int64_t size;  /* count of the numbers that a run samples */
+  int32_t width; /* number of columns of all channels together */
+  int64_t size;  /* number of values that one run writes into its rows */
   double *rows;
   int32_t *statuses; /* may be NULL */
-  atomic_llong next; /* number of the next run */
+  atomic_llong next; /* index of the next run */
   baum_i_lock *lock; /* protects the members below */
-  int64_t failed;    /* smallest number of a failed run, or def->count if none failed */
+  int64_t failed;    /* smallest index of a failed run, or def->count if none failed */
   baum_status status;
   baum_i_kept_message message;
 } sweep;

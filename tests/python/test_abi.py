@@ -101,7 +101,7 @@ class Changes(unittest.TestCase):
     every release."""
 
     def found_after(self, *replacements):
-        """The changes that replacements in the text of _abi.py cause."""
+        """Return the changes that are found after replacements in the text of _abi.py."""
         text = Path(_abi.__file__).read_text(encoding="utf-8")
         for old, new in replacements:
             self.assertIn(old, text)
@@ -114,7 +114,8 @@ class Changes(unittest.TestCase):
         return comparison.changes(comparison.load(_abi.__file__), comparison.load(str(path)))
 
     def test_additions_break_nothing(self):
-        last = '("coordinate", c_int),\n'  # of baum_driver_def, which has a struct_size
+        # The last field of baum_driver_def, which begins with struct_size.
+        last = '("coordinate", c_int),\n'
         value = "BAUM_STOP_TIME = 3\n"
         found = self.found_after(
             (value, value + "    BAUM_STOP_NEW = 4\n"),

@@ -112,7 +112,7 @@ class Catalog(unittest.TestCase):
 
         x, y, angle = run("chaplygin_sleigh")["sleigh.pose"].T
         vx, vy, rate = run("chaplygin_sleigh")["sleigh.velocity"].T
-        across = vy * np.cos(angle) - vx * np.sin(angle) - 0.3 * rate  # of the blade
+        across = vy * np.cos(angle) - vx * np.sin(angle) - 0.3 * rate  # velocity across the blade
         self.assertLess(abs(across).max(), 1e-14)
 
         centre = run("rolling_disc")["disc.pose"]

@@ -83,7 +83,7 @@ class Figures(unittest.TestCase):
         motion = _motion.of_run(self.run_, [], [], None)
         whole, samples = _motion.refined(motion, self.run_, times)
         wanted = fine.q[(1000 * times).round().astype(int)]
-        # linear interpolation would give 8e-4
+        # linear interpolation would have an error of 8e-4
         np.testing.assert_allclose(whole.rows[samples], wanted, atol=2e-5)
         np.testing.assert_array_equal(whole.rows[samples[0]], self.run_.q[0])
         back = self.m.simulate(np.linspace(0, -1, 11), "kinematics")

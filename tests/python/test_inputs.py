@@ -129,8 +129,8 @@ class Runs(unittest.TestCase):
 
 
 def several(**functions):
-    """A mechanism with two coordinates and three inputs. Its functions receive the third and the
-    first input."""
+    """A mechanism with two coordinates and three inputs. Its functions receive the third input and
+    then the first one."""
     m = baum.Mechanism()
     for k, name in enumerate("abc"):
         m.input(name, 10.0**k)

@@ -10,7 +10,7 @@ import numpy as np
 import baum
 from compiler import CC, Folder
 
-PAIR = (0, 0, 0, 3, 4, 2)  # two bodies, which are 5 m and 2 rad apart
+PAIR = (0, 0, 0, 3, 4, 2)  # q of two bodies, which are 5 m and 2 rad apart
 
 
 def pair():

@@ -132,7 +132,7 @@ class Recorder(Adding, AddingInSpace):
 class Arguments(unittest.TestCase):
     """Tests that every field of every definition has an argument."""
 
-    # These elements need two different points. They therefore have no argument for a common point.
+    # These elements need two different points, so they have no argument for a common point.
     EXCEPTED = {
         "planar_distance": {"point"},
         "planar_spring": {"point"},

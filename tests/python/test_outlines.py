@@ -315,7 +315,7 @@ class Files(unittest.TestCase):
             ("a.stl", nan, "byte 96: numbers must be finite"),
             ("a.stl", text.replace("vertex 0.000000e+00", "vertex nan", 1), "line 4: numbers must be finite"),
             ("a.stl", text.replace("1.000000e+00", "x", 1), "line 6: three numbers"),
-            ("a.stl", text.replace("endsolid", "end"), "line 30: 'end' is no word"),
+            ("a.stl", text.replace("endsolid", "end"), "line 30: 'end' is not a keyword"),
             ("a.stl", text[: text.index("endsolid")], "line 29: the file ends without endsolid"),
             ("a.stl", text[: text.index("endloop")], "line 6: the file ends without endsolid"),
             ("a.stl", text.replace("    endloop", "vertex 0 0 0\nendloop", 1), "line 8: a triangle needs 3 vertices, not 1"),

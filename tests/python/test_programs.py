@@ -49,7 +49,8 @@ class Documentation(unittest.TestCase):
             ROOT / "bindings" / "python" / "README.md",
             *sorted((ROOT / "docs").glob("**/*.md")),
         ]
-        pages = [page for page in pages if page.parent.name != "cookbook"]  # see test_cookbook.py
+        # test_cookbook.py executes the programs of the cookbook.
+        pages = [page for page in pages if page.parent.name != "cookbook"]
         for page in pages:
             text = page.read_text(encoding="utf-8") if page.exists() else ""
             for k, program in enumerate(programs(text)):

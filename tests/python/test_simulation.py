@@ -91,8 +91,8 @@ class Samples(unittest.TestCase):
     def test_accelerations_and_efforts_belong_to_the_other_channels(self):
         r = self.run_
         np.testing.assert_allclose(r["slider.acceleration"], r["a"][:, 6:9])
-        # The same point belongs to both bodies. Its acceleration reaches 5e3 m/s^2. The rounding
-        # error is 1e-12 of this.
+        # The same point belongs to both bodies. Its acceleration reaches 5e3 m/s^2, and the
+        # rounding error is 1e-12 times this value.
         np.testing.assert_allclose(
             r["rod.acceleration(0.153, 0.0)"][:, :2], r["slider.acceleration"][:, :2], atol=1e-8
         )

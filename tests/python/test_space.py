@@ -496,7 +496,7 @@ class Coordinates(unittest.TestCase):
 
 
 class PlanarBodies(unittest.TestCase):
-    """A planar crank carries a spatial bob, and a planar particle a spatial spring."""
+    """A planar crank carries a spatial bob, and a spatial spring acts on a planar particle."""
 
     def setUp(self):
         m = baum.Mechanism()

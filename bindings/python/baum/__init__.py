@@ -93,7 +93,7 @@ def __dir__() -> list[str]:
 
 
 def has(feature: str) -> bool:
-    """Whether the library was built with a feature: "sundials"."""
+    """Tell whether the library was built with a feature, such as "sundials"."""
     return bool(_lib.lib.baum_has(feature.encode()))
 
 

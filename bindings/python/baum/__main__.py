@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--page", help="an HTML file that shows the motion")
     compare = add("study", _study, "Compare methods on a scene: errors, costs, recommendations.")
     compare.add_argument("--page", help="an HTML, CSV, JSON or text file for the report")
-    compare.add_argument("--grid", default="quick", help="which entries to run, default quick")
+    compare.add_argument("--grid", default="quick", help="which settings to run, default quick")
     for command in (run, compare):
         command.add_argument("--until", type=float, default=1.0, help="end time [s], default 1")
     run.add_argument("--samples", type=int, default=201, help="number of samples, default 201")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The C interface of baum 0.1.0. Made by tools/generate_abi.py from the headers; do not edit.
 
-Addresses of numbers (double *) are c_void_p, handles likewise; strings are c_char_p.
+Addresses of numbers (double *) and handles are c_void_p; strings are c_char_p.
 """
 import enum
 from ctypes import (

@@ -28,7 +28,7 @@ Call = Callable[..., Any]
 
 _here = threading.local()
 
-# Statuses of calls that a callback has stopped.
+# A call returns one of these statuses if a callback has stopped it.
 STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
@@ -201,7 +201,7 @@ def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
 
 
 class _Glance:
-    """A short use of an object by another thread. Calls wait until it ends."""
+    """A short use of an object by another thread. Calls wait for the end of this use."""
 
     def __init__(self) -> None:
         self.done = threading.Event()
@@ -281,7 +281,8 @@ class Handle:
             me.done.set()
 
     def _give_way(self) -> None:
-        """Wait for the end of a glance. If another call is using the object, raise baum.Error."""
+        """Wait while another thread reads the object by glance(). If another call is using the
+        object, raise baum.Error."""
         other = self._users.get("now")
         if isinstance(other, _Glance):
             other.done.wait()

@@ -52,7 +52,7 @@ def _candidates() -> Iterator[str]:
 
 
 def _open() -> tuple[ctypes.CDLL, str]:
-    """The first candidate that loads."""
+    """Load the first candidate that can be loaded. Return the library and its path."""
     failures = []
     for candidate in _candidates():
         try:
@@ -93,8 +93,8 @@ def _declare(library: ctypes.CDLL, path: str, prototypes: dict[str, tuple[Any, A
 
 
 def _check_structs(library: ctypes.CDLL, path: str) -> None:
-    """Compare the size of every definition with the size in the library. A newer library may have
-    definitions with more fields; these then have their defaults."""
+    """Compare the size of every struct that has defaults with the size in the library. The structs
+    of a newer library may have more fields, which keep their defaults."""
     for struct, name in _abi.DEFAULTS.items():
         room = (ctypes.c_char * (4 * ctypes.sizeof(struct)))()
         getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))

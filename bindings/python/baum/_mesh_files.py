@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from .typing import Array
 
 Triangles = NDArray[np.int32]
-LARGEST = 1 << 27  # [byte] of a file
-LIMIT = 200_000  # triangles; BAUM_OUTLINE_MAX_TRIANGLES
-HEAD, RECORD = 84, 50  # [byte] of a binary STL file, and of one of its triangles
+LARGEST = 1 << 27  # [byte] largest size of a file
+LIMIT = 200_000  # most triangles of a mesh, equal to BAUM_OUTLINE_MAX_TRIANGLES
+HEAD, RECORD = 84, 50  # [byte] sizes of the header of a binary STL file and of one triangle
 RECORDS = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 
@@ -111,7 +111,7 @@ def _stl_text(file: Path, data: bytes) -> tuple[Array, Triangles]:
             corners.append(_numbers(words[1:], where))
             _check_count(len(corners) // 3, where)
         elif word not in ("solid", "facet", "outer", "endloop", "endfacet", "endsolid"):
-            raise ValueError(f"{where}: {words[0]!r} is no word of an STL file")
+            raise ValueError(f"{where}: {words[0]!r} is not a keyword of STL files")
         elif len(corners) % 3:
             raise ValueError(f"{where}: a triangle needs 3 vertices, not {len(corners) % 3}")
     if word != "endsolid":

@@ -25,7 +25,7 @@ TraceLike = Union[ChannelLike, Body]
 Forces = Union[bool, Sequence[ChannelLike], None]
 Curve = tuple[str, Array]  # label, column (n)
 Mark = tuple[float, str, int]  # time, text, kind
-ROOM = 1 << 18  # [byte] first size of the buffer, enough for most pages
+ROOM = 1 << 18  # [byte] initial size of the buffer, enough for most pages
 
 
 class Motion(NamedTuple):
@@ -114,8 +114,8 @@ def _chosen(mechanism: Mechanism, recorded: Iterable[Channel], forces: Forces) -
 
 
 def _marks(run: Run) -> list[Mark]:
-    """Return times, texts and kinds of warnings, near-singular intervals, events and the failure,
-    sorted by time."""
+    """Return the marks of a run, sorted by time: its warnings, near-singular intervals and events,
+    and its failure if it has failed."""
     kinds = _abi.baum_mark_kind
     marks = [(warning.first, str(warning), kinds.BAUM_MARK_WARNING) for warning in run.warnings]
     for x in run.near_singular:
@@ -168,7 +168,7 @@ def of_arrays(
         raise ValueError(f"q: an array of shape {wanted} is wanted, not {rows.shape}")
     steps = np.diff(times)
     if not (np.isfinite(times).all() and ((steps > 0).all() or (steps < 0).all())):
-        raise ValueError("t: finite times are wanted that only rise or only fall")
+        raise ValueError("t: times must be finite, and either only rise or only fall")
     curves = [(label, vector(values, len(times), label)) for label, values in plots.items()]
     kind = _abi.baum_mark_kind.BAUM_MARK_EVENT
     events = [(number(when, "time of a mark"), str(text), kind) for when, text in marks]

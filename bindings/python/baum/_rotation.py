@@ -66,8 +66,8 @@ def quaternion(value: Any, label: str) -> Array:
     off = abs(r.T @ r - np.eye(3)).max()
     if not off <= ROUNDING:
         raise ValueError(
-            f"{label}: the matrix is not a rotation: lengths and products of its columns deviate "
-            f"by {off:.2g}, at most {ROUNDING:g} is allowed"
+            f"{label}: the matrix is not a rotation: its columns deviate by {off:.2g} from "
+            f"orthogonal unit vectors, at most {ROUNDING:g} is allowed"
         )
     if np.linalg.det(r) < 0:
         raise ValueError(f"{label}: the matrix is not a rotation: its columns are left-handed axes")

@@ -46,7 +46,7 @@ class _Reader:
 
     def numbers(self, command: str) -> list[float]:
         """Return the numbers of one command. The fourth and fifth number of an arc are flags, which
-        may be written without a gap."""
+        may be written without a space between them."""
         values: list[float] = []
         for k in range(SIZES[command]):
             word = self.take(_FLAG if command == "A" and k in (3, 4) else _NUMBER)
@@ -103,7 +103,7 @@ class _Pen:
 
     def __init__(self) -> None:
         self.polygons: list[list[complex]] = []
-        self._before = 0  # points of all polygons but the last
+        self._before = 0  # number of points in all polygons except the last one
         self._here = self._start = 0j
         self._closed = False
         # Kind and last control point of the last curve.
@@ -122,7 +122,7 @@ class _Pen:
             return
         if (
             command == "M" or self._closed
-        ):  # begin a subpath; without M, it begins where the last one began
+        ):  # begin a subpath; without M, it begins where the last subpath began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self._before = self.count
@@ -165,7 +165,7 @@ def polygons(text: str) -> list[Array]:
             raise reader.error("a command is wanted, such as M or L")
         if (
             word is None
-        ):  # numbers without a command repeat the last command; after M they are ends of lines
+        ):  # numbers without a command repeat the last one; after M, they are end points of lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")

@@ -38,11 +38,11 @@ Bodies = Union[BodyLike, Sequence[BodyLike]]
 class Adding:
     """The methods of a Mechanism that add an element.
 
-    Each method returns a handle of the new element. Bodies, joints and inputs are given as handles
-    or by their names. All methods have the argument `name`. Messages contain this name, and
+    Each method returns a handle of the new element. To refer to a body, joint or input, pass its
+    handle or its name. All methods have the argument `name`. Messages contain this name, and
     m["crank"] returns the handle of the element named "crank". If the name is None, the element
-    gets a name with a number, for example "body1". If another argument is None, it has the default
-    that the docstring of the method states.
+    gets a name with a number, for example "body1". If any other argument is None, its default
+    applies, which the docstring of the method states.
 
     Errors: TypeError for a value of a wrong type; ValueError for a wrong size and for a name that
         is already taken; KeyError for a name that does not exist; baum.Error for a value that the
@@ -82,9 +82,9 @@ class Adding:
             if the body cannot rotate; otherwise always give it.
         position: x and y of the centre of mass in the design configuration [m].
         angle: angle of the body in the design configuration [rad].
-        velocity: velocity of the centre of mass at the start [m/s]. None or NaN: free, assembly
+        velocity: velocity of the centre of mass at the start [m/s]. None or NaN: assembly
             determines it.
-        angular_velocity: angular velocity at the start [rad/s]. None or NaN: free, assembly
+        angular_velocity: angular velocity at the start [rad/s]. None or NaN: assembly
             determines it.
         held: True if assembly must not move the body.
         outline: how the body is drawn, see Body.outline.
@@ -105,7 +105,7 @@ class Adding:
 
         mass: [kg], positive.
         position: x and y in the design configuration [m].
-        velocity: velocity at the start [m/s]. None or NaN: free, assembly determines it.
+        velocity: velocity at the start [m/s]. None or NaN: assembly determines it.
         held: True if assembly must not move the particle.
         outline: how the particle is drawn, see Body.outline.
         """
@@ -145,8 +145,8 @@ class Adding:
             the library computes them by differences.
         potential(t, q): potential energy of the force [J].
         q: (size) positions in the design configuration, by default 0.
-        v: (size) velocities at the start, by default free.
-        scale: (size) the size of a typical change of each position. Tolerances are relative to it.
+        v: (size) velocities at the start. By default assembly determines them.
+        scale: (size) how much each position typically changes. Tolerances are relative to it.
         constant_mass: True if M is constant.
         held: True if assembly must not move these coordinates.
         inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
@@ -164,7 +164,7 @@ class Adding:
             velocity v.
         difference(a, b): the displacement v from a to b, for which move(1, v, a) is b.
         normalize(q): the point of the configuration manifold that is nearest to q.
-        position_scale: (position_count) the size of a typical change of each position. `scale` then
+        position_scale: (position_count) how much each position typically changes. `scale` then
             refers to displacements.
         """
         return self._add(Body, "coordinates", locals())
@@ -305,7 +305,7 @@ class Adding:
         radius: radius of the pitch circle [m]. It is positive if the rack is to the left of the
             pinion, seen in the direction of the axis, and negative if the rack is to the right. For
             the axis (1, 0), right means below.
-        offset: the offset in the row [m], by default that of the design configuration.
+        offset: the offset in the row [m]. By default the row is 0 in the design configuration.
         """
         return self._add(Joint, "planar_rack_and_pinion", locals())
 
@@ -327,7 +327,7 @@ class Adding:
 
         radius_a, radius_b: radii of the pitch circles [m]; negative for a ring with internal teeth.
         carrier: the body that carries both wheels, by default ground.
-        offset: the offset in the row [m], by default that of the design configuration.
+        offset: the offset in the row [m]. By default the row is 0 in the design configuration.
         """
         return self._add(Joint, "planar_gear", locals())
 
@@ -371,8 +371,8 @@ class Adding:
         """Let a point of body_a move only along a blade that is fixed in body_a, such as a skate or
         a wheel seen from above.
 
-        The joint has one row of velocity level [m/s], which is the velocity of the point across the
-        blade. Give either `point` or point_a.
+        The joint has one row at velocity level [m/s]: the velocity of the point across the blade is
+        zero. Give either `point` or point_a.
 
         axis: direction of the blade. It is in ground axes if `point` is given, otherwise in the
             axes of body_a.
@@ -401,7 +401,8 @@ class Adding:
         joint a screw. A coupling with a law can describe a cam.
 
         ratio: in the unit of b per unit of a.
-        offset: in the unit of b, [rad] or [m]; by default that of the design configuration.
+        offset: in the unit of b, [rad] or [m]. By default the design configuration
+            satisfies the row.
         law(a): f(a), its first and its second derivative. It replaces ratio and offset.
         user: the last argument of a compiled function.
         coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
@@ -458,7 +459,7 @@ class Adding:
         The driver has one row. Before the first and after the last time, the spline continues as a
         straight line, unless it is periodic.
 
-        times: (n) rising [s], at least 3.
+        times: (n) at least 3 times in rising order [s].
         values: (n) values of the coordinate at these times [rad] or [m].
         periodic: True if the spline repeats. The first and the last value must then be equal.
         coordinate: which coordinate of the joint, as in driver().

@@ -29,8 +29,8 @@ class AddingInSpace:
     bodies. `axis` is a direction on body_a, and `axis_b` the corresponding direction on body_b.
     Both may have any length except 0. They are in ground axes if `point` is given, otherwise in the
     axes of the bodies. By default, `axis_b` coincides with `axis` in the design configuration.
-    Spatial joints and springs can also connect planar bodies and particles, which stay in the plane
-    z = 0.
+    Spatial joints and springs can also connect planar bodies and planar particles. These stay in
+    the plane z = 0.
     """
 
     if TYPE_CHECKING:
@@ -63,9 +63,9 @@ class AddingInSpace:
             rotation matrix whose columns are the body axes, or a Rotation of
             scipy.spatial.transform.
         velocity: velocity of the centre of mass at the start, in ground axes [m/s]. None or NaN:
-            free, assembly determines it.
-        angular_velocity: angular velocity at the start, in body axes [rad/s]. None or NaN: free,
             assembly determines it.
+        angular_velocity: angular velocity at the start, in body axes [rad/s]. None or NaN: assembly
+            determines it.
         held: True if assembly must not move the body.
         outline: how the body is drawn, see Body.outline.
         """
@@ -85,7 +85,7 @@ class AddingInSpace:
 
         mass: [kg], positive.
         position: x, y, z in the design configuration [m].
-        velocity: velocity at the start [m/s]. None or NaN: free, assembly determines it.
+        velocity: velocity at the start [m/s]. None or NaN: assembly determines it.
         held: True if assembly must not move the particle.
         outline: how the particle is drawn, see Body.outline.
         """
@@ -366,7 +366,7 @@ class AddingInSpace:
         """Let a disc, wheel or sphere of body_b roll without slipping on a plane of body_a.
 
         The joint has three rows: the height of the disc over the plane [m], and the velocities of
-        the contact point in two directions of the plane, which are rows of velocity level [m/s].
+        the contact point in two directions of the plane, which are rows at velocity level [m/s].
         Its reaction is the force and the moment on body_b at the contact point.
 
         radius: largest radius of the disc [m], positive.
@@ -393,8 +393,8 @@ class AddingInSpace:
         """Keep a point of body_a from moving along an axis that is fixed in body_a, relative to
         body_b. An example is a skate, whose axis is perpendicular to the sides of its blade.
 
-        The joint has one row of velocity level [m/s], the velocity of the point along the axis. It
-        does not keep the point on a surface. Give either `point` or point_a.
+        The joint has one row at velocity level [m/s]: the velocity of the point along the axis is
+        zero. It does not keep the point on a surface. Give either `point` or point_a.
 
         axis: direction in which the point does not move. It is in ground axes if `point` is given,
             otherwise in the axes of body_a. The planar knife_edge() has the direction of the blade
@@ -420,8 +420,8 @@ class AddingInSpace:
         offset: Scalar | None = None,
     ) -> Joint:
         """Add a screw joint: body_b rotates about an axis of body_a, and moves along this axis by
-        the pitch per revolution. Five rows: two for the directions of the axes [-] and three
-        lengths [m].
+        the pitch per revolution. The joint has five rows: two for the directions of the axes
+        [-] and three for lengths [m].
 
         pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
         offset: displacement at which the angle is 0 [m]; by default the value in the design
@@ -445,8 +445,8 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
     ) -> Joint:
         """Connect two shafts that meet at a point and rotate with equal angular velocities about
-        their axes, at any angle between the axes below 180 degrees. Four rows: three for the points
-        [m] and one for the rotation [-].
+        their axes, at any angle between the axes below 180 degrees. The joint has four rows: three
+        for the points [m] and one for the rotation [-].
 
         axis, axis_b: axes of the shafts. All other arguments are as for other joints.
         """

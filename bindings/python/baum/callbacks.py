@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Wrap functions of the user so that the library can call them.
 
-A Python function receives (t, q), (t, q, v), (t), one or two numbers, or a point, and returns its
-result. This module wraps such a function in another one, called the shell, which has the signature
+A Python function receives arguments such as (t, q), (t, q, v) or a point, and returns its result.
+This module wraps such a function in another one, called the shell, which has the signature
 that the library calls. The shell passes q and v as read-only arrays, which are valid only during
 the call. It checks the returned value and writes it to the memory of the library. If the function
 raises an exception, the shell keeps the exception and stops the present call of the library. The
@@ -28,8 +28,8 @@ from ._lib import lib
 from .errors import Retry, Status
 from .typing import Array
 
-FINE, RETRY, STOP = 0, 1, -1
-CACHED = 64
+FINE, RETRY, STOP = 0, 1, -1  # what a shell returns to the library
+CACHED = 64  # largest number of arrays that share memory with the library, for each argument
 NUMERIC = "fiub"
 DOUBLE = np.dtype(np.float64)
 
@@ -256,8 +256,8 @@ def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shel
 
 
 def _answer_nan(error: BaseException, out: int, count: int) -> None:
-    """Report an exception of a function that returns no status: write NaN as its result, which
-    stops the library."""
+    """Report an exception of a function that returns no status. Its result becomes NaN, which stops
+    the present call of the library."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):

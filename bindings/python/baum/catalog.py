@@ -11,9 +11,9 @@
     print(catalog.compare(run, "n_four_bar", windows=3).q)
 
 Keyword arguments set the parameters of a mechanism; the other parameters have their defaults. Data,
-times and states are in SI units. Some references are known for the default parameters only, and are
-refused for others. docs/mechanisms.md lists all mechanisms. Unknown names and parameters raise
-baum.Error.
+times and states are in SI units. Some references are known only for the default parameters.
+Asking for them with other parameters raises baum.Error, and so do unknown names and parameters.
+docs/mechanisms.md lists all mechanisms.
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ def times(name: str) -> Array:
 
 
 def reference(name: str, t: ArrayLike | None = None, **parameters: Scalar) -> Reference:
-    """Return the known motion at times t (n) [s], by default at all its samples. Other times than
-    those of the samples are allowed only if the reference is exact."""
+    """Return the known motion at the times t (n) [s], by default at the times of all its samples.
+    Other times are allowed only if the reference is exact."""
     at = times(name) if t is None else vector(np.atleast_1d(t), None, "t")
     nq, nv, _ = build(name, **parameters).sizes
     choice = ctypes.byref(_choice(name, parameters))

@@ -64,7 +64,7 @@ WHOLE = {
 
 
 class Layout:
-    """Where the columns of several channels are in one row of numbers."""
+    """The places of the columns of several channels in one row of numbers."""
 
     def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
         self.channels = {channel.key: channel for channel in channels}

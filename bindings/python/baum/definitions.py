@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Convert definitions of elements from keyword arguments to structs of the library, and back.
 
-An argument that is None keeps the default of its field. When an existing definition is changed,
-None keeps the present value instead. NaN is a value of its own, which means "not given".
+An argument that is None leaves its field at the default. When an existing definition is changed,
+None leaves the field at its present value. NaN is different from None: it means "not given".
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ KINDS = {
     )
 }
 
-# The coordinates of joints by name.
+# Names of joint coordinates -> their numbers in the library.
 COORDINATES = {
     one.name.removeprefix("BAUM_COORDINATE_").lower(): int(one)
     for one in _abi.baum_joint_coordinate
@@ -163,7 +163,7 @@ FAMILIES: dict[Any, str] = {
 
 
 class Definition:
-    """One definition for the library, with the objects that must stay alive as long as it is used.
+    """The definition of one element, with the objects that must stay alive as long as it is used.
 
     label: names the element in messages.
     find: the function find(family, value), which returns the handle for a handle or a name.
@@ -213,9 +213,9 @@ class Definition:
         return self
 
     def _places(self, inputs: Iterable[Any]) -> tuple[int, ...]:
-        """Return the indices of inputs in the mechanism. An input of another mechanism is refused
-        here, because the library cannot notice it: it does not know which inputs a Python function
-        receives."""
+        """Return the indices of inputs in the mechanism. Refuse an input of another mechanism here:
+        the library does not know which inputs a Python function receives, so it cannot check
+        them."""
         own = []
         for given in inputs:
             given = self._find("input", given)

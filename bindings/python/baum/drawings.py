@@ -20,7 +20,7 @@ from .typing import ArrayLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-HEIGHT = 720  # [px] height of a page in a notebook
+HEIGHT = 720  # [px] height of a page that a notebook shows
 
 
 class Drawing:

@@ -26,9 +26,9 @@ _Q = _abi.baum_quantity
 
 
 class Entry(NamedTuple):
-    """What a mechanism knows about an element: its Kind, which is None for ground and inputs, the
-    id in the library, and the numbers of positions and velocities of a body. Copies of a mechanism
-    share entries. Handles are created when they are needed."""
+    """What a mechanism knows about an element. kind is None for ground and inputs, id is the id in
+    the library, and nq and nv are the numbers of positions and velocities of a body. Copies of a
+    mechanism share entries. Handles are created when they are needed."""
 
     family: str
     kind: Kind | None
@@ -107,7 +107,7 @@ class Body(Element):
 
     @property
     def columns(self) -> tuple[slice, slice]:
-        """Where the coordinates of the body are in q and v of a frozen mechanism."""
+        """The slices of q and v that belong to the body. The mechanism must be frozen."""
         return self.mechanism.columns(self)
 
     @property
@@ -181,7 +181,7 @@ class Joint(Element):
 
     @property
     def rows(self) -> slice:
-        """Where the rows of the joint are in Phi and lambda of a frozen mechanism."""
+        """The slice of Phi and lambda that belongs to the joint. The mechanism must be frozen."""
         return self.mechanism.rows(self)
 
     @property
@@ -202,9 +202,9 @@ class Joint(Element):
     @property
     def reaction(self) -> Channel:
         """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
-        axes. The moment is about the joint's point on body_b. Joints in space have three components
-        of each. For a gear, a coupling or a user constraint: the generalized force -J^T lambda that
-        belongs to the velocities of its bodies."""
+        axes. The moment is about the joint's point on body_b. For joints in space, both
+        have three components. For a gear, a coupling or a user constraint, the channel has the
+        generalized force -J^T lambda on the velocities of its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property

@@ -86,10 +86,10 @@ class Retry(Exception):
 
 class Warning(UserWarning):
     """All warnings of one kind in a run. str(warning) is the message of the first one. It ends with
-    the code and the name, such as "[warning 104 singular_start]": the heading of its entry in
-    docs/cookbook/warnings.md, which tells the meaning and what to do.
+    the code and the name of the warning, such as "[warning 104 singular_start]". Under the same
+    heading, docs/cookbook/warnings.md explains the warning and what to do.
 
-    code: a number that stays the same in later versions.
+    code: the number of this kind of warning, which stays the same in later versions.
     doubts_motion: whether the result may be wrong by far more than its tolerance. This is true for
         every DoubtWarning.
     joint: the name of the joint, or None.
@@ -195,8 +195,8 @@ class BushingWarning(DoubtWarning):
 
 
 class UncertainSensitivityWarning(Warning):
-    """sensitivities() found different derivatives with two steps. This warning is not one of a
-    run."""
+    """sensitivities() found different derivatives with two sizes of its difference step. This
+    warning does not belong to a run."""
 
 
 KINDS = {

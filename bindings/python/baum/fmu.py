@@ -37,7 +37,7 @@ REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_tim
 
 
 class _Variable(NamedTuple):
-    """A number of an FMU. start is None for outputs."""
+    """A scalar variable of an FMU. start is its start value, or None for an output."""
 
     name: str
     causality: str
@@ -152,7 +152,7 @@ def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
 def _description(
     name: str, token: str, variables: Sequence[_Variable], rtol: float | None
 ) -> bytes:
-    """Write modelDescription.xml."""
+    """Return the contents of modelDescription.xml."""
     root = ElementTree.Element(
         "fmiModelDescription",
         fmiVersion="3.0",
@@ -194,8 +194,8 @@ def _description(
 
 
 def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
-    """Copy a mechanism. If a parameter moves a body, the joints in the copy keep their places on
-    the body, because their points are given in body axes, as after Mechanism.copy()."""
+    """Copy a mechanism. In the copy, the points of joints on bodies that parameters move are given
+    in body axes, as after Mechanism.copy(). The joints thus keep their places on these bodies."""
     changes: dict[str, dict[str, Any]] = {}
     for name in parameters:
         element, _, field = name.rpartition(".")
@@ -280,7 +280,7 @@ def export(
 
 
 def _write(path: Path, files: Sequence[tuple[str, bytes]]) -> None:
-    """Write the archive. It contains no times of files, so equal mechanisms give equal archives."""
+    """Write the archive. It contains no file times, so equal mechanisms give equal archives."""
     with zipfile.ZipFile(path, "w") as archive:
         for name, data in files:
             archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)

@@ -14,7 +14,7 @@ from .typing import Scalar
 
 
 class Gains:
-    """A gain rule and its numbers. The functions of this module make it.
+    """A gain rule and its numbers. The functions of this module make such rules.
 
     name: the name of the function that made the rule.
     values: the arguments of this function by name.
@@ -56,7 +56,7 @@ def taylor() -> Gains:
 
 
 def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
-    """Gains given as those of an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta.
+    """Gains like those of an oscillator: beta = 2 pi hertz and alpha = damping_ratio x beta.
 
     hertz: natural frequency [Hz], positive.
     damping_ratio: [-] positive; 1 is critical damping.
@@ -67,14 +67,14 @@ def frequency(hertz: Scalar, damping_ratio: Scalar) -> Gains:
 def deadbeat() -> Gains:
     """Gains with the fastest decay: a violation vanishes after at most two steps. They need a fixed
     step. Runge-Kutta methods of order above 1 lose order with these gains. Multistep methods have
-    no such gains and refuse the rule."""
+    no such gains, so a run with such a method refuses this rule."""
     return Gains("deadbeat")
 
 
 def best_damping() -> Gains:
-    """Gains of least spectral radius. If a method has dead-beat gains, the rule chooses them. It
-    needs a fixed step. It is the default rule of "ab2", "ab3" and "ab4", which keep their order
-    with these gains."""
+    """Gains of least spectral radius, which let violations decay fastest. If a method has dead-beat
+    gains, the rule chooses them. It needs a fixed step. It is the default rule of "ab2", "ab3" and
+    "ab4", which keep their order with these gains."""
     return Gains("best_damping")
 
 

@@ -86,11 +86,12 @@ def lookup(value: Any) -> Integrator:
 
 
 class Amplification(NamedTuple):
-    """How one step changes a constraint violation.
+    """How one step changes a constraint violation: it multiplies the parts of the violation by
+    the roots z.
 
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
-    spectral_radius: the largest |z| [-].
-    roots: the largest root z of each of the two modes of a violation.
+    spectral_radius: the largest |z| [-]. Violations decay if it is below 1.
+    roots: the largest root z of each of the two modes.
     damping: 1 - spectral_radius, computed without cancellation. This is the fraction of a violation
         that one step removes, for the mode that decays most slowly.
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 Watcher = Union[Callable[[float], object], None]
 
-FRAME = 1 / 60  # [s] least time between two frames
+FRAME = 1 / 60  # [s] shortest time between two frames
 AWAY = 2.0  # [s] a paused run continues if no page is connected for this time
 
 
@@ -54,7 +54,7 @@ NO_FRAME = Frame(0.0, np.empty(0))
 
 
 class Live:
-    """What a run and its views share: the newest frame, and whether the run waits.
+    """What a run and its views share: the newest frame, and whether the run is paused.
 
     The progress function that the library calls is call(). The user's progress function is
     `function`; it is called every `interval` seconds during the present call.

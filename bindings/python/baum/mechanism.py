@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .integrators import Integrator
     from .typing import SimulationOptions
 
-MANY = 1000  # elements of a mechanism whose evaluation may take longer than a few ms
+MANY = 1000  # from this number of elements on, an evaluation may take longer than a few ms
 
 
 GRAVITY = (0.0, -9.81)  # [m/s^2]
@@ -127,7 +127,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """Take over a mechanism of the library, with the elements of another Mechanism."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
-        self._sizes: Sizes | None = None  # once they are known, after freezing
+        self._sizes: Sizes | None = None  # None until they are read after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
@@ -156,7 +156,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         rows = [(one.name, one.kind.name if one.kind else one.family) for one in self]
         table = _html.table(repr(self)[1:-1], ("name", "kind"), rows)
         drawing = str(self.draw())
-        return drawing + table if "<title>" in drawing else table  # there is nothing to draw
+        return drawing + table if "<title>" in drawing else table  # no title: nothing to draw
 
     def _count(self, family: str) -> int:
         return sum(
@@ -234,8 +234,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         return struct
 
     def kept_objects(self) -> Iterator[tuple[int, tuple[Any, tuple[int, ...]]]]:
-        """The functions and `user` objects of definitions by address, with the numbers of the
-        inputs that they receive."""
+        """Return the functions and `user` objects of all definitions. Each comes with its address
+        and with the indices of the inputs that it receives."""
         for kept in self._keep:
             wrapped, value, inputs = kept if isinstance(kept, tuple) else (kept, kept, ())
             try:
@@ -327,7 +327,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @property
     def break_times(self) -> Array:
-        """The break times (n) [s], rising."""
+        """The break times (n) in rising order [s]."""
         count = ctypes.c_int32()
         place = lib.baum_mechanism_break_times(self.handle, ctypes.byref(count))
         found = numbers(place, count.value)
@@ -351,16 +351,16 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """Copy the mechanism, with changes of some definitions: m.copy(rod=dict(mass=0.04)) changes
         one mass.
 
-        The copy is frozen if this mechanism is frozen. Handles of each of the two mechanisms are
-        valid in the other until elements are added.
+        The copy is frozen if this mechanism is frozen. A handle of one of the two mechanisms
+        is also valid in the other one until elements are added.
 
-        If you change the position, angle or orientation of a body, the copy is the same mechanism
-        in another design configuration. Joints and forces keep their points and axes on the bodies.
-        They also keep the lengths, angles and offsets that they took from the first design
-        configuration. The definitions of the copy contain all these values as numbers. In the new
-        design configuration the joints may be open. Assembly then closes them, and for this purpose
-        it may also move the body that you changed; to avoid this, give a position and an angle that
-        fit, or held=True.
+        If you change the position, angle or orientation of a body, the copy has another design
+        configuration, but is otherwise the same mechanism. Joints and forces keep their points and
+        axes on the bodies. They also keep the lengths, angles and offsets that they took from the
+        first design configuration. The definitions of the copy contain all these values as numbers.
+        In the new design configuration the joints may be open. Assembly then closes them, and for
+        this purpose it may also move the body that you changed. To avoid this, give a position and
+        an angle that fit, or held=True.
 
         If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
         is placed in the new design configuration. Angles of spatial joints are 0 in the new design
@@ -422,7 +422,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         return self._sizes
 
     def rows(self, joint: JointLike) -> slice:
-        """Return where the rows of a joint are in Phi and lambda of a frozen mechanism."""
+        """Return the slice of Phi and lambda that belongs to a joint of a frozen mechanism."""
         first, count = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
             lib.baum_mechanism_rows,
@@ -434,7 +434,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         return slice(first.value, first.value + count.value)
 
     def columns(self, body: BodyLike) -> tuple[slice, slice]:
-        """Return where the coordinates of a body are in q and v of a frozen mechanism."""
+        """Return the slices of q and v that belong to a body of a frozen mechanism."""
         found = self.find("body", body)
         q, v = ctypes.c_int32(), ctypes.c_int32()
         _calls.make(
@@ -597,8 +597,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
         outputs: channels, such as "slider.pose"; each of their columns is an output of the FMU.
         inputs: inputs of the mechanism that are inputs of the FMU, by default all.
-        parameters: numbers that users of the FMU can change, as "element.field", such as
-            "rod.mass". The positions and velocities of bodies at the start are such numbers, too.
+        parameters: numbers that users of the FMU can change, written as "element.field", such as
+            "rod.mass". They may also be positions and velocities of bodies at the start.
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
             start_time. Choose a fixed step for control loops.
 

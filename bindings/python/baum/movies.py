@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 MOST = 100_000  # largest number of frames
 MOST_PIXELS = 8192  # largest width and height
-TICK = 100  # [Hz] delays between the frames of a GIF are multiples of 1/TICK
+TICK = 100  # [Hz] the time between two frames of a GIF is a multiple of 1/TICK
 
 
 def write(

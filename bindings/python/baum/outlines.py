@@ -213,7 +213,7 @@ class Mesh(Outline):
         return [vertices, triangles]
 
 
-# A shape, the corners of a polygon (n, 2), a path of SVG, or several of them.
+# A shape, the corners of a polygon (n, 2), an SVG path, or a list of these.
 OutlineLike = Union[Outline, ArrayLike, Sequence[Any], None]
 
 
@@ -260,8 +260,8 @@ class Structs:
             self.array[k] = struct
 
     def check(self) -> None:
-        """Raise the error of the library if it refuses these outlines, before their body is added.
-        To find out, give the outlines to the ground of a temporary mechanism."""
+        """Raise the error of the library if it refuses these outlines. Their body is not added yet,
+        so this method gives the outlines to the ground of a temporary mechanism."""
         if self.count == 0:
             return
         mechanism = ctypes.c_void_p()

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INCH = 96  # [px]
-POINTS = 72 / INCH  # [pt/px]
-# The codes of Matplotlib for commands of paths.
+POINTS = 72 / INCH  # [pt/px] typographic points of a pixel
+# Commands of SVG paths -> codes of Matplotlib.
 COMMANDS = {"M": 1, "L": 2, "Q": 3, "C": 4, "Z": 79}
 
 

@@ -29,7 +29,7 @@ EnergyAccount = _records.EnergyAccount
 
 
 class _ByName:
-    # A named tuple with handles. Pickling replaces the handles by their names.
+    # Base class of named tuples that contain handles. Pickling replaces handles by their names.
     __slots__ = ()
 
     def __reduce__(self) -> Any:
@@ -78,8 +78,8 @@ class Event(_Event):
 
 
 class Place(NamedTuple):
-    """Where the coordinates of a body are in q and v. in_body_axes: True if v contains its angular
-    velocity in body axes, while the channel of the body has it in ground axes."""
+    """The slices of q and v that belong to a body. in_body_axes: True if v contains the angular
+    velocity in body axes, although the channel of the body has it in ground axes."""
 
     q: slice
     v: slice
@@ -98,8 +98,8 @@ class Account(NamedTuple):
 
 
 class _Pickled(NamedTuple):
-    """What a pickled run contains of its mechanism: the scene, whether the mechanism has functions,
-    and the structs of the recorded channels as bytes."""
+    """What a pickled run contains of its mechanism: the scene (a JSON text), whether the mechanism
+    has functions, and the structs of the recorded channels as bytes."""
 
     scene: str
     has_functions: bool
@@ -117,14 +117,14 @@ class Run:
         the exception is then this Run.
     counters: what the run has cost.
     explain: the methods of the run in words.
-    warnings: a list with a baum.Warning for each kind of warnings.
-    near_singular, events: lists for the whole simulation up to the last sample.
+    warnings: a list with one baum.Warning for each kind of warning.
+    near_singular, events: the near-singular intervals and the events, as lists. They cover the
+        whole simulation up to the last sample.
     energy_account: the energy account at the last sample; None without the option energy_account.
 
     run["B.phi"] or run[m["B"].phi] is a recorded channel (n x columns). Poses and velocities of
     bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
-    there.
-
+    available.
     """
 
     def __init__(
@@ -254,8 +254,8 @@ class Run:
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
-        """Return where the pose or the velocity of a body is: "q" or "v", and its indices. Return
-        None for other names."""
+        """Find the pose or the velocity of a body: return "q" or "v", its slice, and the
+        place of the body. Return None for other names."""
         body, _, what = str(name).rpartition(".")
         place = self._place_of(body) if what in ("pose", "velocity") else None
         if place is None:
@@ -263,7 +263,7 @@ class Run:
         return ("q", place.q, place) if what == "pose" else ("v", place.v, place)
 
     def _place_of(self, body: str) -> Place | None:
-        """Return where the coordinates of a body are in q and v, or None."""
+        """Return the slices of q and v that belong to a body, or None if there is no such body."""
         if self._bodies is not None:
             return self._bodies.get(body)
         if self._mechanism is None or body not in self._mechanism:
@@ -292,7 +292,7 @@ class Run:
             found = self._of_body(key)
             if found is not None:
                 return self._units_of(found[0])[found[1]]
-            assert self._mechanism is not None  # a run without a mechanism knows its units
+            assert self._mechanism is not None  # a pickled run contains its units
             self._units[key] = units.of_channel(self._mechanism, self._channels[key])
         return self._units[key]
 
@@ -363,9 +363,9 @@ class Run:
         plots: channels to plot beside the picture, by default all recorded channels except q, v and
             reactions.
 
-        Warnings and events are marks on the time axis. A page keeps at most 600 samples, and among
-        these the samples at which a plotted column has its largest and its smallest value. Raises
-        ValueError for a run without its mechanism, and KeyError for a channel that was not
+        Warnings and events are marks on the time axis. A page keeps at most 600 samples. The
+        samples at which a plotted column has its largest or its smallest value are among them.
+        Raises ValueError for a run without its mechanism, and KeyError for a channel that was not
         recorded.
         """
         self._page(title, traces, forces, plots).save(path)

@@ -42,8 +42,8 @@ def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
 
 def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functions) -> str:
     """Choose a name for a function: the name that the user has given, otherwise its own name. If
-    another function has the same name, choose the names of the element and the field that use
-    it."""
+    another function already has this name, choose `usual`, which names the element and the
+    field."""
     for name, value in given.items():
         if value is function:
             return name
@@ -52,8 +52,8 @@ def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functio
 
 
 class _Hooks:
-    """The hooks of a mechanism, and the Python objects that belong to them. A hook states the name
-    that the library writes for the address of a function or of a `user` object."""
+    """The hooks of a mechanism, and the Python objects that belong to them. A hook pairs the
+    address of a function or of a `user` object with the name that the library writes for it."""
 
     def __init__(self, mechanism: Mechanism, given: Functions) -> None:
         self.objects: dict[str, Any] = {}

@@ -15,10 +15,11 @@ from .typing import Array, ArrayLike, ChannelLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-CHANGES = np.array([1.0, -1.0, 0.5, -0.5])  # of a number in its four runs, in steps
-UNCERTAIN = 1e-4  # share of the largest derivative
-LEAST_STEP = 1e-8  # share of the number that changes
-ROUNDING = 1e4 * float(np.finfo(float).eps)  # share of a result
+# Changes of a number in its four runs, as multiples of the step.
+CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
+UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
+LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
+ROUNDING = 1e4 * float(np.finfo(float).eps)  # rounding error of a result, relative to it
 
 
 class Sensitivities(Named):
@@ -28,9 +29,9 @@ class Sensitivities(Named):
 
     sensitivities["rod.pose"] contains the derivatives (samples x columns x p) of a channel. If
     `reduce` was given, sensitivities["value"] contains those of its results (... x p).
-    error(name) is an array of the same shape: by how much the difference quotients of two steps
-    differ. This contains the jumps of methods with variable steps, but not the integration errors
-    that all runs have in common.
+    error(name) is an array of the same shape. It contains the differences between the difference
+    quotients of two steps. These show the jumps that methods with variable steps cause, but not the
+    integration errors that all runs have in common.
     """
 
     def __init__(self, parameters: Sequence[str], values: Array, runs: Sweep) -> None:
@@ -80,11 +81,11 @@ def sensitivities(
 
     Take a method with a fixed step, such as "rk8" with `step`, and check the integration error by a
     second call with half the step. Results of methods with variable steps do not depend smoothly on
-    parameters. Warns with UncertainSensitivityWarning if both difference quotients of a derivative
-    differ by more than 1e-4 of the largest one, unless rounding of the result explains it. For
-    channels, "largest" refers to all samples of a column. Warnings of the runs are repeated.
-    Raises baum.Error if a run fails, and ValueError for a step that is not > 0 or that is below
-    1e-8 of the number.
+    parameters. Warns with UncertainSensitivityWarning if the two difference quotients of a
+    derivative differ by more than 1e-4 of the largest derivative, unless rounding explains this.
+    For channels, "largest" refers to all samples of a column. Warnings of the runs are repeated.
+    Raises baum.Error if a run fails. Raises ValueError for a step that is not > 0, or that is below
+    1e-8 times the number.
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")

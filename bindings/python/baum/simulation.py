@@ -206,11 +206,12 @@ class Simulation(_calls.Closing):
         "cvode_adams", "cvode_bdf", "ida"    need the option rtol
         "kinematics"                         needs neither; drivers prescribe the whole motion
     step: length of a fixed step [s], positive.
-    rtol: tolerance of the local error [-], between 0 and 1, relative to the scales of q and v.
-    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale; by
-        default none.
-    max_step: longest variable step [s], by default none. Set it if a force is zero at first and
-        begins to act later, because long steps could miss its beginning.
+    rtol: tolerance of the local error [-], between 0 and 1, relative to typical sizes of q and v
+        (their scales).
+    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. By
+        default there is none.
+    max_step: longest variable step [s], by default unlimited. Set it if a force is zero at first
+        and begins to act later, because long steps could miss its beginning.
     formulation: "default" is the first formulation that the integrator offers. Others are
         "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
@@ -223,11 +224,12 @@ class Simulation(_calls.Closing):
         and multipliers [-], positive. By default tolerance_lambda is infinite, so the error of
         multipliers is not tested. It may be finite only for "ida" with "baumgarte" or
         "unstabilized".
-    start_time: [s].
+    start_time: time at which the run starts [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts it and does not assemble.
     solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
-    check_derivatives: True first compares the derivatives of your functions with differences.
+    check_derivatives: True first compares the derivatives of your functions with finite
+        differences.
     max_steps: number of steps after which a call fails.
     energy_account: True computes the work of all forces during the run, which the property and the
         channel `energy_account` report.
@@ -421,8 +423,8 @@ class Simulation(_calls.Closing):
         """Schedule an input: from time times[k] [s] on, it has the value values[k]. Before times[0]
         it keeps its present value.
 
-        times: (n) rising.
-        values: (n).
+        times: (n) times in rising order.
+        values: (n) values from these times on.
 
         Steps end at these times, and multistep methods restart there. set_input() ends the
         schedule.
@@ -449,7 +451,8 @@ class Simulation(_calls.Closing):
         acceleration: Scalar = 0.0,
     ) -> None:
         """Give a driver another law in this run, until the next call for this driver. From the
-        present time t0 on, it prescribes value + rate (t - t0) + acceleration (t - t0)^2 / 2.
+        present time t0 on, the driver prescribes value + rate (t - t0) + acceleration
+        (t - t0)^2 / 2.
 
         value: [rad] or [m].
         rate: [rad/s] or [m/s].
@@ -481,7 +484,7 @@ class Simulation(_calls.Closing):
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
         function(t, q, v) passes zero. The function receives q and v of the whole mechanism.
 
-        direction: 1 only when the function rises in time, -1 only when it falls, 0 both.
+        direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
             call continues. False only records the event in `events`.
         name: name of the event in messages and in `events`, by default "event 0", "event 1", ...
@@ -744,7 +747,7 @@ class Simulation(_calls.Closing):
 
     @property
     def warnings(self) -> list[Warning]:
-        """A list with a baum.Warning for each kind of warnings so far."""
+        """A list with one baum.Warning for each kind of warning so far."""
         found = []
         for k in range(self._read_counters().warnings):
             out = _abi.baum_warning()
@@ -768,5 +771,5 @@ class Simulation(_calls.Closing):
 
     @property
     def message(self) -> str:
-        """The message of the last failure or stop, "" if there was none."""
+        """The message of the last failure or stop, or "" if there was none."""
         return text(lib.baum_simulation_message(self._owner.address))

@@ -35,7 +35,7 @@ Solution = Callable[[float], Sequence[ArrayLike]]
 COSTS = names(_abi.baum_study_cost, "BAUM_STUDY_")
 FORMS = names(_abi.baum_report_form, "BAUM_REPORT_")
 SUFFIXES = {".txt": "text", ".csv": "csv", ".json": "json", ".html": "page"}
-WHY_SIZE = 2048
+WHY_SIZE = 2048  # [byte] size of the buffer for the reason of a recommendation
 
 
 def _swap(words: Mapping[str, int]) -> dict[int, str]:
@@ -126,30 +126,30 @@ class Study(_calls.Closing):
 
     error: channels or their names. The error of a run is the largest difference of these channels
         from the reference, divided by `unit`. By default it is the largest error of all positions,
-        with lengths relative to the characteristic length and angles in radians.
-    reference: a known motion, which replaces the reference that the study computes itself: (times,
-        q), (times, q, v) or (times, q, v, lambda_), with a row for each time.
+        with lengths divided by the characteristic length, and angles in radians.
+    reference: a known motion, which replaces the reference that the study computes itself. It is a
+        tuple (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time.
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
     digits: the number of digits of the known motion that can be trusted.
     samples: number of times at which errors are measured, 2 to 1e6.
-    repeats: largest number of runs that measure the CPU time of an entry.
+    repeats: largest number of runs that measure the CPU time of an entry (one setting).
     entry_limit: largest CPU time of a run [s].
     time_budget: largest wall time of one call of run() [s].
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
         Python functions.
     energy_account: True measures the work that stabilization and projection do on the mechanism.
-    validate: True runs entries that may be recommended also over twice the span and from perturbed
-        starts.
+    validate: True makes more runs of entries that may be recommended: over twice the time span,
+        and from perturbed starts.
     file: path of a file in which the study keeps its results. A later study can continue from it.
-    grid: which settings run() adds to a study that has none. "quick" takes seconds, or about a
-        minute with Python functions. "full" takes about 25 times as long.
+    grid: the settings that run() adds to a study without settings. "quick" takes seconds, or about
+        a minute with Python functions. "full" takes about 25 times as long.
     progress: by default a bar in a terminal or a notebook, with an estimate of the time left; False
         shows nothing. A function progress(done, total) is called after each entry. An entry counts
         twice: once when its error is known, and once when its time is known. The function cancels
         the study if it returns a true value. It may call cancel() and len() of the study, but no
         other method.
 
-    In a `with` block, the memory and the file of the study are freed at the end of the block.
+    In a `with` block, the end of the block frees the memory of the study and closes its file.
 
     Errors: TypeError and ValueError for arguments of a wrong type or unknown words; baum.Error for
         values that the library refuses.
@@ -317,7 +317,8 @@ class Study(_calls.Closing):
         formulation. Returns the study.
 
         settings: number of steps or tolerances of each method, 1 to 64.
-        constants: number of constant gains in addition to the gain rules, 0 to 4.
+        constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
+            to 4.
         coarsest: longest step of methods of the orders 3 to 5 [s]. The longest steps of methods of
             the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default they follow from
             the speed of the motion.
@@ -413,8 +414,8 @@ class Study(_calls.Closing):
     @property
     def methods(self) -> list[StudyMethod]:
         """All methods. A method is a group of entries with the same integrator, formulation and
-        gains. Among other figures, it states the factor by which one more digit of accuracy
-        increases the cost."""
+        gains. Among other figures, a StudyMethod states the factor by which one more digit of
+        accuracy increases the cost."""
         count = lib.baum_study_method_count(self._owner.address)
         return [
             self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
@@ -476,8 +477,9 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-], also from perturbed
-        starts and over twice the span. Raises baum.Error if there is none."""
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, this is
+        true also from perturbed starts and over twice the time span; otherwise `why` says so.
+        Raises baum.Error if there is no such setting."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:

@@ -57,7 +57,7 @@ class _Result(NamedTuple):
 
 
 def _changes(names: Sequence[str], row: Sequence[Any]) -> dict[str, dict[str, Any]]:
-    """Return the changes of definitions for a row of parameters, as element -> field -> value."""
+    """Return the changes for a row of parameters: changes[element][field] = value."""
     changes: dict[str, dict[str, Any]] = {}
     for name, value in zip(names, row):
         element, _, field = name.rpartition(".")
@@ -91,8 +91,8 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
 
 
 def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
-    """Run a part of a sweep. This is a function of the module, so that other processes can import
-    it."""
+    """Run a part of a sweep. This function is defined at module level, so that other processes can
+    import it."""
     return [_one(task, row) for row in rows]
 
 
@@ -151,8 +151,8 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
 
 
 def _calls(executor: Any, task: _Task, parts: Sequence[Any]) -> Iterator[tuple[int, Any]]:
-    """Run the parts of a sweep on an executor. Yield the number and the results of each part that
-    is done."""
+    """Run the parts of a sweep on an executor. When a part is done, yield its number and its
+    results."""
     if hasattr(executor, "submit"):
         futures = {executor.submit(_many, task, part): k for k, part in enumerate(parts)}
         waiting = list(futures)
@@ -205,7 +205,7 @@ class Sweep(Named):
     parameters: the values of each parameter (n) or (n x size), by name.
     status: the Status of each run (n).
     messages: the messages of runs that failed, by the number of the run.
-    warnings: the names of the warnings of each run.
+    warnings: the names of the warning classes of each run.
 
     sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If `reduce` was
     given, sweep["value"] contains its results (n x ...). The values of failed runs are NaN.

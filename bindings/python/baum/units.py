@@ -47,7 +47,7 @@ def of_channel(mechanism: Mechanism, channel: Channel) -> Units:
     return _rates(rows, quantity == _Q.BAUM_PHI_RATE)
 
 
-# Quantities that are positions of bodies (0) or their first or second time derivatives (1, 2).
+# Order of the time derivative: 0 for positions of bodies, 1 for velocities, 2 for accelerations.
 _OF_BODY = {
     _Q.BAUM_Q: 0,
     _Q.BAUM_V: 1,

@@ -74,8 +74,8 @@ class Workspace(_calls.Closing):
 
     def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
         """Set the revolutions of an angle of a spatial joint. Positions determine such an angle
-        only up to whole revolutions. From then on, this workspace uses the value that is nearest
-        to the given angle [rad]. Before the first such call, this angle is 0.
+        only up to whole revolutions. From this call on, the workspace uses the value that is
+        nearest to the given angle [rad]. Before the first such call, the given angle is 0.
 
         coordinate: which angle of the joint, as in Mechanism.driver().
         """
@@ -181,8 +181,8 @@ class Workspace(_calls.Closing):
 
     def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
         """Return the reaction of a joint, as the channel `reaction` does. For most joints this is
-        the force [N] and the moment [N m] on body_b (3, in space 6). lambda_: multipliers (nc), as
-        acceleration() returns them."""
+        the force [N] and the moment [N m] on body_b (3 numbers, or 6 in space). lambda_:
+        multipliers (nc), as acceleration() returns them."""
         found = self.mechanism.find("joint", joint)
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))

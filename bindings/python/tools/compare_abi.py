@@ -19,7 +19,7 @@ from typing import Any, Iterator
 
 
 def load(path: str) -> ModuleType:
-    """A version of _abi.py as a module."""
+    """Load a version of _abi.py as a module."""
     spec = importlib.util.spec_from_file_location(f"abi_{abs(hash(path))}", path)
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
@@ -28,7 +28,7 @@ def load(path: str) -> ModuleType:
 
 
 def describe(kind: Any) -> str:
-    """A C type as text, which is the same in both versions if the type is."""
+    """Return a C type as text. Equal types in both versions give the same text."""
     if hasattr(kind, "_restype_"):
         arguments = ", ".join(describe(argument) for argument in kind._argtypes_)
         return f"{describe(kind._restype_)} (*)({arguments})"
@@ -36,7 +36,7 @@ def describe(kind: Any) -> str:
 
 
 def layout(struct: type[ctypes.Structure]) -> list[tuple[Any, ...]]:
-    """Name, type, offset and size of every field."""
+    """Return the name, type, offset and size of every field."""
     return [
         (field[0], describe(field[1]), getattr(struct, field[0]).offset, ctypes.sizeof(field[1]))
         for field in struct._fields_
@@ -80,7 +80,7 @@ def changed_values(old: ModuleType, new: ModuleType) -> Iterator[str]:
 
 
 def changes(old: ModuleType, new: ModuleType) -> list[str]:
-    """What breaks programs that were compiled with the old version, a line for each."""
+    """Return a line for each change that breaks programs compiled with the old version."""
     return [
         *changed_structs(old, new),
         *changed_functions(old, new),

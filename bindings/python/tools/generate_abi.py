@@ -35,7 +35,7 @@ HEAD = '''\
 # SPDX-License-Identifier: BSD-3-Clause
 """The C interface of baum {version}. Made by tools/generate_abi.py from the headers; do not edit.
 
-Addresses of numbers (double *) are c_void_p, handles likewise; strings are c_char_p.
+Addresses of numbers (double *) and handles are c_void_p; strings are c_char_p.
 """
 import enum
 from ctypes import (
@@ -119,7 +119,8 @@ NUMBERS = {
 
 
 def read_headers(include, name="baum/baum.h", seen=None):
-    """Return the text of a header after that of the headers it includes, each header once."""
+    """Return the text of a header, preceded by the texts of the headers that it includes. Each
+    header occurs once."""
     seen = set() if seen is None else seen
     seen.add(name)
     text = (include / name).read_text(encoding="utf-8")

@@ -60,7 +60,7 @@ def property_of(field, spelled):
 
 
 def kind_of(text, name, family, fields):
-    """Return the schema of the elements of a kind."""
+    """Return the schema of the elements of one kind, such as spatial_spring."""
     comments = field_comments(text, f"baum_{name}_def")
     properties = {"kind": {"const": name}, "name": dict(NAME)}
     for field, spelled in fields:
