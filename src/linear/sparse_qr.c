@@ -266,8 +266,7 @@ static bool make_room(baum_i_sparse_qr *qr)
   return true;
 }
 
-/* The next functions are parts of baum_i_sparse_qr_create(). They return false when out of
- * memory. */
+/* Parts of baum_i_sparse_qr_create(). They return false when out of memory. */
 static bool copy_pattern(baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern,
                          const int32_t *order)
 {
