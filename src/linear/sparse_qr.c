@@ -74,7 +74,7 @@ struct baum_i_sparse_qr {
   int32_t front_count;
   front *fronts;      /* each parent after its children */
   int32_t *memory;    /* memory of the six arrays below */
-  int32_t *order;     /* (n) order[k] is the column of A with number k */
+  int32_t *order;     /* (n) the columns of A in their order of elimination */
   int32_t *position;  /* (n) index of each column in the present front */
   int32_t *row_start; /* (m + 1) start of each row of A in place[] and source[] */
   int32_t *next_row;  /* (m) next row that begins in the same front, or NONE */

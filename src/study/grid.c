@@ -210,8 +210,8 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   grid g = {.study = study, .wanted = &wanted};
   BAUM_I_TRY(baum_i_study_rate(study, &g.rate));
   const char *formulation = baum_formulation_name(wanted.formulation);
-  const baum_i_text missing =
-    baum_i_text_of("study grid: this build has no such integrator with the formulation %s",
-                   formulation ? formulation : "that is asked for");
+  const baum_i_text missing = baum_i_text_of(
+    "study grid: no integrator of this build that you allow offers the formulation %s",
+    formulation ? formulation : "that is asked for");
   return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing.text);
 }

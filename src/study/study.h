@@ -55,7 +55,7 @@ typedef struct baum_i_entry {
   baum_i_text name;
   char message[BAUM_I_NOTE_SIZE];
   uint64_t key; /* key that identifies the options */
-  double limit; /* [s] the time limit of an entry when this one was measured */
+  double limit; /* [s] the time limit per entry when this entry was measured */
   baum_i_stage stage;
   baum_i_stage filed; /* the stage that the entry had in the study file when the file was opened */
 } baum_i_entry;
