@@ -233,8 +233,8 @@ static void couple(const spatial_scene *s, int a, baum_joint_coordinate of_a, in
 
 enum { COUPLED = 4 };
 
-/* Makes couplings of two joints each, which connect two to four bodies in all. The bodies are spatial and planar, and the
- * coordinates are of all kinds. */
+/* Makes couplings of two joints each, which connect two to four bodies in all. The bodies are
+ * spatial and planar, and the coordinates are of all kinds. */
 static spatial_scene make_coupled(void)
 {
   static const baum_joint_coordinate x = BAUM_COORDINATE_X;
