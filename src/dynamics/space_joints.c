@@ -44,7 +44,7 @@ baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint)
   return (baum_i_space_shape)shape;
 }
 
-/* Columns of sign [s]x L^-T. */
+/* Computes the columns of sign * [s]x L^-T, with a point s of the body, and I = L L^T. */
 static void set_arms(const baum_i_space_body *body, const double s[3], double sign, double out[12])
 {
   for (int c = 0; c < 3; c++) {
@@ -61,7 +61,7 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   const baum_i_joint *of = w->mechanism->joints[node->row_block];
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(of);
   const double *numbers = w->point.parameters + of->element.parameter;
-  bool pin = of->type->is_pin; /* its points have two numbers, and that of body_b is the first */
+  bool pin = of->type->is_pin; /* a planar pin has two numbers for each point, body_b's first */
   double *axes = out + BAUM_I_JOINT_AXES;
   for (int k = 0; k < 2; k++) {
     double *s = out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k;

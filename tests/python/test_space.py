@@ -119,7 +119,7 @@ class Given(unittest.TestCase):
             ("inertia: 9 numbers are wanted, not 4", dict(inertia=np.eye(2))),
             ("inertia: .* are wanted, not 1 numbers", dict(inertia=2.0)),
             ("not a rotation: its columns are left-handed", dict(orientation=mirror)),
-            ("not a rotation: .* deviate by 3,", dict(orientation=2 * np.eye(3))),
+            ("not a rotation: .* deviate by 3 from", dict(orientation=2 * np.eye(3))),
             ("orientation: a quaternion w, .* not 3 numbers", dict(orientation=(1, 0, 0))),
             ("orientation: an array of one dimension", dict(orientation=Rotation(np.eye(4)))),
             ("position: 3 numbers are wanted, not 2", dict(position=(0, 0))),
