@@ -297,8 +297,8 @@ baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, con
 /* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT.
  * baum_i_project() does not check them, and runs observe them (simulate/monitor.c). before: the
  * velocities before the projection. */
-baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
-                                  const double *v, const double *before);
+baum_status baum_i_check_omitted_violation(baum_workspace *workspace, double t, const double *q,
+                                           const double *v, const double *before);
 
 /* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P is that of
  * the last acceleration, motion or projection, which must have succeeded. May return

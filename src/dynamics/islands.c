@@ -30,44 +30,6 @@ static void unite_joined(const baum_mechanism *m, int *parent)
   }
 }
 
-/* ---- counting: the smallest body of an island (its root) stores the counts of the island ---- */
-
-static void count_all(const baum_mechanism *m, int *parent, baum_i_island *island)
-{
-  for (int i = 1; i <= m->body_count; i++) {
-    island[baum_i_sets_find(parent, i)].bodies += m->bodies[i]->fixed ? 0 : 1;
-  }
-  for (int k = 0; k < m->joint_count; k++) {
-    int first = first_free(m, m->joints[k]);
-    if (first >= 0) {
-      baum_i_island *of = &island[baum_i_sets_find(parent, first)];
-      of->joints++;
-      of->rows += m->joints[k]->rows;
-    }
-  }
-}
-
-baum_status baum_i_count_islands(const baum_mechanism *m, int *count, baum_i_island *largest)
-{
-  size_t bodies = (size_t)m->body_count + 1;
-  int *parent = baum_i_alloc(bodies, sizeof *parent);
-  baum_i_island *island = baum_i_alloc(bodies, sizeof *island);
-  *count = 0;
-  *largest = (baum_i_island){0};
-  baum_status status = parent && island ? BAUM_OK : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    unite_joined(m, parent);
-    count_all(m, parent, island);
-  }
-  for (size_t i = 1; i < bodies && status == BAUM_OK; i++) {
-    *count += island[i].bodies > 0 ? 1 : 0;
-    *largest = island[i].bodies > largest->bodies ? island[i] : *largest;
-  }
-  baum_i_free(parent);
-  baum_i_free(island);
-  return status;
-}
-
 baum_status baum_i_number_islands(const baum_mechanism *m, int **island)
 {
   *island = baum_i_alloc((size_t)m->body_count + 1, sizeof **island);
@@ -81,6 +43,39 @@ int baum_i_island_of_joint(const baum_mechanism *m, const int *island, const bau
 {
   int first = first_free(m, joint);
   return first >= 0 ? island[first] : island[0];
+}
+
+static void count_all(const baum_mechanism *m, const int *number, baum_i_island *island)
+{
+  for (int i = 1; i <= m->body_count; i++) {
+    island[number[i]].bodies += m->bodies[i]->fixed ? 0 : 1;
+  }
+  for (int k = 0; k < m->joint_count; k++) {
+    baum_i_island *of = &island[baum_i_island_of_joint(m, number, m->joints[k])];
+    of->joints++;
+    of->rows += m->joints[k]->rows;
+  }
+}
+
+baum_status baum_i_count_islands(const baum_mechanism *m, int *count, baum_i_island *largest)
+{
+  *count = 0;
+  *largest = (baum_i_island){0};
+  int *number = NULL;
+  BAUM_I_TRY(baum_i_number_islands(m, &number));
+  size_t bodies = (size_t)m->body_count + 1;
+  baum_i_island *island = baum_i_alloc(bodies, sizeof *island);
+  if (island) {
+    count_all(m, number, island);
+  }
+  for (size_t i = 1; i < bodies && island; i++) {
+    *count += island[i].bodies > 0 ? 1 : 0;
+    *largest = island[i].bodies > largest->bodies ? island[i] : *largest;
+  }
+  baum_status status = baum_i_check_memory(island);
+  baum_i_free(number);
+  baum_i_free(island);
+  return status;
 }
 
 baum_status baum_i_count_joints(const baum_mechanism *m, int **joints)

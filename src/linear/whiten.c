@@ -29,12 +29,12 @@ struct baum_i_whitening {
 
 /* ---- create ---- */
 
-/* Blocks may be out of order, with gaps between their values. */
 static size_t larger(size_t x, size_t y)
 {
   return x > y ? x : y;
 }
 
+/* Blocks may be out of order, with gaps between their values. */
 static size_t mass_size(const baum_i_kkt_structure *s)
 {
   size_t size = 0;

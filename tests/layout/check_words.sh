@@ -28,6 +28,7 @@ banned 'without a word' silently
 banned 'hold hardly' ill-conditioned
 banned 'anew' 'again, or restart'
 banned 'dearer' 'more expensive'
+banned 'left out' omitted
 banned 'full nodes?' 'general node'
 
 wide=$(find include src examples tests bindings/python \( -name '*.[ch]' -o -path 'examples/*.py' \

@@ -263,7 +263,7 @@ class Drivers(unittest.TestCase):
         np.testing.assert_allclose(s.get("A.coordinate"), [1.5 + 3 - 0.2, 130], rtol=1e-12)
         np.testing.assert_allclose(other.get("A.coordinate"), [4.5, 150], rtol=1e-12)
 
-    def test_left_out_it_stays_where_it_is(self):
+    def test_a_driver_without_new_rates_stops(self):
         s = slider_crank(omega=150).simulation("kinematics")
         s.advance_to(0.01)
         s.set_driver(s.mechanism["motor"], 1.5)

@@ -87,7 +87,7 @@ class Building(unittest.TestCase):
         self.assertEqual(m["rod"].columns, (slice(3, 6), slice(3, 6)))
         self.assertEqual(m.rows("motor"), slice(8, 9))
 
-    def test_names_are_given_when_left_out(self):
+    def test_bodies_without_a_name_are_numbered(self):
         m = baum.Mechanism()
         first, second = m.planar_particle(), m.planar_body()
         self.assertEqual((first.name, second.name), ("body1", "body2"))

@@ -264,7 +264,7 @@ static bool solve(quad_system *s, double *a, double *lambda)
 /* ---- reading ---- */
 
 static void read_dense(quad_system *s, const double *mass, const double *jacobian,
-                       const unsigned char *left_out)
+                       const unsigned char *omitted)
 {
   int nv = s->nv;
   for (int i = 0; i < nv; i++) {
@@ -273,7 +273,7 @@ static void read_dense(quad_system *s, const double *mass, const double *jacobia
     }
   }
   for (int i = 0; i < s->n - nv; i++) {
-    if (left_out && left_out[i]) {
+    if (omitted && omitted[i]) {
       add(s, nv + i, nv + i, 1.0);
       s->b[nv + i] = 0.0;
       continue;
@@ -307,7 +307,7 @@ static bool add_gain(const quad_system *s, baum_workspace *workspace, double t, 
 }
 
 bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const double *q,
-                                 const double *v, double gain, const unsigned char *left_out,
+                                 const double *v, double gain, const unsigned char *omitted,
                                  double *a, double *lambda)
 {
   int nv = workspace->mechanism->nv;
@@ -323,7 +323,7 @@ bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const doub
     done = add_gain(&s, workspace, t, q, v, gain, jacobian);
   }
   if (done) {
-    read_dense(&s, mass, jacobian, left_out);
+    read_dense(&s, mass, jacobian, omitted);
     done = solve(&s, a, lambda);
   }
   free(mass);
@@ -333,9 +333,9 @@ bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const doub
 }
 
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
-                       const unsigned char *left_out, double *a, double *lambda)
+                       const unsigned char *omitted, double *a, double *lambda)
 {
-  return quad_acceleration_with_gain(workspace, t, q, v, 0.0, left_out, a, lambda);
+  return quad_acceleration_with_gain(workspace, t, q, v, 0.0, omitted, a, lambda);
 }
 
 static void read_blocks(quad_system *s, const baum_workspace *w)

@@ -20,14 +20,14 @@
  * there is not enough memory. */
 
 /* Reads J and M from a workspace as dense matrices. This is suitable for up to several hundred
- * coordinates. Rows that left_out (nc) marks are omitted, so their lambda is 0. left_out may be
+ * coordinates. Rows that omitted (nc) marks are omitted, so their lambda is 0. omitted may be
  * NULL. */
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
-                       const unsigned char *left_out, double *a, double *lambda);
+                       const unsigned char *omitted, double *a, double *lambda);
 
 /* Computes the same with r = gamma - 2 gain Phi' - gain^2 Phi in place of gamma; gain [1/s]. */
 bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const double *q,
-                                 const double *v, double gain, const unsigned char *left_out,
+                                 const double *v, double gain, const unsigned char *omitted,
                                  double *a, double *lambda);
 
 /* Computes the same accelerations and multipliers for long chains. It reads the blocks of the

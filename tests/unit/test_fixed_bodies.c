@@ -107,7 +107,7 @@ static baum_simulation *start(const baum_mechanism *m, const baum_simulation_opt
   return run;
 }
 
-static int left_out(const baum_simulation *run)
+static int fixed_bodies_of(const baum_simulation *run)
 {
   const baum_i_block_path *path = run->workspace->motion;
   return path ? path->fixed_count : 0;
@@ -136,8 +136,8 @@ static void assert_same_motion(const baum_mechanism *m, int count)
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
   baum_simulation *whole = start_whole(m, o);
-  assert_int_equal(left_out(run), count);
-  assert_int_equal(left_out(whole), 0);
+  assert_int_equal(fixed_bodies_of(run), count);
+  assert_int_equal(fixed_bodies_of(whole), 0);
   check(baum_simulation_advance_to(run, 0.5));
   check(baum_simulation_advance_to(whole, 0.5));
   assert_same(run, whole, 1e-11); /* rounding errors of 500 steps */
@@ -275,7 +275,7 @@ static void rows_that_fix_a_body_are_kept(void **state)
   const unsigned char *omitted = run->workspace->rows.omitted + first;
   assert_int_equal(run->workspace->rows.count, 1);
   assert_int_equal(omitted[0] + omitted[1] + omitted[2], 0);
-  assert_int_equal(left_out(run), 1);
+  assert_int_equal(fixed_bodies_of(run), 1);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
@@ -423,7 +423,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   memcpy(v, baum_simulation_v(run), sizeof v);
   q[0] += 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
-  assert_int_equal(left_out(run), FRAMES);
+  assert_int_equal(fixed_bodies_of(run), FRAMES);
   q[0] -= 1e-3;
   v[0] = 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
