@@ -329,7 +329,8 @@ static bool step_once(void *self, int part)
   return baum_simulation_step(self, 16) == BAUM_OK;
 }
 
-/* Takes steps of 1e-9 s. They are so short that the configuration hardly changes. */
+/* Takes steps of 1e-9 s, so that the configuration hardly changes. The gains suit longer steps:
+ * gains of 1e9 1/s would amplify the rounding errors of Phi, and refinement would take longer. */
 static bool bench_steps_of(scene_kind kind, int n)
 {
   scene at;
@@ -337,6 +338,7 @@ static bool bench_steps_of(scene_kind kind, int n)
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_semi_implicit_euler();
   options.step = 1e-9;
+  options.gains = baum_gains_fixed(100.0, 100.0);
   options.max_steps = INT64_MAX;
   bool fine = scene_make(kind, n, &at);
   if (fine) {
