@@ -169,15 +169,14 @@ void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row r
 baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
 {
   baum_i_spatial_length out = {.length = 0.0};
-  baum_i_coordinate square;
-  baum_i_spatial_row_at(pair, (baum_i_spatial_row){BAUM_I_APART, BAUM_I_APART}, &square);
-  const double length = sqrt(square.value);
+  const vector e = vector_of(pair, BAUM_I_APART);
+  const double length = sqrt(baum_i_dot3(e.value, e.value));
   if (length >= DBL_MIN) {
+    const motion m = motion_of(pair);
+    const vector rate = along(&e, &m);
     out.length = length;
-    out.rate = 0.5 * square.rate / length;
-    for (int i = 0; i < BAUM_I_PAIR_COLUMNS; i++) {
-      out.h[i] = 0.5 * square.gradient[i] / length;
-    }
+    out.rate = baum_i_dot3(e.value, rate.value) / length;
+    add_gradient(pair, 0.5 / length, &e, &e, out.h);
   }
   return out;
 }
