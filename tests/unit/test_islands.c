@@ -77,7 +77,7 @@ static void assert_island(baum_i_island island, int bodies, int joints, int rows
   assert_int_equal(island.rows, rows);
 }
 
-static void ground_holds_no_island_together(void **state)
+static void ground_does_not_connect_islands(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -93,7 +93,7 @@ static void ground_holds_no_island_together(void **state)
 }
 
 /* Makes a chain of bodies. Its joints are added in a mixed order. */
-static void joints_in_any_order_make_one_island(void **state)
+static void joints_in_any_order_form_one_island(void **state)
 {
   (void)state;
   enum { BODIES = 41 };
@@ -111,7 +111,7 @@ static void joints_in_any_order_make_one_island(void **state)
   }
 }
 
-static void a_welded_frame_holds_no_island_together(void **state)
+static void a_welded_frame_does_not_connect_islands(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -119,7 +119,7 @@ static void a_welded_frame_holds_no_island_together(void **state)
   baum_body_id frame = add_body(m, 0.0, 0.0);
   baum_body_id right = add_body(m, 2.0, -1.0);
   baum_body_id plate = add_body(m, 1.0, 0.0);
-  baum_body_id hand = add_body(m, 2.0, -2.0); /* it is welded, but to a body that moves */
+  baum_body_id hand = add_body(m, 2.0, -2.0); /* this body is welded to a body that moves */
   pin(m, frame, left, 0.0, 0.0);
   weld(m, plate, frame);
   weld(m, frame, BAUM_GROUND);
@@ -129,7 +129,7 @@ static void a_welded_frame_holds_no_island_together(void **state)
   assert_island(count(m, 2), 2, 2, 5);
 }
 
-static void fixed_bodies_make_no_island(void **state)
+static void fixed_bodies_form_no_island(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -139,9 +139,9 @@ static void fixed_bodies_make_no_island(void **state)
 
 /* ---- errors of one island ---- */
 
-/* Makes a slider-crank at a dead centre, whose slider is driven with the given acceleration. No
- * acceleration of the crank achieves this. Beside it, a force accelerates a lever by about 2e9
- * rad/s^2. */
+/* Makes a slider-crank at a dead centre. A driver prescribes the acceleration of its slider, which
+ * no acceleration of the crank can produce. In another island, a force of 1e9 N accelerates a
+ * lever. */
 static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
 {
   baum_joint_id guide;
@@ -175,7 +175,7 @@ static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
   return w;
 }
 
-static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **state)
+static void a_fast_lever_does_not_hide_a_contradiction_in_another_island(void **state)
 {
   (void)state;
   /* With the first acceleration, the row of the driver is omitted; with the second, all rows are
@@ -194,9 +194,9 @@ static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **sta
   }
 }
 
-/* Two drivers of one pin contradict each other by 1e-3 rad/s. Beside them, a body rotates at 1e6
- * rad/s. */
-static void a_fast_body_hides_no_contradiction_of_two_drivers(void **state)
+/* Two drivers of one pin contradict each other by 1e-3 rad/s. In another island, a body rotates at
+ * 1e6 rad/s. */
+static void a_fast_body_does_not_hide_a_contradiction_of_two_drivers(void **state)
 {
   (void)state;
   double q[6], v[6] = {[5] = 1e6};
@@ -220,12 +220,12 @@ static void a_fast_body_hides_no_contradiction_of_two_drivers(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(ground_holds_no_island_together),
-    cmocka_unit_test(joints_in_any_order_make_one_island),
-    cmocka_unit_test(a_welded_frame_holds_no_island_together),
-    cmocka_unit_test(fixed_bodies_make_no_island),
-    cmocka_unit_test(the_fast_lever_hides_no_contradiction_of_the_slider_crank),
-    cmocka_unit_test(a_fast_body_hides_no_contradiction_of_two_drivers),
+    cmocka_unit_test(ground_does_not_connect_islands),
+    cmocka_unit_test(joints_in_any_order_form_one_island),
+    cmocka_unit_test(a_welded_frame_does_not_connect_islands),
+    cmocka_unit_test(fixed_bodies_form_no_island),
+    cmocka_unit_test(a_fast_lever_does_not_hide_a_contradiction_in_another_island),
+    cmocka_unit_test(a_fast_body_does_not_hide_a_contradiction_of_two_drivers),
   };
   return cmocka_run_group_tests_name("islands", tests, NULL, NULL);
 }
