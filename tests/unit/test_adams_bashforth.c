@@ -154,8 +154,8 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
 /* Runs with a fixed step and returns the error at the end. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* Checks the order of every method, as computed from its errors with two steps. The longer step is
- * 2^3 times the shorter one. Error terms of higher order change the result by less than 0.2. */
+/* Computes the order of every method from its errors with two steps, and checks it. The longer step
+ * is 2^3 times the shorter one. Error terms of higher order change the result by less than 0.2. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {

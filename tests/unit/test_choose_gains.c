@@ -11,12 +11,12 @@
 #include "assert_near.h"
 #include "models.h"
 
-/* A pilot makes 5 steps with 3 evaluations each. One of these evaluations has already been made
- * before. */
+/* A pilot run makes 5 steps with 3 evaluations each. The evaluation at the initial state has
+ * already been made. */
 enum { PILOT_EVALUATIONS = 14 };
 
-static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
-                              double step, baum_gains gains)
+static baum_simulation *start_run(const baum_mechanism *m, const baum_integrator *integrator,
+                                  double step, baum_gains gains)
 {
   baum_simulation_options o = baum_simulation_options_default();
   baum_simulation *run = NULL;
@@ -40,7 +40,7 @@ static baum_counters count(baum_simulation *run)
 
 static double auto_alpha(const baum_mechanism *m, const baum_integrator *integrator)
 {
-  baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_auto());
+  baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_auto());
   double alpha = count(run).alpha;
   baum_simulation_destroy(run);
   return alpha;
@@ -92,8 +92,8 @@ static void the_pilot_run_costs_14_evaluations_which_are_counted(void **state)
   (void)state;
   model m;
   assert_int_equal(model_four_bar(&m), BAUM_OK);
-  baum_simulation *with = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
-  baum_simulation *without = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
+  baum_simulation *with = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
+  baum_simulation *without = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
   assert_int_equal(count(with).evaluations - count(without).evaluations, PILOT_EVALUATIONS);
   assert_int_equal(count(with).steps, 0);
   assert_true(baum_simulation_time(with) == 0.0);
@@ -165,7 +165,7 @@ static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
   force.force = fail_later;
   force.user = &limit;
   baum_mechanism *m = pendulum_at(1.6, &force);
-  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_auto());
+  baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_auto());
   assert_true(count(run).alpha > 0.0);
   assert_int_equal(count(run).warnings, 0);
   assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
@@ -199,7 +199,7 @@ static void steps_of_explicit_methods_stay_in_the_stability_region(void **state)
     const baum_integrator *integrator = k == 0 ? baum_dp5() : baum_rk8();
     double limit = 0.0;
     assert_int_equal(baum_stability_limit(integrator, 1.0, &limit), BAUM_OK);
-    baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
+    baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
     assert_non_null(strstr(baum_simulation_explain(run), "variable step, at most "));
     assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
     assert_true((double)count(run).steps >= END * ALPHA / limit);
@@ -214,18 +214,18 @@ static void counters_report_the_effective_damping(void **state)
 {
   (void)state;
   baum_mechanism *m = pendulum_at(1.6, NULL);
-  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
+  baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
   baum_counters c = count(run);
   /* If alpha = beta, the characteristic equation has the double root s = -alpha. A step of rk4
    * multiplies Phi by exp(-alpha h), with an error of about (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
-  run = begin(m, baum_euler(), 1e-3, baum_gains_deadbeat());
+  run = start_run(m, baum_euler(), 1e-3, baum_gains_deadbeat());
   c = count(run);
   assert_true(c.spectral_radius == 0.0 && isinf(c.damping));
   baum_simulation_destroy(run);
-  run = begin(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
+  run = start_run(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
   c = count(run);
   assert_true(isnan(c.spectral_radius) && isnan(c.damping));
   baum_simulation_destroy(run);

@@ -187,8 +187,8 @@ static void estimates_include_samples_inside_steps(void **state)
   model_destroy(&m);
 }
 
-/* A companion needs a smaller tolerance than its run, but the smallest tolerances leave no room for
- * this. */
+/* A companion needs a smaller tolerance than its run. At the smallest tolerances this is not
+ * possible. */
 static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
 {
   (void)state;

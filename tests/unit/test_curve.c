@@ -18,7 +18,7 @@
 
 /* ---- curves ---- */
 
-/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y), whose derivatives are all nonzero. */
+/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y). Its derivatives are all nonzero. */
 static int bent(const double xy[2], double out[6], void *user)
 {
   (void)user;

@@ -164,8 +164,8 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
 
 /* The largest defects that the tests accept. A wrong or missing term causes a defect of at least
  * 1e-3. If all derivatives are given, correct terms have a median of 4e-12 and a maximum of 4e-8.
- * If the matrix contains differences of user functions, the defect may reach 1e-5 near singular
- * configurations, as measurements show. */
+ * If the matrix contains differences of user functions, the measured defect reaches 1e-5 near
+ * singular configurations. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
@@ -240,7 +240,7 @@ static void models_with_a_motor_springs_and_redundant_rows(void **state)
   check_model(model_parallelogram_build(MODEL_THREE_CRANKS, 1.0, &m), EXACT, &m);
 }
 
-static void models_by_functions_with_and_without_derivatives(void **state)
+static void models_with_user_functions_with_and_without_derivatives(void **state)
 {
   (void)state;
   model m;
@@ -287,7 +287,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(models_with_a_motor_springs_and_redundant_rows),
-    cmocka_unit_test(models_by_functions_with_and_without_derivatives),
+    cmocka_unit_test(models_with_user_functions_with_and_without_derivatives),
     cmocka_unit_test(one_of_every_element),
     cmocka_unit_test(bodies_and_joints_of_all_kinds_under_loads),
   };

@@ -47,7 +47,7 @@ typedef struct point {
  * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
  * divided by one second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates,
  * divided by the displacement of its row. The scale of a mu is the same times one second. */
-static void take_scales(baum_workspace *w, point *p)
+static void set_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
   double displacement[SIZE_MAX_DAE];
@@ -74,7 +74,7 @@ static point random_point(baum_workspace *w, baum_residual index, int seed)
   double rate[SIZE_MAX_DAE];
   p.size = baum_i_residual_size(m, index) - p.shift;
   assert_true(p.size + p.shift <= SIZE_MAX_DAE);
-  take_scales(w, &p);
+  set_scales(w, &p);
   for (int i = 0; i < p.size; i++) {
     moved[i] = 0.1 * p.scale[i] * scatter(seed + i);
     rate[i] = p.scale[i] * scatter(seed + 1000 + i);
@@ -144,8 +144,8 @@ static void difference_all(baum_workspace *w, const baum_dae *dae, double c, con
   }
 }
 
-static void spread(const baum_i_residual_matrix *matrix, const double *values, int size,
-                   square *out)
+static void write_dense(const baum_i_residual_matrix *matrix, const double *values, int size,
+                        square *out)
 {
   const int32_t *columns = baum_i_residual_matrix_pattern(matrix)->start;
   const int32_t *rows = baum_i_residual_matrix_pattern(matrix)->row;
@@ -191,7 +191,7 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
     point p = random_point(w, index, 97 * k);
     assert_int_equal(baum_i_residual_matrix_fill(matrix, w, &dae, c, 0.3, p.y, p.dy, values),
                      BAUM_OK);
-    spread(matrix, values, p.size, &got);
+    write_dense(matrix, values, p.size, &got);
     difference_all(w, &dae, c, &p, &want);
     worst = fmax(worst, largest_difference(&got, &want, &p));
   }
@@ -200,8 +200,8 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10, and in
- * addition rounding errors. If a user function gives no Jacobian, the matrix itself also contains
+/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10 and also
+ * rounding errors. If a user function gives no Jacobian, the matrix itself also contains
  * differences. A wrong term causes 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {

@@ -217,7 +217,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
 
 /* ---- the ground ---- */
 
-/* Computes the mean of all points of the ground's shapes, in units of the drawing. */
+/* Computes the mean point of all shapes of the ground, in units of the drawing. */
 static void find_ground(const baum_mechanism *m, double middle[2])
 {
   baum_i_drawing drawing;
@@ -238,8 +238,8 @@ static void find_ground(const baum_mechanism *m, double middle[2])
   baum_i_drawing_release(&drawing);
 }
 
-/* Computes this mean for a bar with its centre at (x, y). The bar is pinned or welded to the ground
- * at the origin. */
+/* Finds the ground of a bar with its centre at (x, y). The bar is pinned or welded to the ground at
+ * the origin. */
 static void find_ground_of_bar(double x, double y, bool weld, const double gravity[2],
                                double middle[2])
 {

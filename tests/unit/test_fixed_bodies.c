@@ -24,7 +24,7 @@ enum { MOST = 300 };
 
 /* ---- parts ---- */
 
-static baum_mechanism *begin(void)
+static baum_mechanism *create_mechanism(void)
 {
   baum_mechanism *m = NULL;
   check(baum_mechanism_create(&m));
@@ -78,7 +78,7 @@ typedef struct mounted {
 
 static mounted make_mounted(void)
 {
-  mounted out = {.mechanism = begin()};
+  mounted out = {.mechanism = create_mechanism()};
   baum_mechanism *m = out.mechanism;
   baum_body_id low = add_body(m, 0.0, -1.0);
   baum_body_id high = add_body(m, 0.0, 0.0);
@@ -164,7 +164,7 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
 static void rigid_islands_are_not_omitted(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id left = add_body(m, 0.5, 0.5);
   baum_body_id right = add_body(m, 1.5, 0.5);
   baum_body_id bob = add_body(m, 5.0, 0.0);
@@ -183,7 +183,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   (void)state;
   enum { CHAIN = 7 };
   for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime, so this joins all bodies */
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {
       bodies[k] = add_body(m, k, 0.1 * k);
@@ -207,7 +207,7 @@ static void a_fixed_body_may_have_any_number_of_joints(void **state)
 {
   (void)state;
   enum { ARMS = 60 };
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id hub = add_body(m, 0.0, 0.0);
   weld(m, BAUM_GROUND, hub);
   for (int k = 0; k < ARMS; k++) {
@@ -228,7 +228,7 @@ static void a_fixed_body_may_have_any_number_of_joints(void **state)
 static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0));
   check(baum_mechanism_freeze(m));
   assert_same_motion(m, 1);
@@ -240,7 +240,7 @@ static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 static void a_body_held_by_a_driver_is_not_fixed(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_driver_def def = baum_driver_def_default();
   def.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   def.value = 0.0;
@@ -256,7 +256,7 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id coupler = add_body(m, 1.0, 1.0);
   baum_body_id frame = add_body(m, 2.0, -1.0);
   for (int k = 0; k < 3; k++) {
@@ -388,7 +388,7 @@ static void displaced_frames_are_put_back(void **state)
 static void a_displaced_design_is_put_in_place(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_planar_fixed_def def = baum_planar_fixed_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = add_body(m, 1.0, 0.0);

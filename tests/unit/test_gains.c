@@ -127,7 +127,7 @@ static void taylor_gains_follow_equations_10_and_11(void **state)
   has(c.why, "spectral radius 1, marginal");
 }
 
-static void a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta(void **state)
+static void a_frequency_gives_beta_and_a_damping_ratio_gives_alpha(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_frequency(10.0, 0.7), variable_step());
@@ -567,7 +567,7 @@ int main(void)
     cmocka_unit_test(fixed_gains_are_used_unchanged),
     cmocka_unit_test(scaled_gains_are_divided_by_the_step),
     cmocka_unit_test(taylor_gains_follow_equations_10_and_11),
-    cmocka_unit_test(a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta),
+    cmocka_unit_test(a_frequency_gives_beta_and_a_damping_ratio_gives_alpha),
     cmocka_unit_test(deadbeat_uses_the_point_of_the_method),
     cmocka_unit_test(best_damping_is_nowhere_worse_than_its_neighbours),
     cmocka_unit_test(methods_without_a_dead_beat_point_offer_their_best_point),

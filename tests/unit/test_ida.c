@@ -449,7 +449,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
 /* The start is consistent, and the library chooses the first step. At any tolerance, none of the
  * first ten steps should be rejected. There are exceptions: at most one step is rejected at index
  * 2, and at most two at index 3. A shorter first step would cause more rejections at index 3. */
-static void the_start_is_smooth(void **state)
+static void few_of_the_first_steps_are_rejected(void **state)
 {
   (void)state;
   model scene;
@@ -576,7 +576,7 @@ int main(void)
     cmocka_unit_test(the_unit_of_mass_makes_no_difference),
     cmocka_unit_test(the_error_test_of_multipliers_follows_their_factor),
     cmocka_unit_test(a_start_off_the_constraints_jumps_onto_them),
-    cmocka_unit_test(the_start_is_smooth),
+    cmocka_unit_test(few_of_the_first_steps_are_rejected),
     cmocka_unit_test(redundant_rows_make_no_difference),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),

@@ -166,7 +166,7 @@ static void copies_have_the_same_inputs_and_their_own_values(void **state)
 
 /* ---- values of a workspace, and the inputs that functions receive ---- */
 
-static void a_workspace_holds_values_of_its_own(void **state)
+static void each_workspace_has_its_own_inputs(void **state)
 {
   (void)state;
   scene s = pushed_scene();
@@ -366,7 +366,7 @@ static void a_change_acts_from_the_present_time_on(void **state)
   assert_in_range(count, 12, 100);
 }
 
-static void each_run_has_values_of_its_own(void **state)
+static void each_run_has_its_own_inputs(void **state)
 {
   (void)state;
   scene s = pushed_scene();
@@ -421,7 +421,7 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
   /* The run continues with the old input. The first of the following times lie inside the last
-   * step. There, too, the motion must follow the old input. */
+   * step. At these times, too, the motion must follow the old input. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,
@@ -436,12 +436,12 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(inputs_have_names_numbers_and_initial_values),
     cmocka_unit_test(copies_have_the_same_inputs_and_their_own_values),
-    cmocka_unit_test(a_workspace_holds_values_of_its_own),
+    cmocka_unit_test(each_workspace_has_its_own_inputs),
     cmocka_unit_test(force_functions_receive_the_present_values_in_order),
     cmocka_unit_test(functions_receive_null_if_there_are_no_inputs),
     cmocka_unit_test(user_coordinates_and_their_check_receive_inputs),
     cmocka_unit_test(a_change_acts_from_the_present_time_on),
-    cmocka_unit_test(each_run_has_values_of_its_own),
+    cmocka_unit_test(each_run_has_its_own_inputs),
     cmocka_unit_test(set_state_keeps_the_inputs),
     cmocka_unit_test(a_change_of_an_input_that_fails_is_undone),
   };

@@ -133,7 +133,7 @@ static void a_pendulum_swings_forward_and_backward_in_time(void **state)
 
 /* From 0.7 s on, the force fails at every call. It either returns "stop" (-1), or asks for smaller
  * steps (1). The run must fail, and must keep the state at the end of the last good step. */
-static void meet_fault(const method *m)
+static void run_into_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
     force_fault fault = {.after = 0.7, .answer = answer};
@@ -160,7 +160,7 @@ static void meet_fault(const method *m)
 static void a_failing_function_leaves_the_last_good_step(void **state)
 {
   (void)state;
-  for_each(meet_fault);
+  for_each(run_into_fault);
 }
 
 /* After a function has returned "stop", the step must not call it again. */

@@ -11,7 +11,7 @@
 
 /* ---- mechanisms ---- */
 
-static baum_mechanism *begin(void)
+static baum_mechanism *create_mechanism(void)
 {
   baum_mechanism *m = NULL;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
@@ -80,7 +80,7 @@ static void assert_island(baum_i_island island, int bodies, int joints, int rows
 static void ground_does_not_connect_islands(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id a = add_body(m, 1.0, 0.0);
   (void)add_body(m, 5.0, 5.0); /* a body without joints */
   baum_body_id b = add_body(m, 1.0, 3.0);
@@ -98,7 +98,7 @@ static void joints_in_any_order_form_one_island(void **state)
   (void)state;
   enum { BODIES = 41 };
   for (int step = 1; step < BODIES; step++) { /* 41 is prime, so this joins all bodies */
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_body_id bodies[BODIES];
     for (int k = 0; k < BODIES; k++) {
       bodies[k] = add_body(m, k, 0.0);
@@ -114,7 +114,7 @@ static void joints_in_any_order_form_one_island(void **state)
 static void a_welded_frame_does_not_connect_islands(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id left = add_body(m, 0.0, -1.0);
   baum_body_id frame = add_body(m, 0.0, 0.0);
   baum_body_id right = add_body(m, 2.0, -1.0);
@@ -132,7 +132,7 @@ static void a_welded_frame_does_not_connect_islands(void **state)
 static void fixed_bodies_form_no_island(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   weld(m, add_body(m, 1.0, 0.0), BAUM_GROUND);
   assert_island(count(m, 0), 0, 0, 0);
 }
@@ -183,7 +183,7 @@ static void a_fast_lever_does_not_hide_a_contradiction_in_another_island(void **
   const double accelerations[] = {1.0, 1e-6};
   for (int k = 0; k < 2; k++) {
     double q[12], v[12] = {0.0}, a[12] = {0.0};
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_workspace *w = make_driven(accelerations[k], m);
     assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
     memset(v, 0, sizeof v);
@@ -201,7 +201,7 @@ static void a_fast_body_does_not_hide_a_contradiction_of_two_drivers(void **stat
   (void)state;
   double q[6], v[6] = {[5] = 1e6};
   baum_workspace *w = NULL;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_driver_def driver = baum_driver_def_default();
   driver.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   for (int k = 0; k < 2; k++) {

@@ -153,7 +153,7 @@ static void a_run_stops_where_branches_cross(void **state)
 
 /* Rows 0 and 2 are equal until 0.5 s. Until then, one of them is omitted. Later they contradict
  * each other. */
-static int part(double t, const double *q, double *out, void *user)
+static int diverging_rows(double t, const double *q, double *out, void *user)
 {
   (void)user;
   out[0] = q[0] - t;
@@ -176,7 +176,7 @@ static void omitted_rows_that_are_violated_stop_the_run(void **state)
   rows.bodies = &point;
   rows.body_count = 1;
   rows.row_count = 3;
-  rows.phi = part;
+  rows.phi = diverging_rows;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &rows, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation *run = open_run(mechanism);
@@ -207,7 +207,7 @@ static int faulty(double t, double s[3], void *user)
   return fails && f->answer != 9 ? f->answer : 0;
 }
 
-static void meet(int answer, baum_status want, const char *message)
+static void run_with_faulty_law(int answer, baum_status want, const char *message)
 {
   fault f = {.after = (double)INFINITY, .answer = answer};
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
@@ -232,16 +232,17 @@ static void meet(int answer, baum_status want, const char *message)
 static void a_law_that_fails_leaves_the_last_good_step(void **state)
 {
   (void)state;
-  meet(-3, BAUM_ERR_CALLBACK, "\"motor\": law() returned -3 (stop)");
-  meet(4, BAUM_ERR_CALLBACK, "\"motor\": law() returned 4 (retry)");
-  meet(0, BAUM_ERR_NOT_FINITE, "\"motor\": law() gave nan for the rate");
+  run_with_faulty_law(-3, BAUM_ERR_CALLBACK, "\"motor\": law() returned -3 (stop)");
+  run_with_faulty_law(4, BAUM_ERR_CALLBACK, "\"motor\": law() returned 4 (retry)");
+  run_with_faulty_law(0, BAUM_ERR_NOT_FINITE, "\"motor\": law() gave nan for the rate");
 }
 
 static void a_law_that_jumps_is_an_error(void **state)
 {
   (void)state;
-  meet(9, BAUM_ERR_CONVERGENCE,
-       "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
+  run_with_faulty_law(
+    9, BAUM_ERR_CONVERGENCE,
+    "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
 }
 
 static void a_law_that_returns_stop_is_not_called_again(void **state)
