@@ -63,8 +63,7 @@ static int nothing(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* The signed distance from the unit circle. It is not differentiable at the centre of the circle.
- * */
+/* The signed distance from the unit circle. It is not differentiable at the circle's centre. */
 static int circle(const double xy[2], double out[6], void *user)
 {
   (void)user;

@@ -15,7 +15,7 @@
 #include "manifold_scenes.h"
 #include "message.h"
 
-/* ---- a bar on a pin, and the elements that user_force on it ---- */
+/* ---- a bar on a pin, and the elements that act on it ---- */
 
 typedef struct scene {
   baum_mechanism *mechanism;

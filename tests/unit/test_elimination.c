@@ -271,8 +271,7 @@ static graph make_ladder(int windows)
 
 /* The library sorts the nodes by their distance from the root of the elimination tree. At most four
  * nodes have the same distance, two at each end of the ladder. A node changes only nodes that are
- * at most two levels nearer to the root. Its place therefore differs from theirs by less than 12.
- * */
+ * at most two levels nearer to the root. Their places therefore differ by less than 12. */
 static void nodes_come_shortly_before_the_nodes_that_they_change(void **state)
 {
   (void)state;
