@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests accelerations, multipliers, energy and reactions. They are compared with a dense LU
- * solution, and checked by the laws of mechanics. */
+/* Tests accelerations and multipliers against a dense LU solution, and energy and reactions against
+ * the laws of mechanics. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,8 +21,8 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* Builds the stabilized equations (7) as one dense system. It consists of M, J, g, gamma, Phi and
- * Phi' at a state. */
+/* Builds the stabilized equations of motion, with (7) of docs/theory/formulations.md, as one dense
+ * system. */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
 {
@@ -94,7 +94,7 @@ static void check_against_lu(model *m, double gain)
   model_destroy(m);
 }
 
-static void accelerations_and_multipliers_are_those_of_a_dense_solution(void **state)
+static void accelerations_and_multipliers_agree_with_a_dense_lu_solution(void **state)
 {
   (void)state;
   model m;
@@ -112,7 +112,7 @@ static void accelerations_and_multipliers_are_those_of_a_dense_solution(void **s
 
 /* ---- reactions and energy, by the laws of mechanics ---- */
 
-static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(void **state)
+static void a_pin_carries_the_weight_and_the_centripetal_force_of_a_rod(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -150,9 +150,9 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* Checks Newton's and Euler's equations for each moving body of the slider-crank. The weight and
- * the reactions of both pins must produce the acceleration. */
-static void reactions_on_each_body_balance_inertia_and_weight(void **state)
+/* Checks Newton's and Euler's equations for the rod of the slider-crank. Its weight and the
+ * reactions of both its pins must produce its acceleration. */
+static void reactions_on_the_rod_balance_inertia_and_weight(void **state)
 {
   (void)state;
   model m;
@@ -186,7 +186,7 @@ static void reactions_on_each_body_balance_inertia_and_weight(void **state)
   double moment = (near[0] - q[0]) * on_rod[1] - (near[1] - q[1]) * on_rod[0] + on_rod[2];
   moment -= (far[0] - q[0]) * on_slider[1] - (far[1] - q[1]) * on_slider[0] + on_slider[2];
   ASSERT_NEAR(moment, 5.9e-4 * a[2], 0.0, 1e-12 * size);
-  ASSERT_NEAR(on_rod[2], 0.0, 0.0, 1e-12 * size); /* the moment of a pin at its own point is zero */
+  ASSERT_NEAR(on_rod[2], 0.0, 0.0, 1e-12 * size); /* no moment about the pin */
   baum_simulation_destroy(s);
   model_destroy(&m);
 }
@@ -216,8 +216,7 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  /* The reaction on the ground consists of the weight and of the moment of the weight about the
-   * weld. */
+  /* The ground carries the weight of the beam and its moment about the weld. */
   ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12);
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);
@@ -245,7 +244,7 @@ static void stabilization_pulls_a_violated_pendulum_back(void **state)
   model_destroy(&m);
 }
 
-static int mass_by_place(double t, const double *q, double *out, void *user)
+static int mass_equal_to_q(double t, const double *q, double *out, void *user)
 {
   (void)t;
   (void)user;
@@ -265,9 +264,9 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* The block solver divides by the square root of the mass. If a mass is negative, the solver of the
- * whole system is used instead. No solver accepts a zero mass. */
-static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **state)
+/* The block solver divides by the square root of the mass. It leaves a negative mass to the solver
+ * of the whole system. No solver accepts a zero mass. */
+static void a_negative_mass_is_left_to_the_solver_of_the_whole_system(void **state)
 {
   (void)state;
   static const double design = 2.0;
@@ -276,7 +275,7 @@ static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **stat
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 1;
   def.q = &design;
-  def.mass = mass_by_place;
+  def.mass = mass_equal_to_q;
   def.force = force_of_six;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
@@ -298,12 +297,12 @@ static void a_mass_that_becomes_negative_is_left_to_the_whole_system(void **stat
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_and_multipliers_are_those_of_a_dense_solution),
-    cmocka_unit_test(a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none),
-    cmocka_unit_test(reactions_on_each_body_balance_inertia_and_weight),
+    cmocka_unit_test(accelerations_and_multipliers_agree_with_a_dense_lu_solution),
+    cmocka_unit_test(a_pin_carries_the_weight_and_the_centripetal_force_of_a_rod),
+    cmocka_unit_test(reactions_on_the_rod_balance_inertia_and_weight),
     cmocka_unit_test(joints_that_end_on_ground_give_the_reaction_on_ground),
     cmocka_unit_test(stabilization_pulls_a_violated_pendulum_back),
-    cmocka_unit_test(a_mass_that_becomes_negative_is_left_to_the_whole_system),
+    cmocka_unit_test(a_negative_mass_is_left_to_the_solver_of_the_whole_system),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,7 @@ static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options o
   return out;
 }
 
-/* Makes a particle of 1 kg at (1, 0). It has the velocity v along x, and there is no gravity. */
+/* Makes a mechanism without gravity: a particle of 1 kg at (1, 0) with the velocity v along x. */
 static baum_mechanism *make(double v, baum_body_id *id)
 {
   baum_mechanism *m = NULL;
@@ -134,7 +134,7 @@ static void dampers_take_energy(void **state)
 /* The length of the spring is l = |2 cos 2t|. When its length is l, the spring force 4 l has done
  * the work 8 - 2 l^2. The account lists this work under `springs`, because the library knows no
  * potential of a user's law. */
-static void a_law_works_as_a_spring(void **state)
+static void the_work_of_a_law_is_listed_under_springs(void **state)
 {
   (void)state;
   baum_energy_account a = run_spring(0.0, soft_law);
@@ -194,8 +194,8 @@ static void a_varying_mass_is_in_the_account(void **state)
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }
 
-/* A driver accelerates a wheel of 2 kg m^2 from rest by 3 rad/s^2. After 1 s it has done a work of
- * 9 J. */
+/* A driver accelerates a wheel of 2 kg m^2 from rest by 3 rad/s^2. After 1 s it has done 9 J of
+ * work. */
 static void drivers_do_work(void **state)
 {
   (void)state;
@@ -309,8 +309,8 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* A force of 2 N for 1 s and then of 4 N for 1 s accelerates 1 kg to 2 m/s and to 6 m/s. A new
- * input continues the account, but set_state() restarts it. */
+/* A force of 2 N for 1 s accelerates 1 kg to 2 m/s. Then 4 N for 1 s accelerate it to 6 m/s. The
+ * account continues after a new input value, but set_state() restarts it. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;
@@ -338,7 +338,7 @@ static void inputs_continue_and_states_restart(void **state)
 
 /* A sample between two grid points includes the work up to its own time. Sampling changes neither
  * the account of the run nor the motion. */
-static void samples_and_motion_stay_apart(void **state)
+static void samples_change_neither_the_account_nor_the_motion(void **state)
 {
   (void)state;
   enum { WIDTH = 12, LOADS = 2, N = 3 };
@@ -373,7 +373,7 @@ static void samples_and_motion_stay_apart(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void runs_without_an_account_say_so(void **state)
+static void runs_without_an_account_refuse_to_return_one(void **state)
 {
   (void)state;
   baum_input_id input;
@@ -399,7 +399,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(loads_do_work),
     cmocka_unit_test(dampers_take_energy),
-    cmocka_unit_test(a_law_works_as_a_spring),
+    cmocka_unit_test(the_work_of_a_law_is_listed_under_springs),
     cmocka_unit_test(user_forces_do_work),
     cmocka_unit_test(a_varying_mass_is_in_the_account),
     cmocka_unit_test(drivers_do_work),
@@ -407,8 +407,8 @@ int main(void)
     cmocka_unit_test(gains_are_a_part_of_the_violation),
     cmocka_unit_test(projection_takes_energy),
     cmocka_unit_test(inputs_continue_and_states_restart),
-    cmocka_unit_test(samples_and_motion_stay_apart),
-    cmocka_unit_test(runs_without_an_account_say_so),
+    cmocka_unit_test(samples_change_neither_the_account_nor_the_motion),
+    cmocka_unit_test(runs_without_an_account_refuse_to_return_one),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,8 +38,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
 
 /* ---- formulas ---- */
 
-/* A method of order k integrates the force t^p exactly if p < k. The same is true for the
- * Runge-Kutta method with which it starts. */
+/* A method of order k integrates the force t^p exactly if p < k. So does the Runge-Kutta method
+ * that computes its first steps. */
 static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
 {
   (void)state;
@@ -85,7 +85,7 @@ static void a_force_of_the_next_power_shows_the_error_constant(void **state)
 
 /* A step is x_{n+1} = x_n + h sum b_j x'_{n-j}, and the same formula applies to v. The coefficients
  * b_j must be those from which the library computes stability. */
-static void steps_are_those_whose_stability_is_known(void **state)
+static void steps_use_the_coefficients_of_the_stability_analysis(void **state)
 {
   (void)state;
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -121,7 +121,7 @@ static void steps_are_those_whose_stability_is_known(void **state)
 
 /* The first k - 1 steps are Runge-Kutta steps with four evaluations. Each later step needs only
  * one. */
-static void a_step_costs_one_evaluation_once_there_is_a_past(void **state)
+static void a_step_costs_one_evaluation_after_the_first_steps(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = make_pendulum();
@@ -154,8 +154,8 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
 /* Runs with a fixed step and returns the error at the end. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* Computes the order of a method from its errors with two steps, of which one is 2^3 times as long
- * as the other. Error terms of higher order change the result by less than 0.2. */
+/* Computes the order of every method from its errors with two steps, and checks it. The longer step
+ * is 2^3 times the shorter one. Error terms of higher order change the result by less than 0.2. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -257,7 +257,7 @@ static double error_with_set_state(const baum_integrator *integrator, double ste
   return error;
 }
 
-static void another_state_does_not_cost_the_order(void **state)
+static void set_state_does_not_cost_the_order(void **state)
 {
   (void)state;
   demand_order(error_with_set_state);
@@ -265,7 +265,7 @@ static void another_state_does_not_cost_the_order(void **state)
 
 /* Samples at one third and at two thirds of every step do not change any digit of the motion. They
  * are as accurate as the results at grid points. */
-static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
+static void samples_between_grid_points_are_accurate_and_change_nothing(void **state)
 {
   (void)state;
   enum { SAMPLES = 300 };
@@ -286,14 +286,14 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
     assert_true(baum_simulation_q(sampled)[0] == baum_simulation_q(plain)[0]);
     assert_true(baum_simulation_v(sampled)[0] == baum_simulation_v(plain)[0]);
     double on_grid = 0.0;
-    double beside = 0.0;
+    double off_grid = 0.0;
     for (int i = 0; i < SAMPLES; i++) {
       double error = fabs(rows[i] - cos(times[i]));
-      double *most = i % 3 == 2 ? &on_grid : &beside;
+      double *most = i % 3 == 2 ? &on_grid : &off_grid;
       *most = fmax(*most, error);
     }
     assert_true(on_grid > 0.0);
-    assert_true(beside <= 1.1 * on_grid); /* one shortened step adds only a little error */
+    assert_true(off_grid <= 1.1 * on_grid); /* one shortened step adds only a little error */
     baum_simulation_destroy(sampled);
     baum_simulation_destroy(plain);
     baum_mechanism_destroy(mechanism);
@@ -323,13 +323,13 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(forces_of_time_are_integrated_exactly_up_to_the_order),
     cmocka_unit_test(a_force_of_the_next_power_shows_the_error_constant),
-    cmocka_unit_test(steps_are_those_whose_stability_is_known),
-    cmocka_unit_test(a_step_costs_one_evaluation_once_there_is_a_past),
+    cmocka_unit_test(steps_use_the_coefficients_of_the_stability_analysis),
+    cmocka_unit_test(a_step_costs_one_evaluation_after_the_first_steps),
     cmocka_unit_test(a_jump_of_an_input_does_not_cost_the_order),
     cmocka_unit_test(targets_off_the_grid_do_not_cost_the_order),
     cmocka_unit_test(reversing_does_not_cost_the_order),
-    cmocka_unit_test(another_state_does_not_cost_the_order),
-    cmocka_unit_test(samples_beside_the_grid_are_exact_and_alter_nothing),
+    cmocka_unit_test(set_state_does_not_cost_the_order),
+    cmocka_unit_test(samples_between_grid_points_are_accurate_and_change_nothing),
     cmocka_unit_test(projection_is_not_offered),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

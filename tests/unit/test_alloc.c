@@ -11,7 +11,7 @@
 
 #include "base/alloc.h"
 
-static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
+static void requests_for_too_many_bytes_give_null(void **state)
 {
   (void)state;
   double *old = baum_i_alloc(1, sizeof *old);
@@ -24,7 +24,7 @@ static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
   baum_i_free(old);
 }
 
-static void zero_bytes_have_a_block_too(void **state)
+static void a_request_for_zero_bytes_gives_a_block(void **state)
 {
   (void)state;
   void *blocks[] = {baum_i_alloc(0, 8), baum_i_alloc(8, 0), baum_i_grow(NULL, 0, 8),
@@ -54,8 +54,8 @@ static void an_array_that_grows_one_by_one_keeps_its_elements(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(counts_whose_bytes_cannot_be_counted_get_nothing),
-    cmocka_unit_test(zero_bytes_have_a_block_too),
+    cmocka_unit_test(requests_for_too_many_bytes_give_null),
+    cmocka_unit_test(a_request_for_zero_bytes_gives_a_block),
     cmocka_unit_test(an_array_that_grows_one_by_one_keeps_its_elements),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -85,8 +85,8 @@ static void edges_of_the_triangles_are_marginal(void **state)
 }
 
 /* At (A, B) = (2, 4), explicit Euler has the double root z = -1, which is on the unit circle.
- * Rounding of A and B splits it into two roots at a distance of 1e-8. The library must not report
- * this as unstable. */
+ * Rounding of A and B splits it into two roots that are 1e-8 apart. The library must not report
+ * them as unstable. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;
@@ -111,7 +111,7 @@ static void no_stabilization_and_beta_zero_are_marginal_for_every_method(void **
   is_class(EULER, 1.5, 0.0, BAUM_UNSTABLE);
 }
 
-static void the_taylor_pair_is_marginal_with_explicit_euler_whatever_the_rounding(void **state)
+static void taylor_gains_with_explicit_euler_are_marginal_despite_rounding(void **state)
 {
   (void)state;
   uint64_t seed = 6;
@@ -135,8 +135,8 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
 }
 
 /* Compares spectral radii at the points (1, 1) and (1, 2) with their closed forms. The second point
- * belongs to the Taylor gains. */
-static void radii_are_those_of_the_table(void **state)
+ * is that of the Taylor gains. */
+static void spectral_radii_have_their_closed_forms(void **state)
 {
   (void)state;
   static const double want[ONE_STEP_COUNT][2] = {
@@ -231,8 +231,8 @@ typedef void step_function(const oscillator *o, double y[2]);
 static step_function *const steps[ONE_STEP_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
                                                      heun_step, classical_step};
 
-/* Returns by how much log |y| grows per step, as a mean over steps 200 to 2000. After every step,
- * |y| is scaled to 1. */
+/* Returns the mean growth of log |y| per step, over steps 200 to 2000. After every step, |y| is
+ * scaled to 1. */
 static double observed_log_radius(int method, const oscillator *o)
 {
   double y[2] = {1.0, 0.3};
@@ -262,7 +262,7 @@ static void agrees_with_the_step_matrix(int method, const oscillator *o)
               1e-11, 1e-11);
 }
 
-static void radius_is_the_growth_of_the_method_itself(void **state)
+static void spectral_radius_is_the_observed_growth(void **state)
 {
   (void)state;
   uint64_t seed = 7;
@@ -327,10 +327,10 @@ int main(void)
     cmocka_unit_test(edges_of_the_triangles_are_marginal),
     cmocka_unit_test(double_roots_on_the_circle_survive_the_rounding_of_gains),
     cmocka_unit_test(no_stabilization_and_beta_zero_are_marginal_for_every_method),
-    cmocka_unit_test(the_taylor_pair_is_marginal_with_explicit_euler_whatever_the_rounding),
+    cmocka_unit_test(taylor_gains_with_explicit_euler_are_marginal_despite_rounding),
     cmocka_unit_test(small_gains_are_stable_down_to_the_margin),
-    cmocka_unit_test(radii_are_those_of_the_table),
-    cmocka_unit_test(radius_is_the_growth_of_the_method_itself),
+    cmocka_unit_test(spectral_radii_have_their_closed_forms),
+    cmocka_unit_test(spectral_radius_is_the_observed_growth),
     cmocka_unit_test(the_larger_root_comes_first_and_gives_the_radius),
     cmocka_unit_test(numbers_beyond_double_are_infinitely_unstable),
     cmocka_unit_test(a_variable_step_has_no_radius),

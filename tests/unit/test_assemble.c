@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests assembly and projection. They must satisfy the constraints, keep held bodies in place, and
+/* Tests assembly and projection. Both must satisfy the constraints, keep held bodies in place, and
  * change the other bodies as little as possible. Changes are measured with the mass matrix M. */
 #include <math.h>
 #include <setjmp.h>
@@ -94,7 +94,7 @@ static void velocities_that_nothing_determines_are_zero(void **state)
   close_scene(&s);
 }
 
-static void given_velocities_that_contradict_are_refused_and_named(void **state)
+static void contradictory_velocities_are_refused_and_the_joint_is_named(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -110,9 +110,9 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   close_scene(&s);
 }
 
-/* If a program computes velocities of a structure at rest, they are rounding errors. The library
+/* Velocities that a program computes for a mechanism at rest can be rounding errors. The library
  * must not refuse them as contradictory. */
-static void given_velocities_that_are_rounding_errors_contradict_nothing(void **state)
+static void velocities_that_are_rounding_errors_are_accepted(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -123,7 +123,7 @@ static void given_velocities_that_are_rounding_errors_contradict_nothing(void **
   close_scene(&s);
 }
 
-static void held_bodies_that_contradict_are_refused_and_nothing_changes(void **state)
+static void contradictory_held_bodies_are_refused_and_nothing_changes(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -135,8 +135,7 @@ static void held_bodies_that_contradict_are_refused_and_nothing_changes(void **s
   close_scene(&s);
 }
 
-static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_the_masses(
-  void **state)
+static void assembly_finds_the_nearest_configuration_in_the_mass_metric(void **state)
 {
   (void)state;
   /* A rod of length 1 m connects particles of 1 kg and 3 kg, which are 1.3 m apart in the design.
@@ -178,9 +177,9 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The second coordinate has no mass and no constraint. KLU cannot determine how it changes, and
- * refuses. Least squares leave it unchanged. */
-static void a_coordinate_without_mass_and_joint_stays_or_is_refused(void **state)
+/* The second coordinate has no mass and no constraint. KLU cannot determine its change and reports
+ * a singular system. Least squares leave it unchanged. */
+static void a_coordinate_without_mass_and_constraint_stays_or_is_refused(void **state)
 {
   (void)state;
   static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR, BAUM_I_KKT_KLU};
@@ -248,7 +247,7 @@ static void projection_moves_a_consistent_state_by_rounding_only(void **state)
   close_scene(&s);
 }
 
-static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void **state)
+static void projection_changes_velocities_least_in_the_mass_metric(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -263,8 +262,7 @@ static void projection_of_velocities_is_least_in_the_metric_of_the_masses(void *
   }
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   assert_int_equal(baum_workspace_mass(s.w, 0.0, s.q, mass), BAUM_OK);
-  /* The change is M-orthogonal to every velocity that J allows. The exact velocity is such a
-   * velocity. */
+  /* The change is M-orthogonal to every velocity that J allows. `exact` is one of them. */
   double product = 0.0;
   double size = 0.0;
   for (int i = 0; i < NV; i++) {
@@ -289,7 +287,8 @@ static void contradicting_constraints_are_not_projected_and_the_state_stays(void
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  /* Two rods of 1 m join one body to ground points that are 5 m apart. This cannot be assembled. */
+  /* Two rods of 1 m join one body to ground points that are 5 m apart. No position satisfies both
+   * rods. */
   for (int k = 0; k < 2; k++) {
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;
@@ -312,15 +311,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_rough_design_is_assembled_and_held_bodies_stay_exactly),
     cmocka_unit_test(velocities_that_nothing_determines_are_zero),
-    cmocka_unit_test(given_velocities_that_contradict_are_refused_and_named),
-    cmocka_unit_test(given_velocities_that_are_rounding_errors_contradict_nothing),
-    cmocka_unit_test(held_bodies_that_contradict_are_refused_and_nothing_changes),
-    cmocka_unit_test(
-      of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_the_masses),
-    cmocka_unit_test(a_coordinate_without_mass_and_joint_stays_or_is_refused),
+    cmocka_unit_test(contradictory_velocities_are_refused_and_the_joint_is_named),
+    cmocka_unit_test(velocities_that_are_rounding_errors_are_accepted),
+    cmocka_unit_test(contradictory_held_bodies_are_refused_and_nothing_changes),
+    cmocka_unit_test(assembly_finds_the_nearest_configuration_in_the_mass_metric),
+    cmocka_unit_test(a_coordinate_without_mass_and_constraint_stays_or_is_refused),
     cmocka_unit_test(projection_returns_to_the_constraints_from_nearby),
     cmocka_unit_test(projection_moves_a_consistent_state_by_rounding_only),
-    cmocka_unit_test(projection_of_velocities_is_least_in_the_metric_of_the_masses),
+    cmocka_unit_test(projection_changes_velocities_least_in_the_mass_metric),
     cmocka_unit_test(contradicting_constraints_are_not_projected_and_the_state_stays),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the block solver alone. Its results are compared with quadruple precision. Both versions of
- * its loops are tested: the plain one, and the one for this processor. test_block_structure.c tests
- * its structure, and tests/physics/test_random_mechanisms.c tests it in random mechanisms. */
+/* Tests the block solver alone. Its results are compared with solutions in quadruple precision.
+ * Both versions of its loops are tested: the plain one, and the one for this processor.
+ * test_block_structure.c tests its structure, and tests/physics/test_random_mechanisms.c tests it
+ * in random mechanisms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +22,7 @@
 
 enum { MOST_UNKNOWNS = 400, MOST_BODIES = 60 };
 
-/* The function tables of the block solver. The table for pins is not among them. */
+/* The function tables of the block solver, except the table for pins. */
 typedef struct tables {
   const baum_i_block_sides_kernel *sides;
   const baum_i_block_kernel *solution;
@@ -161,7 +162,7 @@ static void assert_solution(const equations *x, const double *want, double toler
 
 /* Tests the solver twice: without iterative refinement, as in most evaluations, and with two steps
  * of refinement. The condition number of the Schur complement J M^-1 J^T is the square of the
- * condition number of its factors. The latter is up to 1e5 here. */
+ * condition number of J M^(-1/2), which is up to 1e5 in these systems. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -218,9 +219,9 @@ static void omitted_rows_have_no_influence(void **state)
   }
 }
 
-/* The solver treats a fixed body as ground. The result must not change if the columns of such a
- * body in J, and its force, are set to zero. */
-static void bodies_at_rest_are_ground(void **state)
+/* The solver treats a fixed body as ground. The result must be the same as with a zero force on
+ * this body and zero columns of J for it. */
+static void fixed_bodies_are_ground(void **state)
 {
   (void)state;
   int tested = 0;
@@ -263,7 +264,7 @@ static void bodies_at_rest_are_ground(void **state)
   assert_true(tested > 10);
 }
 
-static void both_builds_agree(void **state)
+static void both_versions_of_the_loops_agree(void **state)
 {
   (void)state;
   const tables own = own_tables();
@@ -322,7 +323,7 @@ static void pivots_tell_how_close_to_singular_a_system_is(void **state)
   }
 }
 
-static void refinement_brings_back_what_weak_pivots_lose(void **state)
+static void refinement_restores_the_accuracy_lost_by_weak_pivots(void **state)
 {
   (void)state;
   double want[5];
@@ -331,7 +332,7 @@ static void refinement_brings_back_what_weak_pivots_lose(void **state)
   solve(x, &plain, 0);
   double lost = fabs(x->s.lambda[0] - want[3]) / fabs(want[3]);
   solve(x, &plain, 2);
-  assert_true(lost > 1e-12); /* otherwise the test would show nothing */
+  assert_true(lost > 1e-12); /* otherwise there is nothing to restore */
   assert_solution(x, want, 1e-14);
   unmake(x);
 }
@@ -418,7 +419,7 @@ static void compare_model(baum_status status, model m)
   model_destroy(&m);
 }
 
-static void mechanisms_are_the_same_in_both_builds(void **state)
+static void accelerations_agree_for_both_versions_and_the_whole_system(void **state)
 {
   (void)state;
   model m;
@@ -467,8 +468,8 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
 }
 
-/* Two pins between the same bodies have one redundant row. It is omitted, so that the other row of
- * its pin has no partner. Both rows of a third pin are redundant. */
+/* Two pins between the same bodies have one redundant row. This row is omitted, and the other row
+ * of the same pin has no partner. Both rows of a third pin are redundant. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;
@@ -493,12 +494,12 @@ int main(void)
     cmocka_unit_test(dense_masses_are_solved),
     cmocka_unit_test(diagonal_masses_among_dense_ones_are_solved),
     cmocka_unit_test(omitted_rows_have_no_influence),
-    cmocka_unit_test(bodies_at_rest_are_ground),
-    cmocka_unit_test(both_builds_agree),
+    cmocka_unit_test(fixed_bodies_are_ground),
+    cmocka_unit_test(both_versions_of_the_loops_agree),
     cmocka_unit_test(pivots_tell_how_close_to_singular_a_system_is),
-    cmocka_unit_test(refinement_brings_back_what_weak_pivots_lose),
+    cmocka_unit_test(refinement_restores_the_accuracy_lost_by_weak_pivots),
     cmocka_unit_test(masses_that_are_not_positive_are_reported),
-    cmocka_unit_test(mechanisms_are_the_same_in_both_builds),
+    cmocka_unit_test(accelerations_agree_for_both_versions_and_the_whole_system),
     cmocka_unit_test(several_pins_between_the_same_bodies),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

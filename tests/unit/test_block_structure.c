@@ -85,7 +85,7 @@ static net make_star(int arms)
   return n;
 }
 
-static void a_row_of_bodies_couples_neighbours(void **state)
+static void a_chain_of_bodies_couples_neighbouring_joints(void **state)
 {
   (void)state;
   enum { BODIES = 30 };
@@ -98,11 +98,11 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  /* each is a pair of rows, because no joint is a pin */
+  /* every coupling has a pair of rows, because no joint is a pin */
   assert_int_equal(b->first_count, BODIES - 2);
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
-  assert_int_equal(b->entry_count, 0); /* none are stored, because all are read directly from J */
+  assert_int_equal(b->entry_count, 0); /* all entries are read directly from J */
   for (int i = 0; i < b->side_count; i++) {
     assert_int_equal(b->side_from[2 * i], 12 * (i / 2) + 3 * (i % 2));
   }
@@ -110,7 +110,8 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   free_net(&n);
 }
 
-/* Two joints between the same bodies have two couplings. Both are added in one block. */
+/* Two joints between the same bodies are coupled by both bodies. Both couplings are added in one
+ * block. */
 static void two_joints_of_the_same_bodies_share_a_block(void **state)
 {
   (void)state;
@@ -141,7 +142,7 @@ static void hubs_are_refused_and_named(void **state)
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_null(b);
   assert_int_equal(hub, 3);
-  many.diagonal[1] = 0; /* changes how body_blocks are numbered */
+  many.diagonal[1] = 0; /* changes the numbering of the body blocks */
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_int_equal(hub, 3);
   many.diagonal[3] = 0;
@@ -188,7 +189,7 @@ static void dense_nets_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_row_of_bodies_couples_neighbours),
+    cmocka_unit_test(a_chain_of_bodies_couples_neighbouring_joints),
     cmocka_unit_test(two_joints_of_the_same_bodies_share_a_block),
     cmocka_unit_test(hubs_are_refused_and_named),
     cmocka_unit_test(dense_nets_are_refused),

@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-/* Makes a body at rest whose pin is 0.3 m from its centre. */
+/* Makes a body at rest whose pin is about 0.3 m from its centre. */
 static baum_mechanism *make_swing(double gravity)
 {
   baum_mechanism *m = NULL;
@@ -49,7 +49,7 @@ static void swing(const baum_integrator *integrator, double gravity, double step
   baum_mechanism_destroy(m);
 }
 
-static void methods_that_solve_for_positions_make_small_steps_from_there(void **state)
+static void methods_that_solve_for_positions_make_small_steps_at_the_origin(void **state)
 {
   (void)state;
   static const double GRAVITY[3] = {9.81, 1e-3, 1e-9};
@@ -65,7 +65,7 @@ static void methods_that_solve_for_positions_make_small_steps_from_there(void **
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(methods_that_solve_for_positions_make_small_steps_from_there),
+    cmocka_unit_test(methods_that_solve_for_positions_make_small_steps_at_the_origin),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests texts and numbers of reports: the escaping of texts, and numbers that must be read back
+/* Tests how reports write texts and numbers. Texts are escaped, and exact numbers must be read back
  * without change. */
 #include <float.h>
 #include <math.h>
@@ -24,13 +24,13 @@ static void check_put(baum_i_quoting quoting, const char *text, const char *want
   baum_i_buffer_clear(&buffer);
 }
 
-static void json_ends_no_script_that_it_stands_in(void **state)
+static void json_cannot_end_the_html_script_around_it(void **state)
 {
   (void)state;
   check_put(BAUM_I_JSON, "</script><!--", "\\u003c/script>\\u003c!--");
 }
 
-static void json_and_csv_keep_their_quotes(void **state)
+static void json_and_csv_escape_quotes(void **state)
 {
   (void)state;
   check_put(BAUM_I_JSON, "a\"b\\c", "a\\\"b\\\\c");
@@ -85,7 +85,7 @@ static void exact_numbers_are_read_back(void **state)
   assert_string_equal(baum_i_exact(-(double)INFINITY, "null").text, "null");
 }
 
-static void short_numbers_are_for_people(void **state)
+static void short_numbers_are_readable(void **state)
 {
   (void)state;
   assert_string_equal(baum_i_short(1.2345e-8, 3).text, "1.23e-08");
@@ -95,7 +95,7 @@ static void short_numbers_are_for_people(void **state)
   assert_string_equal(baum_i_short((double)INFINITY, 3).text, "infinite");
 }
 
-static void columns_are_as_wide_as_characters(void **state)
+static void column_widths_count_characters(void **state)
 {
   (void)state;
   baum_i_buffer buffer = {0};
@@ -108,13 +108,13 @@ static void columns_are_as_wide_as_characters(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(json_ends_no_script_that_it_stands_in),
-    cmocka_unit_test(json_and_csv_keep_their_quotes),
+    cmocka_unit_test(json_cannot_end_the_html_script_around_it),
+    cmocka_unit_test(json_and_csv_escape_quotes),
     cmocka_unit_test(control_characters_become_spaces),
     cmocka_unit_test(bytes_that_are_not_utf8_are_replaced),
     cmocka_unit_test(exact_numbers_are_read_back),
-    cmocka_unit_test(short_numbers_are_for_people),
-    cmocka_unit_test(columns_are_as_wide_as_characters),
+    cmocka_unit_test(short_numbers_are_readable),
+    cmocka_unit_test(column_widths_count_characters),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

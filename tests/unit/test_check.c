@@ -90,8 +90,8 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A Jacobian of the unit circle whose second entry is wrongly constant. It is right only in the
- * design configuration, where y = -0.8. */
+/* A Jacobian of the unit circle whose second entry is wrongly constant. This entry is right only in
+ * the design configuration, where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -165,7 +165,7 @@ static int driven_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static int turned_nu(double t, const double *q, double *out, void *user)
+static int opposite_nu(double t, const double *q, double *out, void *user)
 {
   (void)q;
   (void)user;
@@ -184,7 +184,7 @@ static int right_nu(double t, const double *q, double *out, void *user)
 static void nu_of_the_wrong_sign_is_named(void **state)
 {
   (void)state;
-  user_check_wrong(user_make_constraint(driven_phi, NULL, turned_nu, NULL, 1.0),
+  user_check_wrong(user_make_constraint(driven_phi, NULL, opposite_nu, NULL, 1.0),
                    "joint 1 \"circle\": nu()[0] is -6 but finite differences of phi in t give 6");
 }
 
@@ -207,8 +207,8 @@ static int right_gamma(double t, const double *q, const double *v, double *out, 
   return 0;
 }
 
-/* A gamma of zero is right at t = 0. The check finds the error because it also evaluates at other
- * times. */
+/* A gamma of zero is right at t = 0. The check finds the error because it also evaluates gamma at
+ * other times. */
 static void a_forgotten_gamma_is_found_at_another_time(void **state)
 {
   (void)state;
@@ -217,8 +217,8 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "joint 1 \"circle\": gamma()[0] is 0 but finite differences of %s give %.9g",
                  "phi", -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
-  /* Second differences have only seven correct digits here. The last digits of the message are
-   * therefore not compared. */
+  /* Second differences have only seven correct digits here. The test therefore does not compare the
+   * last three digits of the message. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,
@@ -329,7 +329,7 @@ static void wrong_functions_of_a_body_are_named(void **state)
                    "must be symmetric");
 }
 
-static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
+static void a_varying_mass_that_is_declared_constant_is_found(void **state)
 {
   (void)state;
   double wrong[1] = {0.0};
@@ -349,7 +349,7 @@ static int linear_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void a_mass_below_zero_in_the_design_configuration_is_refused(void **state)
+static void a_negative_mass_in_the_design_configuration_is_refused(void **state)
 {
   (void)state;
   double at_zero[] = {-2.0, 0.01};
@@ -379,7 +379,7 @@ static int late_phi(double t, const double *q, double *out, void *user)
   return t < 0.0 ? -1 : 0;
 }
 
-static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
+static void a_constraint_that_begins_at_zero_is_checked(void **state)
 {
   (void)state;
   user_check_right(user_make_constraint(late_phi, driven_jacobian, right_nu, right_gamma, 1.0));
@@ -388,11 +388,11 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
   (void)snprintf(message, sizeof message,
                  "joint 1 \"circle\": nu()[0] is %.9g but finite differences of phi in t give %.9g",
                  -nu, nu);
-  user_check_wrong(user_make_constraint(late_phi, driven_jacobian, turned_nu, right_gamma, 1.0),
+  user_check_wrong(user_make_constraint(late_phi, driven_jacobian, opposite_nu, right_gamma, 1.0),
                    message);
 }
 
-/* Law 0 is right. Law 1 has a wrong s', law 2 has a wrong s'', and law 3 fails at t = 0. */
+/* Law 0 is right. Law 1 has a wrong s', law 2 has a wrong s'', and law 3 always fails. */
 static int driver_law(double t, double s[3], void *user)
 {
   int which = *(const int *)user;
@@ -419,7 +419,7 @@ static baum_mechanism *make_driven(int *which)
   return mechanism;
 }
 
-static void wrong_derivatives_of_a_law_of_a_driver_are_named(void **state)
+static void wrong_derivatives_of_a_driver_law_are_named(void **state)
 {
   (void)state;
   int which[] = {0, 1, 2, 3};
@@ -434,7 +434,7 @@ static void wrong_derivatives_of_a_law_of_a_driver_are_named(void **state)
 
 /* ---- how the check may be called ---- */
 
-static void the_mechanism_must_be_there_and_frozen(void **state)
+static void the_mechanism_must_be_given_and_frozen(void **state)
 {
   (void)state;
   assert_int_equal(baum_mechanism_check_derivatives(NULL), BAUM_ERR_ARGUMENT);
@@ -467,11 +467,11 @@ int main(void)
     cmocka_unit_test(a_forgotten_gamma_is_found_at_another_time),
     cmocka_unit_test(wrong_derivatives_of_a_force_are_named),
     cmocka_unit_test(wrong_functions_of_a_body_are_named),
-    cmocka_unit_test(a_mass_that_is_not_constant_though_promised_is_found),
-    cmocka_unit_test(a_mass_below_zero_in_the_design_configuration_is_refused),
-    cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
-    cmocka_unit_test(wrong_derivatives_of_a_law_of_a_driver_are_named),
-    cmocka_unit_test(the_mechanism_must_be_there_and_frozen),
+    cmocka_unit_test(a_varying_mass_that_is_declared_constant_is_found),
+    cmocka_unit_test(a_negative_mass_in_the_design_configuration_is_refused),
+    cmocka_unit_test(a_constraint_that_begins_at_zero_is_checked),
+    cmocka_unit_test(wrong_derivatives_of_a_driver_law_are_named),
+    cmocka_unit_test(the_mechanism_must_be_given_and_frozen),
     cmocka_unit_test(a_mechanism_without_user_functions_passes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

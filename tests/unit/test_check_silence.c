@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of user derivatives must report nothing if they are right. It must also report nothing
- * if rounding or a kink makes a judgement impossible. */
+/* The check of user derivatives must not report derivatives that are right, or that it cannot judge
+ * because of rounding or a kink. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,9 +27,9 @@ static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
   }
 }
 
-/* A lever with an arm of 1e-6 m, and its angle. Both coordinates have the scale 1. For the lever,
- * this scale is a million times too large. */
-static int lever_phi(double t, const double *q, double *out, void *user)
+/* The first term changes its slope within 1e-6 of q0 = 0.6. Both coordinates have the scale 1,
+ * which is a million times too large for q0. */
+static int sharp_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
   (void)user;
@@ -37,7 +37,7 @@ static int lever_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static int lever_jacobian(double t, const double *q, double *out, void *user)
+static int sharp_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
   (void)user;
@@ -49,7 +49,7 @@ static int lever_jacobian(double t, const double *q, double *out, void *user)
 static void a_scale_that_is_wrong_by_a_million_raises_no_alarm(void **state)
 {
   (void)state;
-  user_check_right(user_make_constraint(lever_phi, lever_jacobian, NULL, NULL, 1.0));
+  user_check_right(user_make_constraint(sharp_phi, sharp_jacobian, NULL, NULL, 1.0));
 }
 
 /* Sums near 1e12 are rounded to 1e-4. Differences therefore cannot determine the second entry of
@@ -104,8 +104,8 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
   return 0;
 }
 
-/* Velocities like these are rounding errors, which projection leaves in a mechanism at rest. They
- * are too small to change q, whatever the time step. */
+/* Projection leaves rounding errors of this size in the velocities of a mechanism at rest. They are
+ * too small to change q, whatever the time step. */
 static void velocities_that_are_rounding_raise_no_alarm(void **state)
 {
   (void)state;
@@ -153,8 +153,8 @@ static void a_kink_in_the_design_configuration_raises_no_alarm(void **state)
 
 typedef enum refuse { NEVER, BEFORE_ZERO, AT_REST, AWAY, ALWAYS, STOP } refuse;
 
-static int shy_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                     void *user)
+static int refusing_force(double t, const double *q, const double *v, const double *inputs,
+                          double *out, void *user)
 {
   (void)inputs;
   refuse refusal = *(refuse *)user;
@@ -170,8 +170,8 @@ static int shy_force(double t, const double *q, const double *v, const double *i
   return 0;
 }
 
-static int shy_force_v(double t, const double *q, const double *v, const double *inputs,
-                       double *out, void *user)
+static int refusing_force_v(double t, const double *q, const double *v, const double *inputs,
+                            double *out, void *user)
 {
   (void)t;
   (void)q;
@@ -189,7 +189,7 @@ static void refused_configurations_raise_no_alarm(void **state)
   const refuse passing[] = {NEVER, BEFORE_ZERO, AT_REST, AWAY};
   for (int i = 0; i < 4; i++) {
     refuse refusal = passing[i];
-    user_check_right(user_make_force(shy_force, NULL, shy_force_v, &refusal));
+    user_check_right(user_make_force(refusing_force, NULL, refusing_force_v, &refusal));
   }
 }
 
@@ -197,11 +197,11 @@ static void a_function_that_refuses_everywhere_is_reported(void **state)
 {
   (void)state;
   refuse refusal = ALWAYS;
-  assert_int_equal(user_check(user_make_force(shy_force, NULL, shy_force_v, &refusal)),
+  assert_int_equal(user_check(user_make_force(refusing_force, NULL, refusing_force_v, &refusal)),
                    BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "force 1 \"spring\": force() returned 1 (retry)");
   refusal = STOP;
-  assert_int_equal(user_check(user_make_force(shy_force, NULL, shy_force_v, &refusal)),
+  assert_int_equal(user_check(user_make_force(refusing_force, NULL, refusing_force_v, &refusal)),
                    BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the gains that whole runs use: the pilot run of the rule `auto`, the limit of the step, and
- * what the counters report. */
+/* Tests the gains of whole runs: the pilot run of the rule `auto`, the step limit, and the
+ * counters. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,12 +11,12 @@
 #include "assert_near.h"
 #include "models.h"
 
-/* A pilot makes 5 steps with 3 evaluations each. One of these evaluations has already been made
- * before. */
+/* A pilot run makes 5 steps with 3 evaluations each. The evaluation at the initial state has
+ * already been made. */
 enum { PILOT_EVALUATIONS = 14 };
 
-static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
-                              double step, baum_gains gains)
+static baum_simulation *start_run(const baum_mechanism *m, const baum_integrator *integrator,
+                                  double step, baum_gains gains)
 {
   baum_simulation_options o = baum_simulation_options_default();
   baum_simulation *run = NULL;
@@ -40,7 +40,7 @@ static baum_counters count(baum_simulation *run)
 
 static double auto_alpha(const baum_mechanism *m, const baum_integrator *integrator)
 {
-  baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_auto());
+  baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_auto());
   double alpha = count(run).alpha;
   baum_simulation_destroy(run);
   return alpha;
@@ -75,7 +75,7 @@ static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *forc
 
 /* ---- the pilot run ---- */
 
-static void auto_uses_the_rate_after_the_start_too(void **state)
+static void auto_uses_the_mean_rate_of_the_pilot_run(void **state)
 {
   (void)state;
   model m;
@@ -92,8 +92,8 @@ static void the_pilot_run_costs_14_evaluations_which_are_counted(void **state)
   (void)state;
   model m;
   assert_int_equal(model_four_bar(&m), BAUM_OK);
-  baum_simulation *with = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
-  baum_simulation *without = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
+  baum_simulation *with = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
+  baum_simulation *without = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
   assert_int_equal(count(with).evaluations - count(without).evaluations, PILOT_EVALUATIONS);
   assert_int_equal(count(with).steps, 0);
   assert_true(baum_simulation_time(with) == 0.0);
@@ -155,7 +155,8 @@ static int fail_later(double t, const double *q, const double *v, const double *
   return t > *(const double *)user ? -1 : 0;
 }
 
-/* A force fails only in the pilot run. This must not prevent the creation of the run. */
+/* The force fails at times that the pilot run reaches. This must not prevent the creation of the
+ * run. */
 static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
 {
   (void)state;
@@ -164,7 +165,7 @@ static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
   force.force = fail_later;
   force.user = &limit;
   baum_mechanism *m = pendulum_at(1.6, &force);
-  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_auto());
+  baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_auto());
   assert_true(count(run).alpha > 0.0);
   assert_int_equal(count(run).warnings, 0);
   assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
@@ -173,7 +174,7 @@ static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void drivers_that_take_all_degrees_of_freedom_allow_more(void **state)
+static void auto_gains_are_larger_if_drivers_take_all_degrees_of_freedom(void **state)
 {
   (void)state;
   model m;
@@ -188,7 +189,7 @@ static void drivers_that_take_all_degrees_of_freedom_allow_more(void **state)
 
 /* ---- length of steps ---- */
 
-static void steps_of_explicit_methods_stay_inside_of_the_region(void **state)
+static void steps_of_explicit_methods_stay_in_the_stability_region(void **state)
 {
   (void)state;
   static const double ALPHA = 1e4;
@@ -198,7 +199,7 @@ static void steps_of_explicit_methods_stay_inside_of_the_region(void **state)
     const baum_integrator *integrator = k == 0 ? baum_dp5() : baum_rk8();
     double limit = 0.0;
     assert_int_equal(baum_stability_limit(integrator, 1.0, &limit), BAUM_OK);
-    baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
+    baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
     assert_non_null(strstr(baum_simulation_explain(run), "variable step, at most "));
     assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
     assert_true((double)count(run).steps >= END * ALPHA / limit);
@@ -209,22 +210,22 @@ static void steps_of_explicit_methods_stay_inside_of_the_region(void **state)
 
 /* ---- counters ---- */
 
-static void counters_tell_the_effective_damping(void **state)
+static void counters_report_the_effective_damping(void **state)
 {
   (void)state;
   baum_mechanism *m = pendulum_at(1.6, NULL);
-  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
+  baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
   baum_counters c = count(run);
   /* If alpha = beta, the characteristic equation has the double root s = -alpha. A step of rk4
-   * multiplies by exp(-alpha h), with an error of about (alpha h)^5 / 120. */
+   * multiplies Phi by exp(-alpha h), with an error of about (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
-  run = begin(m, baum_euler(), 1e-3, baum_gains_deadbeat());
+  run = start_run(m, baum_euler(), 1e-3, baum_gains_deadbeat());
   c = count(run);
   assert_true(c.spectral_radius == 0.0 && isinf(c.damping));
   baum_simulation_destroy(run);
-  run = begin(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
+  run = start_run(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
   c = count(run);
   assert_true(isnan(c.spectral_radius) && isnan(c.damping));
   baum_simulation_destroy(run);
@@ -287,14 +288,14 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     assert_true(v[0] < 0.0);
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
-    /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. Now the damping terms contribute as
-     * well. The ratio of their values for the two rods is the ratio of the factors, 3, times the
-     * ratio of the velocities, 9. */
+    /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. The second term adds the same
+     * velocity as in the first step. The test subtracts it, so that the velocity of the damping
+     * term remains. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);
-    /* Phi has hardly changed. The first step of Euler's method leaves q unchanged, and the second
-     * one moves it only by h v. */
+    /* Phi has not changed, because the first step of Euler's method leaves q unchanged. gamma
+     * contributes less than the tolerance. */
     for (int i = 0; i < 2; i++) {
       double damped = v[3 * i] - 2.0 * first[i];
       double want = -2.0 * 10.0 * factors[i] * 1e-3 * first[i];
@@ -342,7 +343,7 @@ static void refused(const baum_mechanism *m, const baum_simulation_options *o, b
   }
 }
 
-static void factors_that_make_no_sense_are_refused(void **state)
+static void invalid_factors_are_refused(void **state)
 {
   (void)state;
   double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 = 4 is unstable */
@@ -369,18 +370,18 @@ static void factors_that_make_no_sense_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(auto_uses_the_rate_after_the_start_too),
+    cmocka_unit_test(auto_uses_the_mean_rate_of_the_pilot_run),
     cmocka_unit_test(the_pilot_run_costs_14_evaluations_which_are_counted),
     cmocka_unit_test(auto_gives_the_same_gains_each_time),
     cmocka_unit_test(auto_does_not_depend_on_units),
     cmocka_unit_test(at_a_slow_start_auto_uses_at_least_the_rate_of_gravity),
     cmocka_unit_test(a_failure_in_the_pilot_run_does_not_fail_the_creation),
-    cmocka_unit_test(drivers_that_take_all_degrees_of_freedom_allow_more),
-    cmocka_unit_test(steps_of_explicit_methods_stay_inside_of_the_region),
-    cmocka_unit_test(counters_tell_the_effective_damping),
+    cmocka_unit_test(auto_gains_are_larger_if_drivers_take_all_degrees_of_freedom),
+    cmocka_unit_test(steps_of_explicit_methods_stay_in_the_stability_region),
+    cmocka_unit_test(counters_report_the_effective_damping),
     cmocka_unit_test(a_factor_multiplies_the_gains_of_its_row),
     cmocka_unit_test(solvers_agree_on_factors),
-    cmocka_unit_test(factors_that_make_no_sense_are_refused),
+    cmocka_unit_test(invalid_factors_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests chord iterations. They correct q with the constraint forces of another configuration, so
- * that its factorization can be used again. The tests cover every solver, and the calls that are
- * refused. */
+/* Tests chord iterations. They correct q with J of another configuration, whose factorization is
+ * used again. The tests cover every solver and the calls that fail. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -49,7 +48,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
 
 /* The change must be -J^T Phi. Here J = (0.6, 0.8) belongs to the configuration `from`, and
  * Phi = (|q|^2 - 1) / 2 = 0.15 belongs to q. */
-static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **state)
+static void phi_is_corrected_with_the_jacobian_of_another_configuration(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -68,7 +67,7 @@ static void phi_of_one_configuration_is_removed_by_the_matrix_of_another(void **
 
 /* With the gain 10 1/s, the acceleration along the rod is the velocity along it times -10 1/s. The
  * acceleration across the rod comes from the weight alone. */
-static void rates_are_held_and_the_rest_is_free(void **state)
+static void velocities_along_the_rod_are_held_and_others_are_free(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -82,8 +81,8 @@ static void rates_are_held_and_the_rest_is_free(void **state)
   }
 }
 
-/* If both rods are in line, no change across them is possible. Phi of another configuration thus
- * cannot be removed. */
+/* If both rods are in line, constraint forces cannot move the bob across them. They thus cannot
+ * correct Phi of a position beside the line. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;
@@ -93,7 +92,7 @@ static void rods_in_line_are_singular(void **state)
     baum_workspace *w = bob_on_rods(2, CHOICES[k]);
     baum_i_chord chord;
     baum_status status = baum_i_chord_begin(w, 0.25, in_line, &chord);
-    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* all other solvers find the singularity here */
+    if (CHOICES[k] != BAUM_I_KKT_KLU) { /* only KLU already fails here */
       check(status);
       status = baum_i_chord_change(w, &chord, 0.25, beside);
     }
@@ -103,7 +102,7 @@ static void rods_in_line_are_singular(void **state)
   }
 }
 
-static void numbers_that_overflow_are_named(void **state)
+static void overflow_is_reported_with_its_joint(void **state)
 {
   (void)state;
   const double from[2] = {1.0, 0.0};
@@ -121,10 +120,10 @@ static void numbers_that_overflow_are_named(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(phi_of_one_configuration_is_removed_by_the_matrix_of_another),
-    cmocka_unit_test(rates_are_held_and_the_rest_is_free),
+    cmocka_unit_test(phi_is_corrected_with_the_jacobian_of_another_configuration),
+    cmocka_unit_test(velocities_along_the_rod_are_held_and_others_are_free),
     cmocka_unit_test(rods_in_line_are_singular),
-    cmocka_unit_test(numbers_that_overflow_are_named),
+    cmocka_unit_test(overflow_is_reported_with_its_joint),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,8 +15,8 @@
 
 static const double SPAN = 2.0; /* [s] about one swing of the pendulum A01 */
 
-/* Counts the warnings that the step is too long. `advised` is set to the step that the last of
- * these warnings recommends. */
+/* Counts the warnings that the step is too long. Sets *advised to the step that the last of these
+ * warnings recommends. */
 static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
 {
   model m;
@@ -46,7 +46,7 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
 
 /* In a step of 0.1 s the pendulum moves by about half a radian. This is too long for methods of
  * order 1, but suitable for order 4 and higher. 0.4 s is too long for rk4. */
-static void steps_are_judged_by_the_order(void **state)
+static void the_longest_accurate_step_depends_on_the_order(void **state)
 {
   (void)state;
   double advised = 0.0;
@@ -57,7 +57,7 @@ static void steps_are_judged_by_the_order(void **state)
   assert_int_equal(count_warnings(baum_rk4(), 0.4, &advised), 1);
 }
 
-static void the_advised_step_is_not_too_long(void **state)
+static void a_tenth_of_the_advised_step_is_not_too_long(void **state)
 {
   (void)state;
   const baum_integrator *const methods[] = {baum_euler(), baum_semi_implicit_euler(), baum_rk2()};
@@ -104,7 +104,7 @@ static baum_counters run_pendulum(baum_simulation_options o, double *error)
   return c;
 }
 
-static void estimates_are_the_error(void **state)
+static void estimates_agree_with_the_error(void **state)
 {
   (void)state;
   static const double steps[] = {2e-4, 1e-3, 2e-3, 1e-2, 1e-2, 0.05, 2e-3};
@@ -119,7 +119,7 @@ static void estimates_are_the_error(void **state)
     o.step = steps[k];
     o.error_check = true;
     baum_counters c = run_pendulum(o, &error);
-    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* the companion's tolerance is 2e-4 */
+    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* an estimate need not be better */
     assert_int_equal(c.doubts, c.error_estimate > 0.03);
   }
 }
@@ -134,7 +134,7 @@ static void accurate_runs_have_no_companion(void **state)
   assert_true(run_pendulum(o, &error).error_estimate == 0.0);
 }
 
-static void variable_steps_are_checked_where_it_is_asked_for(void **state)
+static void runs_with_variable_steps_are_checked_on_request(void **state)
 {
   (void)state;
   for (int k = 0; baum_integrator_at(k); k++) {
@@ -153,8 +153,8 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
-/* Samples inside a step are interpolated, which adds an error. One call that returns all samples
- * estimates the error as many calls do that return one sample each. */
+/* Samples inside a step are interpolated, which adds an error. The estimate is the same whether one
+ * call returns all samples or each call returns one sample. */
 static void estimates_include_samples_inside_steps(void **state)
 {
   (void)state;
@@ -187,7 +187,8 @@ static void estimates_include_samples_inside_steps(void **state)
   model_destroy(&m);
 }
 
-/* A companion with nearly the tolerance of the run would have the same error. */
+/* A companion needs a smaller tolerance than its run. At the smallest tolerances this is not
+ * possible. */
 static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
 {
   (void)state;
@@ -312,7 +313,7 @@ static int ramp(double t, double s[3], void *user)
 
 /* The driver prescribes a velocity with a jump at 0.3 s. The acceleration does not contain the
  * impulse that this jump requires. The estimate must not count the jump as an error. */
-static void corners_of_drivers_are_no_error(void **state)
+static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
 {
   (void)state;
   const baum_integrator *const methods[] = {baum_rk4(), baum_semi_implicit_euler(), baum_rattle(),
@@ -349,7 +350,7 @@ static void corners_of_drivers_are_no_error(void **state)
 
 /* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force it to steps of
  * a microsecond. */
-static void stiff_runs_give_their_companion_up(void **state)
+static void stiff_runs_abandon_their_companion(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -384,7 +385,7 @@ static void stiff_runs_give_their_companion_up(void **state)
 
 /* ---- warnings ---- */
 
-static void kinds_of_warnings_have_names(void **state)
+static void warning_codes_have_names(void **state)
 {
   (void)state;
   assert_string_equal(baum_warning_name(BAUM_WARNING_REDUNDANT_ROWS), "redundant_rows");
@@ -401,18 +402,18 @@ static void kinds_of_warnings_have_names(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(steps_are_judged_by_the_order),
-    cmocka_unit_test(the_advised_step_is_not_too_long),
-    cmocka_unit_test(estimates_are_the_error),
+    cmocka_unit_test(the_longest_accurate_step_depends_on_the_order),
+    cmocka_unit_test(a_tenth_of_the_advised_step_is_not_too_long),
+    cmocka_unit_test(estimates_agree_with_the_error),
     cmocka_unit_test(accurate_runs_have_no_companion),
-    cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
+    cmocka_unit_test(runs_with_variable_steps_are_checked_on_request),
     cmocka_unit_test(estimates_include_samples_inside_steps),
     cmocka_unit_test(estimates_at_the_smallest_tolerances_are_unknown),
     cmocka_unit_test(estimates_continue_after_a_restart_inside_a_step),
     cmocka_unit_test(runs_that_miss_a_short_event_warn),
-    cmocka_unit_test(corners_of_drivers_are_no_error),
-    cmocka_unit_test(stiff_runs_give_their_companion_up),
-    cmocka_unit_test(kinds_of_warnings_have_names),
+    cmocka_unit_test(jumps_of_driver_velocities_are_not_counted_as_errors),
+    cmocka_unit_test(stiff_runs_abandon_their_companion),
+    cmocka_unit_test(warning_codes_have_names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

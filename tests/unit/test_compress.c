@@ -17,8 +17,8 @@ static int32_t any_index(uint64_t *seed)
   return (int32_t)((saddle_random(seed) + 1.0) / 2.0 * (SIZE - 1e-9)); /* 0 .. SIZE - 1 */
 }
 
-/* Makes random places of matrix entries. They are returned in two forms: as a list, and as two
- * arrays of rows and columns. */
+/* Draws random places of matrix entries. Returns them as a list, and as two arrays of rows and
+ * columns. */
 static baum_i_places random_places(size_t count, uint64_t seed, int32_t *rows, int32_t *columns)
 {
   baum_i_places places = {0};

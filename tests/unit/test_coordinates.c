@@ -133,7 +133,7 @@ static void move(test_point *p)
 
 /* ---- evaluation ---- */
 
-static void the_design_is_the_start(void **state)
+static void design_values_scales_and_held_are_stored(void **state)
 {
   (void)state;
   arm a = {0};
@@ -227,8 +227,8 @@ static void check_blocks(const baum_coordinates_def *def, double tolerance)
   test_point_close(&p);
 }
 
-/* Derivatives that are not given are replaced by differences of order 6. The error that was
- * measured for them is 1e-12. */
+/* Derivatives that are not given are replaced by differences of order 6. Their measured error is
+ * 1e-12. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;
@@ -291,7 +291,7 @@ static void failing_functions_are_named(void **state)
   test_point_close(&p);
 }
 
-static void every_block_passes_a_failure_on(void **state)
+static void every_derivative_reports_a_failing_function(void **state)
 {
   (void)state;
   arm a = {.answer = -1};
@@ -343,7 +343,7 @@ static void a_bad_definition_is_refused_by_name(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void bad_numbers_are_refused_by_place(void **state)
+static void bad_numbers_are_refused_with_their_index(void **state)
 {
   (void)state;
   arm a = {0};
@@ -421,17 +421,17 @@ static void a_definition_comes_back_as_it_was_given(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_design_is_the_start),
+    cmocka_unit_test(design_values_scales_and_held_are_stored),
     cmocka_unit_test(missing_design_values_are_zero_positions_free_velocities_and_scale_one),
     cmocka_unit_test(mass_force_and_potential_are_those_given),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),
     cmocka_unit_test(a_constant_mass_has_no_derivative),
     cmocka_unit_test(failing_functions_are_named),
-    cmocka_unit_test(every_block_passes_a_failure_on),
+    cmocka_unit_test(every_derivative_reports_a_failing_function),
     cmocka_unit_test(defaults_are_those_documented),
     cmocka_unit_test(a_bad_definition_is_refused_by_name),
-    cmocka_unit_test(bad_numbers_are_refused_by_place),
+    cmocka_unit_test(bad_numbers_are_refused_with_their_index),
     cmocka_unit_test(a_definition_comes_back_as_it_was_given),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

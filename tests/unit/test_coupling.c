@@ -113,8 +113,7 @@ static void add_on_other_bodies(planar_scene *scene, baum_body_id a, baum_body_i
   couple(scene, slot, pin, NULL);
 }
 
-/* Couples joints of three bodies. One of them is body_b of the first joint and body_a of the
- * second. */
+/* Couples two joints that share one body. This body is body_b of the pin and body_a of the slot. */
 static void add_on_a_chain(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_joint_id pin = add_pin(scene, a, b);
@@ -195,7 +194,7 @@ static double coordinate_of(const test_point *p, int joint)
   return c.value;
 }
 
-static void the_row_is_the_one_coordinate_less_a_function_of_the_other(void **state)
+static void phi_is_coordinate_b_minus_the_law_of_coordinate_a(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -342,7 +341,7 @@ static void joints_that_cannot_be_coupled_are_refused(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void the_joints_must_stay(void **state)
+static void the_coupled_joints_cannot_be_replaced(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -382,7 +381,7 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(no_column_occurs_twice),
-    cmocka_unit_test(the_row_is_the_one_coordinate_less_a_function_of_the_other),
+    cmocka_unit_test(phi_is_coordinate_b_minus_the_law_of_coordinate_a),
     cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(a_law_that_sets_nothing_is_zero),
@@ -390,7 +389,7 @@ int main(void)
     cmocka_unit_test(wrong_derivatives_are_named),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(joints_that_cannot_be_coupled_are_refused),
-    cmocka_unit_test(the_joints_must_stay),
+    cmocka_unit_test(the_coupled_joints_cannot_be_replaced),
     cmocka_unit_test(definitions_come_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,9 +14,9 @@
 
 enum { MOST = 200 };
 
-/* Draws random intervals between 0.01 and 1, and values of about 1. Second derivatives may
+/* Draws random intervals between 0.01 and 1, and values between -1 and 1. Second derivatives may
  * therefore reach 1e5. */
-static void draw_places(int32_t count, uint64_t *seed, double *times, double *values)
+static void draw_points(int32_t count, uint64_t *seed, double *times, double *values)
 {
   for (int32_t i = 0; i < count; i++) {
     double length = 0.505 + 0.495 * saddle_random(seed);
@@ -40,8 +40,7 @@ static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *w
     assert_int_equal(gsl_interp_eval_e(want, x, y, t, NULL, &s_want[0]), 0);
     assert_int_equal(gsl_interp_eval_deriv_e(want, x, y, t, NULL, &s_want[1]), 0);
     assert_int_equal(gsl_interp_eval_deriv2_e(want, x, y, t, NULL, &s_want[2]), 0);
-    /* Rounding errors are amplified, because slopes of up to about 100 are divided by intervals of
-     * 0.01. */
+    /* Divisions of slopes of up to about 100 by intervals of 0.01 amplify rounding errors. */
     ASSERT_NEAR(s[0], s_want[0], 0.0, 1e-13);
     ASSERT_NEAR(s[1], s_want[1], 0.0, 1e-11);
     ASSERT_NEAR(s[2], s_want[2], 0.0, 1e-9);
@@ -56,7 +55,7 @@ static void check_splines(const gsl_interp_type *type, int32_t least, bool perio
     double values[MOST];
     double bends[MOST];
     int32_t count = round < 10 ? least + round : least + round * (MOST - least) / 100;
-    draw_places(count, &seed, times, values);
+    draw_points(count, &seed, times, values);
     values[count - 1] = periodic ? values[0] : values[count - 1];
     baum_i_cubic_spline spline = {count, times, values, bends};
     gsl_interp *want = gsl_interp_alloc(type, (size_t)count);
@@ -67,13 +66,13 @@ static void check_splines(const gsl_interp_type *type, int32_t least, bool perio
   }
 }
 
-static void natural_splines_are_those_of_gsl(void **state)
+static void natural_splines_agree_with_gsl(void **state)
 {
   (void)state;
   check_splines(gsl_interp_cspline, 3, false);
 }
 
-static void periodic_splines_are_those_of_gsl(void **state)
+static void periodic_splines_agree_with_gsl(void **state)
 {
   (void)state;
   check_splines(gsl_interp_cspline_periodic, 3, true);
@@ -82,8 +81,8 @@ static void periodic_splines_are_those_of_gsl(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(natural_splines_are_those_of_gsl),
-    cmocka_unit_test(periodic_splines_are_those_of_gsl),
+    cmocka_unit_test(natural_splines_agree_with_gsl),
+    cmocka_unit_test(periodic_splines_agree_with_gsl),
   };
   return cmocka_run_group_tests_name("cubic_spline", tests, NULL, NULL);
 }

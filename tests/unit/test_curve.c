@@ -18,7 +18,7 @@
 
 /* ---- curves ---- */
 
-/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y), whose derivatives are all nonzero. */
+/* F = 0.6 x^2 - 0.5 x y + y + 0.1 y^3 + sin(0.7 x + 0.4 y). Its derivatives are all nonzero. */
 static int bent(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -63,7 +63,7 @@ static int nothing(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* The distance from the unit circle, which is not differentiable at the centre. */
+/* The signed distance from the unit circle. It is not differentiable at the circle's centre. */
 static int circle(const double xy[2], double out[6], void *user)
 {
   (void)user;
@@ -86,8 +86,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* Adds a joint that keeps a point on a curve. The curve belongs to body a. If a is a particle, it
- * belongs to body b, and if both are particles, to the link. */
+/* Adds a joint that keeps a point on a curve. The curve belongs to body a. If a is a particle, the
+ * curve belongs to body b. If both are particles, it belongs to the link. */
 static void add_curve(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_curve_def def = baum_planar_curve_def_default();
@@ -139,7 +139,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_curve, true, check_rows_balance);
 }
 
-static void a_circle_is_a_rod(void **state)
+static void a_circular_curve_is_equivalent_to_a_rod(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -170,8 +170,8 @@ static void a_circle_is_a_rod(void **state)
   for (int i = 0; i < 5; i++) {
     ASSERT_NEAR(blocks[i], blocks[5 + i], 0.0, 1e-15);
   }
-  /* On the circle, Phi = (r^2 - 1) / 2 of the rod has the same J as Phi = r - 1 of the curve. The
-   * two gamma differ by -r'^2. */
+  /* On the circle, Phi = (r^2 - 1) / 2 of the rod has the same J as Phi = r - 1 of the curve. Their
+   * gamma differ by r'^2. */
   assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
   double rate = 0.0;
   const baum_i_span *span = &p.mechanism->joints[0]->span;
@@ -301,7 +301,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
-    cmocka_unit_test(a_circle_is_a_rod),
+    cmocka_unit_test(a_circular_curve_is_equivalent_to_a_rod),
     cmocka_unit_test(a_function_that_sets_nothing_is_zero),
     cmocka_unit_test(a_failing_function_is_named),
     cmocka_unit_test(right_derivatives_raise_no_alarm),

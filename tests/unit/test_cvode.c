@@ -18,9 +18,9 @@
 
 /* ---- accuracy ---- */
 
-/* When rtol decreases by a factor of 10, the error must fall by a factor of 7 for Adams methods,
- * whose order rises, and by a factor of 6 for BDF. The order of BDF is at most 5, and an error
- * proportional to rtol^(5/6) would fall by a factor of 6.8. */
+/* When rtol decreases by a factor of 10, the error must fall by a factor of at least 7 for Adams
+ * methods, whose order rises, and of at least 6 for BDF. The order of BDF is at most 5, and an
+ * error proportional to rtol^(5/6) would fall by a factor of 6.8. */
 static void error_falls_with_the_tolerance(void **state)
 {
   (void)state;
@@ -55,8 +55,8 @@ static void a_driven_slider_crank_follows_its_driver(void **state)
     integrator_run run;
     assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
     double start = run.state_q[2];
-    double turn = 6.283185307179586 / 150.0;
-    assert_int_equal(integrator_run_to(&run, turn), BAUM_OK);
+    double period = 6.283185307179586 / 150.0;
+    assert_int_equal(integrator_run_to(&run, period), BAUM_OK);
     ASSERT_NEAR(run.q[2] - start, 6.283185307179586, 0.0, 1e-7); /* ten times rtol */
     ASSERT_NEAR(run.v[2], 150.0, 1e-7, 0.0);
     integrator_run_close(&run);
@@ -122,7 +122,7 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
  * the derivatives of the terms with gains, and takes about 5000 evaluations. With small gains, even
  * fewer evaluations are needed. Large gains need more, because they amplify rounding errors so that
  * steps fail the error test. */
-static void high_gains_do_not_bind_the_steps(void **state)
+static void high_gains_do_not_limit_the_steps(void **state)
 {
   (void)state;
   need_sundials();
@@ -204,9 +204,8 @@ static double mean_error(baum_mechanism *mechanism, baum_formulation formulation
 }
 
 /* The error with projection may be at most 1.5 times the error with gains. The gains are twice the
- * pendulum's rate, which is similar to the gains of the rule `auto`. For a single pendulum, other
- * gains may happen to be better, as the table printed by this test shows. Such means of 21 runs
- * vary by a factor of 1.3. */
+ * largest angular velocity of the pendulum. For a single pendulum, other gains may happen to be
+ * better, as the table printed by this test shows. Means of 21 runs vary by a factor of 1.3. */
 static void projection_is_as_good_as_gains(void **state)
 {
   (void)state;
@@ -218,7 +217,7 @@ static void projection_is_as_good_as_gains(void **state)
   }
   double gains = mean_error(mechanism, BAUM_FORMULATION_BAUMGARTE, 2.0 * 4.43);
   double error = mean_error(mechanism, BAUM_FORMULATION_PROJECTION, 0.0);
-  print_message("error: %.1e projected, %.1e with gains of twice the rate\n", error, gains);
+  print_message("error: %.1e projected, %.1e with gains of 8.86 1/s\n", error, gains);
   assert_true(error <= 1.5 * gains);
   baum_mechanism_destroy(mechanism);
 }
@@ -232,7 +231,7 @@ static int vanish(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void a_projection_that_finds_no_configuration_is_reported(void **state)
+static void a_projection_without_solution_is_reported(void **state)
 {
   (void)state;
   need_sundials();
@@ -280,7 +279,7 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
 }
 
 /* Near 1e9 s, double precision rounds a time to 1e-7 s. This is a thousandth of a step. The
- * mechanism does not depend on time, so the result must be the same as that of a start at 0. */
+ * mechanism does not depend on time, so the result must be the same as after a start at 0. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -327,8 +326,8 @@ static void statistics_add_up(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The force 2 / (0.1 - t)^3 moves a mass of 1 kg by x = 1 / (0.1 - t). The motion becomes infinite
- * at 0.1 s. */
+/* The force 2 / (0.1 - t)^3 moves a mass of 1 kg according to x = 1 / (0.1 - t). The motion becomes
+ * infinite at 0.1 s. */
 static int burst(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -361,7 +360,7 @@ static baum_mechanism *make_bursting(void)
   return mechanism;
 }
 
-static void a_motion_that_ends_is_reported_with_time_and_step(void **state)
+static void a_motion_that_becomes_infinite_is_reported_with_time_and_step(void **state)
 {
   (void)state;
   need_sundials();
@@ -394,7 +393,7 @@ static void sundials_never_prints(void **state)
   (void)fflush(stderr);
   int kept = dup(STDERR_FILENO);
   assert_true(kept >= 0 && dup2(fileno(file), STDERR_FILENO) >= 0);
-  a_motion_that_ends_is_reported_with_time_and_step(state);
+  a_motion_that_becomes_infinite_is_reported_with_time_and_step(state);
   (void)fflush(stderr);
   assert_true(dup2(kept, STDERR_FILENO) >= 0);
   (void)close(kept);
@@ -408,13 +407,13 @@ int main(void)
     cmocka_unit_test(error_falls_with_the_tolerance),
     cmocka_unit_test(a_driven_slider_crank_follows_its_driver),
     cmocka_unit_test(bdf_needs_few_steps_for_stiff_forces),
-    cmocka_unit_test(high_gains_do_not_bind_the_steps),
+    cmocka_unit_test(high_gains_do_not_limit_the_steps),
     cmocka_unit_test(projected_steps_end_on_the_constraints),
     cmocka_unit_test(projection_is_as_good_as_gains),
-    cmocka_unit_test(a_projection_that_finds_no_configuration_is_reported),
+    cmocka_unit_test(a_projection_without_solution_is_reported),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(statistics_add_up),
-    cmocka_unit_test(a_motion_that_ends_is_reported_with_time_and_step),
+    cmocka_unit_test(a_motion_that_becomes_infinite_is_reported_with_time_and_step),
     cmocka_unit_test(sundials_never_prints),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the linear systems of CVODE BDF. They are (I - gamma df/dy) x = r with f = (v, a). Each
- * test chooses a random right side r and solves the system with the sparse matrix. It then inserts
- * the solution x into the system, where it computes df/dy x by central differences of f. */
+ * test solves the system for a random right-hand side r with the sparse matrix. It then inserts the
+ * solution x into the system, and computes (df/dy) x by central differences of f. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -92,8 +92,8 @@ static baum_status solve_newton(solver *s, double t, const double *y, double gam
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Evaluates f at y. The result consists of a displacement from q and of accelerations. Returns
- * false if the configuration is singular or nearly so. */
+/* Evaluates f at y. The result consists of N^+(q) q' and of the accelerations. Returns false if the
+ * configuration is singular or nearly so. */
 static bool evaluate(const solver *s, double t, const double *q, const double *y, double *f)
 {
   const baum_mechanism *m = s->workspace->mechanism;
@@ -162,10 +162,10 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
   return regular ? size_of(s, defect) / size : (double)NAN;
 }
 
-/* The largest values that this defect may have. A wrong or missing term causes at least 1e-3. If
- * all derivatives are given, correct terms have a median of 4e-12 and a maximum of 4e-8. If the
- * matrix contains differences of user functions, the defect may reach 1e-5 near singular
- * configurations, as measurements show. */
+/* The largest defects that the tests accept. A wrong or missing term causes a defect of at least
+ * 1e-3. If all derivatives are given, correct terms have a median of 4e-12 and a maximum of 4e-8.
+ * If the matrix contains differences of user functions, the measured defect reaches 1e-5 near
+ * singular configurations. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
@@ -199,8 +199,8 @@ static int check_states(solver *s, double tolerance, chance *c)
   return checked;
 }
 
-/* Checks a mechanism without factors on the gains and with them. The factors are between 0.1 and
- * 10, for every second row. */
+/* Checks a mechanism without factors on the gains, and with factors between 0.1 and 10 on the gains
+ * of every second row. */
 static int check_mechanism(const baum_mechanism *mechanism, baum_formulation formulation,
                            double tolerance, chance *c)
 {
@@ -240,7 +240,7 @@ static void models_with_a_motor_springs_and_redundant_rows(void **state)
   check_model(model_parallelogram_build(MODEL_THREE_CRANKS, 1.0, &m), EXACT, &m);
 }
 
-static void models_by_functions_with_and_without_derivatives(void **state)
+static void models_with_user_functions_with_and_without_derivatives(void **state)
 {
   (void)state;
   model m;
@@ -287,7 +287,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(models_with_a_motor_springs_and_redundant_rows),
-    cmocka_unit_test(models_by_functions_with_and_without_derivatives),
+    cmocka_unit_test(models_with_user_functions_with_and_without_derivatives),
     cmocka_unit_test(one_of_every_element),
     cmocka_unit_test(bodies_and_joints_of_all_kinds_under_loads),
   };

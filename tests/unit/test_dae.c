@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the residuals F(t, y, y') that IDA solves. Their Jacobians must agree with differences, and
- * the residuals must be zero at the solution of the stabilized equations (7). */
+ * the residuals must be zero at the solution of the equations of motion. Equations (5) and (7) are
+ * those of docs/theory/formulations.md. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -46,7 +47,7 @@ typedef struct point {
  * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
  * divided by one second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates,
  * divided by the displacement of its row. The scale of a mu is the same times one second. */
-static void take_scales(baum_workspace *w, point *p)
+static void set_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
   double displacement[SIZE_MAX_DAE];
@@ -64,7 +65,7 @@ static void take_scales(baum_workspace *w, point *p)
 }
 
 /* Returns a random state near the design configuration. Its velocities, accelerations and
- * multipliers are as large as their scales. */
+ * multipliers are at most as large as their scales. */
 static point random_point(baum_workspace *w, baum_residual index, int seed)
 {
   const baum_mechanism *m = w->mechanism;
@@ -73,7 +74,7 @@ static point random_point(baum_workspace *w, baum_residual index, int seed)
   double rate[SIZE_MAX_DAE];
   p.size = baum_i_residual_size(m, index) - p.shift;
   assert_true(p.size + p.shift <= SIZE_MAX_DAE);
-  take_scales(w, &p);
+  set_scales(w, &p);
   for (int i = 0; i < p.size; i++) {
     moved[i] = 0.1 * p.scale[i] * scatter(seed + i);
     rate[i] = p.scale[i] * scatter(seed + 1000 + i);
@@ -143,8 +144,8 @@ static void difference_all(baum_workspace *w, const baum_dae *dae, double c, con
   }
 }
 
-static void spread(const baum_i_residual_matrix *matrix, const double *values, int size,
-                   square *out)
+static void write_dense(const baum_i_residual_matrix *matrix, const double *values, int size,
+                        square *out)
 {
   const int32_t *columns = baum_i_residual_matrix_pattern(matrix)->start;
   const int32_t *rows = baum_i_residual_matrix_pattern(matrix)->row;
@@ -190,7 +191,7 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
     point p = random_point(w, index, 97 * k);
     assert_int_equal(baum_i_residual_matrix_fill(matrix, w, &dae, c, 0.3, p.y, p.dy, values),
                      BAUM_OK);
-    spread(matrix, values, p.size, &got);
+    write_dense(matrix, values, p.size, &got);
     difference_all(w, &dae, c, &p, &want);
     worst = fmax(worst, largest_difference(&got, &want, &p));
   }
@@ -199,8 +200,8 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10, and in
- * addition rounding errors. If a user function gives no Jacobian, the matrix itself also contains
+/* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10 and also
+ * rounding errors. If a user function gives no Jacobian, the matrix itself also contains
  * differences. A wrong term causes 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
@@ -228,7 +229,7 @@ static void check_row_gains(const char *name, const baum_mechanism *mechanism)
   }
   w->row_gains = factors;
   double worst = check_jacobian(w, BAUM_RESIDUAL_INDEX1);
-  if (!(worst <= 2e-7)) { /* the tolerance is explained above */
+  if (!(worst <= 2e-7)) { /* the same tolerance as in check_all_forms() */
     fail_msg("%s, gains of rows: %g", name, worst);
   }
   baum_workspace_destroy(w);
@@ -242,7 +243,7 @@ static void check_model(const char *name, baum_status status, model *m)
   model_destroy(m);
 }
 
-static void the_jacobian_is_that_of_differences_for_bodies_with_a_motor(void **state)
+static void the_jacobian_agrees_with_differences_for_bodies_with_a_motor(void **state)
 {
   (void)state;
   model m;
@@ -253,7 +254,7 @@ static void the_jacobian_is_that_of_differences_for_bodies_with_a_motor(void **s
     model_slider_crank_build((model_slider_crank){.driven = true, .units = &MODEL_MILLI}, &m), &m);
 }
 
-static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **state)
+static void the_jacobian_agrees_with_differences_for_redundant_rows(void **state)
 {
   (void)state;
   model m;
@@ -262,14 +263,14 @@ static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **
 }
 
 /* One body has no mass. Its entry in the metric W of GGL is therefore the lower bound. */
-static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **state)
+static void the_jacobian_agrees_with_differences_for_a_body_without_mass(void **state)
 {
   (void)state;
   model m;
   check_model("parallelogram", model_parallelogram_build(MODEL_THIRD_BY_A_ROD, 1.0, &m), &m);
 }
 
-static void the_jacobian_is_that_of_differences_for_every_element(void **state)
+static void the_jacobian_agrees_with_differences_for_every_element(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -278,7 +279,7 @@ static void the_jacobian_is_that_of_differences_for_every_element(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void the_jacobian_is_that_of_differences_for_every_joint(void **state)
+static void the_jacobian_agrees_with_differences_for_every_joint(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -289,7 +290,7 @@ static void the_jacobian_is_that_of_differences_for_every_joint(void **state)
   }
 }
 
-static void the_jacobian_is_that_of_differences_for_bodies_with_a_spring(void **state)
+static void the_jacobian_agrees_with_differences_for_bodies_with_a_spring(void **state)
 {
   (void)state;
   model m;
@@ -297,7 +298,7 @@ static void the_jacobian_is_that_of_differences_for_bodies_with_a_spring(void **
   check_model("Andrews, mm", model_andrews_bodies_in(&MODEL_MILLI, &m), &m);
 }
 
-static void the_jacobian_is_that_of_differences_for_user_functions(void **state)
+static void the_jacobian_agrees_with_differences_for_user_functions(void **state)
 {
   (void)state;
   model m;
@@ -305,7 +306,7 @@ static void the_jacobian_is_that_of_differences_for_user_functions(void **state)
   check_model("Andrews, Phi only", model_andrews_angles(false, &m), &m);
 }
 
-static void the_jacobian_is_that_of_differences_for_rows_that_depend_on_time(void **state)
+static void the_jacobian_agrees_with_differences_for_rows_that_depend_on_time(void **state)
 {
   (void)state;
   model m;
@@ -394,7 +395,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   model_destroy(&m);
 }
 
-static void the_public_jacobian_tells_its_size_first(void **state)
+static void the_public_jacobian_first_reports_its_size(void **state)
 {
   (void)state;
   model m;
@@ -422,17 +423,17 @@ static void the_public_jacobian_tells_its_size_first(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_bodies_with_a_motor),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_bodies_with_a_spring),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_where_rows_are_redundant),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_a_body_without_mass),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_every_element),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_every_joint),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_user_functions),
-    cmocka_unit_test(the_jacobian_is_that_of_differences_for_rows_that_depend_on_time),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_bodies_with_a_motor),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_bodies_with_a_spring),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_redundant_rows),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_a_body_without_mass),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_every_element),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_every_joint),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_user_functions),
+    cmocka_unit_test(the_jacobian_agrees_with_differences_for_rows_that_depend_on_time),
     cmocka_unit_test(the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equations),
     cmocka_unit_test(the_ggl_residual_vanishes_on_the_constraints_with_mu_zero),
-    cmocka_unit_test(the_public_jacobian_tells_its_size_first),
+    cmocka_unit_test(the_public_jacobian_first_reports_its_size),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE does not support forces that depend on velocity, nor variable masses. It must name the
- * elements that have them. */
+/* RATTLE supports neither forces that depend on velocities nor variable masses. Its message must
+ * name the elements that have them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -156,13 +156,13 @@ static void springs_are_supported_and_dampers_are_refused(void **state)
 
 typedef struct behaviour {
   double drag;    /* the force is -drag v */
-  bool by_time;   /* the force depends on cos t */
-  bool claims;    /* declares that force and mass depend on neither velocity nor position */
+  bool by_time;   /* adds cos t to the force */
+  bool claims;    /* declares that the force does not depend on v, and that the mass is constant */
   double inertia; /* the mass is 1 + inertia x^2 */
 } behaviour;
 
-static int act(double t, const double *q, const double *v, const double *inputs, double *out,
-               void *user)
+static int user_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user)
 {
   (void)inputs;
   const behaviour *b = user;
@@ -170,7 +170,7 @@ static int act(double t, const double *q, const double *v, const double *inputs,
   return 0;
 }
 
-static int weigh(double t, const double *q, double *out, void *user)
+static int plunger_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
   const behaviour *b = user;
@@ -184,7 +184,7 @@ static void add_user_force(const scene *s, behaviour *b)
   def.name = "wind";
   def.bodies = &s->bar;
   def.body_count = 1;
-  def.force = act;
+  def.force = user_force;
   def.depends_on_velocity = !b->claims;
   def.user = b;
   check(baum_mechanism_add_user_force(s->mechanism, &def, NULL));
@@ -199,8 +199,8 @@ static void add_coordinate(const scene *s, behaviour *b)
   def.size = 1;
   def.q = at;
   def.v = rest;
-  def.mass = weigh;
-  def.force = act;
+  def.mass = plunger_mass;
+  def.force = user_force;
   def.constant_mass = b->claims;
   def.depends_on_velocity = !b->claims;
   def.user = b;
@@ -273,7 +273,7 @@ static void functions_without_a_declaration_are_refused_by_name(void **state)
   expect_refusal(&s, "rattle needs constant masses|body 2 \"plunger\"|constant_mass = true");
 }
 
-/* Checks that the check of derivatives refuses the mechanism. This check does not depend on the
+/* Expects that the check of derivatives refuses the mechanism. This check does not depend on the
  * integrator. */
 static void expect_denial(const scene *s, const char *parts)
 {

@@ -15,7 +15,7 @@
 #include "point.h"
 #include "user_models.h"
 
-/* A function of the coordinate q[0], which counts how often it is called. */
+/* A function of the coordinate q[0], and the number of its calls. */
 typedef struct curve {
   double (*value)(double x);
   int calls;
@@ -148,8 +148,8 @@ static void second_derivatives_are_good_to_2e_11(void **state)
     ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
     ASSERT_NEAR(derivative_at(exp, x, 1.0, 2), exp(x), 2e-11, 0.0);
     ASSERT_NEAR(derivative_at(fifth_power, x, 1.0, 2), 20.0 * x * x * x, 2e-11, 2e-11);
-    /* The truncation error is of order 6. It is therefore 3^6 = 729 times the truncation error for
-     * sin(x). */
+    /* The truncation error is of order 6. Relative to the derivative, it is therefore 3^6 = 729
+     * times larger than for sin(x). */
     ASSERT_NEAR(derivative_at(three_times_as_fast, x, 1.0, 2), -9.0 * sin(3.0 * x), 0.0, 4e-10);
   }
 }
@@ -192,7 +192,7 @@ static void ten_thousand_revolutions_do_not_spoil_the_steps(void **state)
   ASSERT_NEAR(derivative_at(sin, x, 1.0, 2), -sin(x), 0.0, 2e-11);
 }
 
-static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolutions(void **state)
+static void a_line_in_any_direction_stays_accurate_after_ten_thousand_revolutions(void **state)
 {
   (void)state;
   stage s;
@@ -240,7 +240,7 @@ static void a_good_scale_takes_six_or_seven_evaluations(void **state)
   }
 }
 
-static void a_noisy_function_is_not_asked_again_and_again(void **state)
+static void noise_at_most_doubles_the_evaluations(void **state)
 {
   (void)state;
   const curve noisy = {.value = sin, .edge = -1e9, .noise = 1e-9};
@@ -248,9 +248,9 @@ static void a_noisy_function_is_not_asked_again_and_again(void **state)
   assert_in_range(calls_of(&noisy, 0.4, 2), 7, 14);
 }
 
-/* ---- edges of where a function is defined ---- */
+/* ---- edges of the domain of a function ---- */
 
-static void steps_shrink_near_the_edge_of_where_a_function_is_defined(void **state)
+static void steps_shrink_near_the_edge_of_the_domain(void **state)
 {
   (void)state;
   stage s;
@@ -265,7 +265,7 @@ static void steps_shrink_near_the_edge_of_where_a_function_is_defined(void **sta
   close_stage(&s);
 }
 
-static void at_the_edge_of_its_domain_a_function_asks_for_a_retry(void **state)
+static void a_function_at_the_edge_of_its_domain_asks_for_a_retry(void **state)
 {
   (void)state;
   stage s;
@@ -334,11 +334,11 @@ int main(void)
     cmocka_unit_test(a_scale_a_million_times_too_large_costs_time_but_no_accuracy),
     cmocka_unit_test(a_scale_a_thousand_times_too_small_costs_three_digits),
     cmocka_unit_test(ten_thousand_revolutions_do_not_spoil_the_steps),
-    cmocka_unit_test(a_line_in_an_odd_direction_stays_exact_after_ten_thousand_revolutions),
+    cmocka_unit_test(a_line_in_any_direction_stays_accurate_after_ten_thousand_revolutions),
     cmocka_unit_test(a_good_scale_takes_six_or_seven_evaluations),
-    cmocka_unit_test(a_noisy_function_is_not_asked_again_and_again),
-    cmocka_unit_test(steps_shrink_near_the_edge_of_where_a_function_is_defined),
-    cmocka_unit_test(at_the_edge_of_its_domain_a_function_asks_for_a_retry),
+    cmocka_unit_test(noise_at_most_doubles_the_evaluations),
+    cmocka_unit_test(steps_shrink_near_the_edge_of_the_domain),
+    cmocka_unit_test(a_function_at_the_edge_of_its_domain_asks_for_a_retry),
     cmocka_unit_test(a_function_that_returns_stop_is_not_called_again),
     cmocka_unit_test(columns_are_derivatives_by_positions_and_by_velocities),
   };

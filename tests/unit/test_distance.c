@@ -84,7 +84,7 @@ static void the_length_follows_from_the_design_unless_given(void **state)
   test_point_close(&p);
 }
 
-static void points_at_one_place_have_finite_rows(void **state)
+static void coincident_points_have_finite_rows(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -168,7 +168,7 @@ int main(void)
     cmocka_unit_test(reactions_balance),
     cmocka_unit_test(the_row_is_the_change_of_length_to_first_order),
     cmocka_unit_test(the_length_follows_from_the_design_unless_given),
-    cmocka_unit_test(points_at_one_place_have_finite_rows),
+    cmocka_unit_test(coincident_points_have_finite_rows),
     cmocka_unit_test(a_design_without_length_cannot_be_frozen),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the shapes of drawings. Every kind of element has its symbol, and the outline of a body
- * follows from its joints. test_page.c tests the pages that are made of these shapes. */
+ * follows from its joints. test_page.c tests the pages that contain these shapes. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -45,7 +45,7 @@ static bool is_drawn(const baum_i_drawing *drawing, const baum_i_element *elemen
   return false;
 }
 
-static void every_element_with_a_place_is_drawn(void **state)
+static void every_element_with_a_position_is_drawn(void **state)
 {
   (void)state;
   every_element parts = {.fault = NULL};
@@ -68,8 +68,7 @@ static void every_element_with_a_place_is_drawn(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* This test fails if somebody adds a kind of element without a symbol, or without an element in
- * every_element.c. */
+/* This test fails if a kind of element has no symbol, or is missing from every_element.c. */
 static void every_kind_of_the_library_is_drawn(void **state)
 {
   (void)state;
@@ -97,7 +96,7 @@ static void every_kind_of_the_library_is_drawn(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles(void **state)
+static void shapes_are_finite_and_sorted_by_style(void **state)
 {
   (void)state;
   every_element parts = {.fault = NULL};
@@ -119,7 +118,7 @@ static void all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles(v
 
 /* ---- outlines ---- */
 
-static void bodies_look_as_their_joints_make_them(void **state)
+static void outlines_of_bodies_follow_from_their_joints(void **state)
 {
   (void)state;
   baum_mechanism *m = drawn_crank();
@@ -218,7 +217,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
 
 /* ---- the ground ---- */
 
-/* Finds the middle of all shapes of the ground, relative to a pin at the origin. */
+/* Computes the mean point of all shapes of the ground, in units of the drawing. */
 static void find_ground(const baum_mechanism *m, double middle[2])
 {
   baum_i_drawing drawing;
@@ -239,7 +238,8 @@ static void find_ground(const baum_mechanism *m, double middle[2])
   baum_i_drawing_release(&drawing);
 }
 
-/* Draws a bar from the origin to a point. It is pinned or welded to the ground at the origin. */
+/* Finds the ground of a bar with its centre at (x, y). The bar is pinned or welded to the ground at
+ * the origin. */
 static void find_ground_of_bar(double x, double y, bool weld, const double gravity[2],
                                double middle[2])
 {
@@ -286,10 +286,10 @@ static void the_ground_is_below_a_joint_unless_the_body_hangs_there(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_element_with_a_place_is_drawn),
+    cmocka_unit_test(every_element_with_a_position_is_drawn),
     cmocka_unit_test(every_kind_of_the_library_is_drawn),
-    cmocka_unit_test(all_numbers_of_shapes_are_finite_and_their_order_is_that_of_styles),
-    cmocka_unit_test(bodies_look_as_their_joints_make_them),
+    cmocka_unit_test(shapes_are_finite_and_sorted_by_style),
+    cmocka_unit_test(outlines_of_bodies_follow_from_their_joints),
     cmocka_unit_test(links_of_a_long_chain_are_longer_than_wide),
     cmocka_unit_test(inner_points_are_not_part_of_an_outline),
     cmocka_unit_test(the_ground_is_below_a_joint_unless_the_body_hangs_there),

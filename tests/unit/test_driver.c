@@ -103,8 +103,8 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_driver(mechanism, def, NULL);
 }
 
-/* Makes a pin with the driver "motor", which is joint 2. Opens a test point at the design
- * configuration. */
+/* Makes a pin or a slider, and its driver "motor", which is joint 2. Opens a test point at the
+ * design configuration. */
 static void open_motor(test_point *p, baum_law_fn *law, void *user, bool slider)
 {
   planar_scene scene = planar_scene_make();
@@ -132,7 +132,7 @@ static void derivatives_on_a_slider_agree_with_differences(void **state)
   for_each_planar_pair(add_driven_slider, false, check_joint_derivatives);
 }
 
-static void the_row_is_coordinate_minus_law(void **state)
+static void phi_is_the_coordinate_minus_the_law(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -280,7 +280,7 @@ static void joints_that_cannot_be_driven_are_refused(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void the_joint_must_stay(void **state)
+static void the_joint_cannot_be_replaced(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -318,14 +318,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_on_a_pin_agree_with_differences),
     cmocka_unit_test(derivatives_on_a_slider_agree_with_differences),
-    cmocka_unit_test(the_row_is_coordinate_minus_law),
+    cmocka_unit_test(phi_is_the_coordinate_minus_the_law),
     cmocka_unit_test(the_driver_is_at_the_place_of_its_joint),
     cmocka_unit_test(a_law_that_sets_nothing_is_zero),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(a_law_that_is_not_finite_is_named),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(joints_that_cannot_be_driven_are_refused),
-    cmocka_unit_test(the_joint_must_stay),
+    cmocka_unit_test(the_joint_cannot_be_replaced),
     cmocka_unit_test(definitions_come_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

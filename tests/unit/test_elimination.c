@@ -128,9 +128,9 @@ static int count_edges(const graph *g)
 
 /* ---- elimination on a full matrix ---- */
 
-/* Couples all neighbours of `node` with each other and removes it. Returns the number of
+/* Couples all neighbours of `node` with each other and removes `node`. Returns the number of
  * neighbours. */
-static int take_out(graph *g, int node)
+static int eliminate(graph *g, int node)
 {
   int degree = 0;
   for (int i = 0; i < g->count; i++) {
@@ -148,8 +148,8 @@ static int take_out(graph *g, int node)
   return degree;
 }
 
-/* Checks each step of the elimination. It must list exactly the remaining neighbours of the node
- * that it eliminates. */
+/* Checks that each step of the elimination lists exactly the remaining neighbours of the node that
+ * it eliminates. */
 static void assert_elimination(const graph *given, const baum_i_elimination *found)
 {
   graph g = *given;
@@ -168,7 +168,7 @@ static void assert_elimination(const graph *given, const baum_i_elimination *fou
       assert_true(later[e] > p && later[e] < g.count);
       assert_true(g.coupled[node][found->node[later[e]]]);
     }
-    assert_int_equal(take_out(&g, node), count);
+    assert_int_equal(eliminate(&g, node), count);
   }
 }
 
@@ -177,7 +177,7 @@ static int couplings_in_order(const graph *given)
   graph g = *given;
   int sum = 0;
   for (int i = 0; i < g.count; i++) {
-    sum += take_out(&g, i);
+    sum += eliminate(&g, i);
   }
   return sum;
 }
@@ -203,7 +203,7 @@ static int couplings_by_greed(const graph *given)
       }
     }
     gone[best] = true;
-    sum += take_out(&g, best);
+    sum += eliminate(&g, best);
   }
   return sum;
 }
@@ -252,9 +252,9 @@ static void chains_are_eliminated_from_both_ends_in_turn(void **state)
   baum_i_elimination_clear(&found);
 }
 
-/* The joints of an N-four-bar: bars 0 to N stand on the ground, and couplers join bar k with bar k
- * + 1. Node 3 k is the pin between bar k and the ground. Nodes 3 k + 1 and 3 k + 2 are the pins at
- * the two ends of coupler k. */
+/* The joints of an N-four-bar: bars 0 to N are pinned to the ground, and coupler k joins bar k to
+ * bar k + 1. Node 3 k is the pin between bar k and the ground. Nodes 3 k + 1 and 3 k + 2 are the
+ * pins at the two ends of coupler k. */
 static graph make_ladder(int windows)
 {
   graph g = make_graph(3 * windows + 1);
@@ -271,8 +271,8 @@ static graph make_ladder(int windows)
 
 /* The library sorts the nodes by their distance from the root of the elimination tree. At most four
  * nodes have the same distance, two at each end of the ladder. A node changes only nodes that are
- * nearer to the root by at most two. The places of both therefore differ by less than 12. */
-static void nodes_come_shortly_before_those_they_change(void **state)
+ * at most two levels nearer to the root. Their places therefore differ by less than 12. */
+static void nodes_come_shortly_before_the_nodes_that_they_change(void **state)
 {
   (void)state;
   graph ladder = make_ladder(19);
@@ -289,7 +289,7 @@ static void nodes_come_shortly_before_those_they_change(void **state)
 
 /* Each elimination removes one node of a ring and couples its two neighbours, until three nodes are
  * left. */
-static void rings_have_the_fill_that_cannot_be_avoided(void **state)
+static void rings_have_the_least_possible_fill(void **state)
 {
   (void)state;
   for (int count = 3; count <= MOST; count++) {
@@ -307,7 +307,7 @@ static void cliques_are_full(void **state)
   }
 }
 
-static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
+static void uncoupled_nodes_and_empty_graphs_are_accepted(void **state)
 {
   (void)state;
   graph none = make_graph(0);
@@ -319,7 +319,7 @@ static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
 /* The library eliminates several nodes in each round. This may cause a few more couplings than the
  * greedy order, which eliminates one node at a time. It causes far fewer than an arbitrary
  * order. */
-static void random_graphs_have_little_more_fill_than_by_greed(void **state)
+static void random_graphs_have_little_more_fill_than_in_the_greedy_order(void **state)
 {
   (void)state;
   uint64_t seed = 2;
@@ -342,7 +342,7 @@ static void random_graphs_have_little_more_fill_than_by_greed(void **state)
   assert_true(found - edges < 0.5 * (unordered - edges));
 }
 
-static void too_many_couplings_are_given_up(void **state)
+static void too_many_couplings_are_refused(void **state)
 {
   (void)state;
   graph ring = make_ring(20);
@@ -363,12 +363,12 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(graphs_without_rings_have_no_fill),
     cmocka_unit_test(chains_are_eliminated_from_both_ends_in_turn),
-    cmocka_unit_test(nodes_come_shortly_before_those_they_change),
-    cmocka_unit_test(rings_have_the_fill_that_cannot_be_avoided),
+    cmocka_unit_test(nodes_come_shortly_before_the_nodes_that_they_change),
+    cmocka_unit_test(rings_have_the_least_possible_fill),
     cmocka_unit_test(cliques_are_full),
-    cmocka_unit_test(nodes_without_couplings_and_no_nodes_at_all_are_fine),
-    cmocka_unit_test(random_graphs_have_little_more_fill_than_by_greed),
-    cmocka_unit_test(too_many_couplings_are_given_up),
+    cmocka_unit_test(uncoupled_nodes_and_empty_graphs_are_accepted),
+    cmocka_unit_test(random_graphs_have_little_more_fill_than_in_the_greedy_order),
+    cmocka_unit_test(too_many_couplings_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

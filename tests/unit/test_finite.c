@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* If a number overflows, the error must name the joint or the body in which this happens. The
- * library must never return infinite results with BAUM_OK. */
+/* If a number overflows, the library must return an error. For forces, gamma and right-hand sides,
+ * the message must name the joint or the body. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

@@ -38,7 +38,7 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_weld, false, check_joint_derivatives);
 }
 
-static void the_design_angle_is_kept_and_a_given_angle_too(void **state)
+static void a_missing_angle_follows_from_the_design(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -101,7 +101,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
-    cmocka_unit_test(the_design_angle_is_kept_and_a_given_angle_too),
+    cmocka_unit_test(a_missing_angle_follows_from_the_design),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

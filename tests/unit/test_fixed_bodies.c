@@ -24,7 +24,7 @@ enum { MOST = 300 };
 
 /* ---- parts ---- */
 
-static baum_mechanism *begin(void)
+static baum_mechanism *create_mechanism(void)
 {
   baum_mechanism *m = NULL;
   check(baum_mechanism_create(&m));
@@ -78,7 +78,7 @@ typedef struct mounted {
 
 static mounted make_mounted(void)
 {
-  mounted out = {.mechanism = begin()};
+  mounted out = {.mechanism = create_mechanism()};
   baum_mechanism *m = out.mechanism;
   baum_body_id low = add_body(m, 0.0, -1.0);
   baum_body_id high = add_body(m, 0.0, 0.0);
@@ -107,7 +107,7 @@ static baum_simulation *start(const baum_mechanism *m, const baum_simulation_opt
   return run;
 }
 
-static int fixed_bodies_of(const baum_simulation *run)
+static int omitted_bodies(const baum_simulation *run)
 {
   const baum_i_block_path *path = run->workspace->motion;
   return path ? path->fixed_count : 0;
@@ -129,15 +129,14 @@ static void assert_same(const baum_simulation *run, const baum_simulation *want,
   }
 }
 
-/* Makes a run of 0.5 s in which fixed bodies are omitted, and one in which they are not, and
- * compares both. */
+/* Compares a run of 0.5 s that must omit `count` fixed bodies with a run that omits none. */
 static void assert_same_motion(const baum_mechanism *m, int count)
 {
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
   baum_simulation *whole = start_whole(m, o);
-  assert_int_equal(fixed_bodies_of(run), count);
-  assert_int_equal(fixed_bodies_of(whole), 0);
+  assert_int_equal(omitted_bodies(run), count);
+  assert_int_equal(omitted_bodies(whole), 0);
   check(baum_simulation_advance_to(run, 0.5));
   check(baum_simulation_advance_to(whole, 0.5));
   assert_same(run, whole, 1e-11); /* rounding errors of 500 steps */
@@ -162,10 +161,10 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
 
 /* Two bodies and ground, joined by three pins, form a rigid triangle. No body is welded, so no body
  * is omitted. */
-static void rigid_islands_are_solved_for(void **state)
+static void rigid_islands_are_not_omitted(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id left = add_body(m, 0.5, 0.5);
   baum_body_id right = add_body(m, 1.5, 0.5);
   baum_body_id bob = add_body(m, 5.0, 0.0);
@@ -184,7 +183,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   (void)state;
   enum { CHAIN = 7 };
   for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime, so this joins all bodies */
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {
       bodies[k] = add_body(m, k, 0.1 * k);
@@ -202,13 +201,13 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
   }
 }
 
-/* The block solver limits the number of joints of a body. This limit does not concern fixed
+/* The block solver limits the number of joints of a body. This limit does not apply to fixed
  * bodies. */
 static void a_fixed_body_may_have_any_number_of_joints(void **state)
 {
   (void)state;
   enum { ARMS = 60 };
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id hub = add_body(m, 0.0, 0.0);
   weld(m, BAUM_GROUND, hub);
   for (int k = 0; k < ARMS; k++) {
@@ -229,7 +228,7 @@ static void a_fixed_body_may_have_any_number_of_joints(void **state)
 static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0));
   check(baum_mechanism_freeze(m));
   assert_same_motion(m, 1);
@@ -241,7 +240,7 @@ static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 static void a_body_held_by_a_driver_is_not_fixed(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_driver_def def = baum_driver_def_default();
   def.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   def.value = 0.0;
@@ -251,13 +250,13 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame. One row is redundant. The weld of the frame is the
- * last joint, so one of its rows could be omitted. Rows that fix a body must never be omitted, so a
- * row of a crank is omitted instead. */
+/* Three parallel cranks, one of them on a frame, have one redundant row. The weld of the frame is
+ * the last joint, so one of its rows could be omitted. Rows that fix a body must never be omitted,
+ * so a row of a crank is omitted instead. */
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id coupler = add_body(m, 1.0, 1.0);
   baum_body_id frame = add_body(m, 2.0, -1.0);
   for (int k = 0; k < 3; k++) {
@@ -275,7 +274,7 @@ static void rows_that_fix_a_body_are_kept(void **state)
   const unsigned char *omitted = run->workspace->rows.omitted + first;
   assert_int_equal(run->workspace->rows.count, 1);
   assert_int_equal(omitted[0] + omitted[1] + omitted[2], 0);
-  assert_int_equal(fixed_bodies_of(run), 1);
+  assert_int_equal(omitted_bodies(run), 1);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
@@ -313,7 +312,7 @@ static void fixed_bodies_do_not_move_by_a_digit(void **state)
 
 /* ---- results include fixed bodies ---- */
 
-static void reactions_of_fixed_bodies_are_right(void **state)
+static void results_of_fixed_bodies_are_right(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -346,7 +345,7 @@ static void reactions_of_fixed_bodies_are_right(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-static void rows_between_fixed_bodies_stay_fulfilled(void **state)
+static void rows_between_fixed_bodies_stay_satisfied(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -365,7 +364,7 @@ static void rows_between_fixed_bodies_stay_fulfilled(void **state)
 
 /* ---- states in which fixed bodies are elsewhere ---- */
 
-static void frames_out_of_place_are_put_back(void **state)
+static void displaced_frames_are_put_back(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -386,10 +385,10 @@ static void frames_out_of_place_are_put_back(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-static void a_start_out_of_place_is_put_in_place(void **state)
+static void a_displaced_design_is_put_in_place(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_planar_fixed_def def = baum_planar_fixed_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = add_body(m, 1.0, 0.0);
@@ -423,7 +422,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   memcpy(v, baum_simulation_v(run), sizeof v);
   q[0] += 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
-  assert_int_equal(fixed_bodies_of(run), FRAMES);
+  assert_int_equal(omitted_bodies(run), FRAMES);
   q[0] -= 1e-3;
   v[0] = 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
@@ -441,17 +440,17 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(welded_frames_are_fixed_and_the_motion_is_the_same),
-    cmocka_unit_test(rigid_islands_are_solved_for),
+    cmocka_unit_test(rigid_islands_are_not_omitted),
     cmocka_unit_test(chains_of_welds_are_fixed_in_any_order),
     cmocka_unit_test(a_fixed_body_may_have_any_number_of_joints),
     cmocka_unit_test(a_mechanism_of_fixed_bodies_only_can_be_run),
     cmocka_unit_test(a_body_held_by_a_driver_is_not_fixed),
     cmocka_unit_test(rows_that_fix_a_body_are_kept),
     cmocka_unit_test(fixed_bodies_do_not_move_by_a_digit),
-    cmocka_unit_test(reactions_of_fixed_bodies_are_right),
-    cmocka_unit_test(rows_between_fixed_bodies_stay_fulfilled),
-    cmocka_unit_test(frames_out_of_place_are_put_back),
-    cmocka_unit_test(a_start_out_of_place_is_put_in_place),
+    cmocka_unit_test(results_of_fixed_bodies_are_right),
+    cmocka_unit_test(rows_between_fixed_bodies_stay_satisfied),
+    cmocka_unit_test(displaced_frames_are_put_back),
+    cmocka_unit_test(a_displaced_design_is_put_in_place),
     cmocka_unit_test(a_state_that_is_refused_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

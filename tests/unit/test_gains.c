@@ -94,7 +94,7 @@ static void constructors_keep_rule_and_numbers(void **state)
   }
 }
 
-static void fixed_gains_are_taken_as_they_are(void **state)
+static void fixed_gains_are_used_unchanged(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_fixed(5.0, 7.0), fixed_step(EULER));
@@ -127,7 +127,7 @@ static void taylor_gains_follow_equations_10_and_11(void **state)
   has(c.why, "spectral radius 1, marginal");
 }
 
-static void a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta(void **state)
+static void a_frequency_gives_beta_and_a_damping_ratio_gives_alpha(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_frequency(10.0, 0.7), variable_step());
@@ -135,7 +135,7 @@ static void a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta(void **state
   ASSERT_NEAR(c.alpha, 0.7 * 62.831853071795862, 1e-15, 0.0);
 }
 
-static void deadbeat_takes_the_point_of_the_method(void **state)
+static void deadbeat_uses_the_point_of_the_method(void **state)
 {
   (void)state;
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -160,14 +160,14 @@ static void best_damping_is_nowhere_worse_than_its_neighbours(void **state)
     double A = c.alpha * H;
     double B = (c.beta * H) * (c.beta * H);
     for (int k = 0; k < 4; k++) {
-      double beside = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
+      double nearby = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
       /* AB2 has a line of equally good points. Along this line, only B changes. */
-      assert_true(beside > c.amplification.spectral_radius - 1e-9);
+      assert_true(nearby > c.amplification.spectral_radius - 1e-9);
     }
   }
 }
 
-static void deadbeat_is_refused_where_there_is_none_with_the_best_point(void **state)
+static void methods_without_a_dead_beat_point_offer_their_best_point(void **state)
 {
   (void)state;
   for (int m = AB2; m <= AB4; m++) {
@@ -184,7 +184,7 @@ static void deadbeat_is_refused_where_there_is_none_with_the_best_point(void **s
   }
 }
 
-static void the_default_is_what_the_integrator_says(void **state)
+static void the_default_rule_is_that_of_the_integrator(void **state)
 {
   (void)state;
   const baum_gains zero = {0};
@@ -203,7 +203,7 @@ static void zero_gains_are_marginal_and_allowed(void **state)
   assert_null(strstr(c.why, "warning"));
 }
 
-static void gains_that_do_not_damp_are_warned_of(void **state)
+static void gains_without_damping_cause_a_warning(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_fixed(0.0, 100.0), fixed_step(RK4));
@@ -230,7 +230,7 @@ static void auto_is_a_fraction_of_the_rate(void **state)
   has(c.why, "(0.1 x 40 1/s, a rate); variable step");
 }
 
-static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
+static void auto_is_larger_if_drivers_take_all_degrees_of_freedom(void **state)
 {
   (void)state;
   baum_i_gain_context context = fixed_step(RK4);
@@ -249,7 +249,7 @@ static void auto_is_more_if_drivers_take_all_degrees_of_freedom(void **state)
   has(c.why, "(40 x 40 1/s, a rate; no degree of freedom is left); variable step");
 }
 
-/* Returns alpha / rate that the rule `auto` chooses for a fixed step. */
+/* Returns the ratio alpha / rate that the rule `auto` chooses for a fixed step. */
 static double share_of(const baum_i_method *method)
 {
   if (method->kind != BAUM_I_METHOD_ONE_STEP || method->degree == 1) {
@@ -275,7 +275,7 @@ static void auto_is_capped_and_always_stable(void **state)
 }
 
 /* `small` is explicit Euler with five times the step. It is stable up to alpha h = beta h = 0.4. */
-static void auto_keeps_inside_a_small_region(void **state)
+static void auto_stays_inside_a_small_region(void **state)
 {
   (void)state;
   static const baum_i_method small = {
@@ -291,7 +291,7 @@ static void auto_keeps_inside_a_small_region(void **state)
 static void auto_falls_back_when_nothing_moves(void **state)
 {
   (void)state;
-  static const double nothing[] = {0.0, 1e-8}; /* 1e-8 1/s is considered rounding */
+  static const double nothing[] = {0.0, 1e-8}; /* 1e-8 1/s counts as rounding */
   for (int k = 0; k < 2; k++) {
     baum_i_gain_context context = fixed_step(SEMI_IMPLICIT_EULER);
     context.rate = nothing[k];
@@ -306,7 +306,7 @@ static void auto_falls_back_when_nothing_moves(void **state)
   has(c.why, "(nothing moves at start: the rate is taken as 1 1/s); variable step");
 }
 
-static void auto_refuses_a_rate_that_is_no_number(void **state)
+static void auto_refuses_a_negative_or_infinite_rate(void **state)
 {
   (void)state;
   static const double bad[] = {-1.0, HUGE_VAL, (double)NAN};
@@ -320,7 +320,7 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
 
 /* ---- Near the edge -------------------------------------------------------- */
 
-static void stable_pairs_near_the_edge_are_warned_of(void **state)
+static void stable_gains_near_the_edge_cause_a_warning(void **state)
 {
   (void)state;
   static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* the limit is at (2, 4) */
@@ -338,7 +338,7 @@ static void stable_pairs_near_the_edge_are_warned_of(void **state)
 }
 
 /* Small gains also damp weakly. Only weak damping near the edge is a reason for a warning. */
-static void small_or_usual_gains_are_not_warned_of(void **state)
+static void small_and_usual_gains_cause_no_warning(void **state)
 {
   (void)state;
   static const double ratios[] = {0.8, 1.0, 2.0}; /* alpha / beta */
@@ -356,7 +356,7 @@ static void small_or_usual_gains_are_not_warned_of(void **state)
 
 /* ---- Explicit methods with variable steps ------------------------------- */
 
-static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
+static void the_longest_step_keeps_the_gains_stable(void **state)
 {
   (void)state;
   static const double pairs[][2] = {{100.0, 100.0}, {50.0, 500.0}, {400.0, 20.0}, {7.0, 0.0}};
@@ -382,7 +382,7 @@ static void the_longest_step_is_inside_of_the_region_of_the_gains(void **state)
 
 /* ---- Variable steps --------------------------------------------------------- */
 
-static void rules_of_the_step_are_refused_without_one(void **state)
+static void rules_that_need_a_fixed_step_are_refused_without_one(void **state)
 {
   (void)state;
   refused(baum_gains_scaled(0.5, 0.25), variable_step(), BAUM_ERR_ARGUMENT, "gains scaled",
@@ -409,7 +409,7 @@ static void variable_steps_have_no_radius(void **state)
   }
 }
 
-static void weak_damping_is_warned_of_with_variable_steps(void **state)
+static void weak_damping_causes_a_warning_with_variable_steps(void **state)
 {
   (void)state;
   has(chosen(baum_gains_fixed(2.0, 10.0), variable_step()).why,
@@ -420,7 +420,7 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
 }
 
 /* Only BDF needs this warning. With other methods, the error test makes violations decay. */
-static void weak_damping_is_a_matter_of_bdf(void **state)
+static void weak_damping_causes_a_warning_only_with_bdf(void **state)
 {
   (void)state;
   baum_i_gain_context adams = variable_step();
@@ -481,7 +481,7 @@ static void unknown_rules_are_refused(void **state)
   refused((baum_gains){0}, circular, BAUM_ERR_ARGUMENT, "rule 0", "is unknown");
 }
 
-static void a_step_that_is_no_step_is_refused(void **state)
+static void a_step_that_is_not_positive_and_finite_is_refused(void **state)
 {
   (void)state;
   static const double bad[] = {0.0, -1e-3, HUGE_VAL};
@@ -537,7 +537,7 @@ static void the_pair_that_a_refusal_offers_is_accepted(void **state)
   }
 }
 
-static void unstable_gains_run_when_allowed_and_say_so(void **state)
+static void allowed_unstable_gains_are_reported(void **state)
 {
   (void)state;
   baum_i_gain_context context = fixed_step(SEMI_IMPLICIT_EULER);
@@ -564,36 +564,36 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(constructors_keep_rule_and_numbers),
-    cmocka_unit_test(fixed_gains_are_taken_as_they_are),
+    cmocka_unit_test(fixed_gains_are_used_unchanged),
     cmocka_unit_test(scaled_gains_are_divided_by_the_step),
     cmocka_unit_test(taylor_gains_follow_equations_10_and_11),
-    cmocka_unit_test(a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta),
-    cmocka_unit_test(deadbeat_takes_the_point_of_the_method),
+    cmocka_unit_test(a_frequency_gives_beta_and_a_damping_ratio_gives_alpha),
+    cmocka_unit_test(deadbeat_uses_the_point_of_the_method),
     cmocka_unit_test(best_damping_is_nowhere_worse_than_its_neighbours),
-    cmocka_unit_test(deadbeat_is_refused_where_there_is_none_with_the_best_point),
-    cmocka_unit_test(the_default_is_what_the_integrator_says),
+    cmocka_unit_test(methods_without_a_dead_beat_point_offer_their_best_point),
+    cmocka_unit_test(the_default_rule_is_that_of_the_integrator),
     cmocka_unit_test(zero_gains_are_marginal_and_allowed),
-    cmocka_unit_test(gains_that_do_not_damp_are_warned_of),
+    cmocka_unit_test(gains_without_damping_cause_a_warning),
     cmocka_unit_test(auto_is_a_fraction_of_the_rate),
-    cmocka_unit_test(auto_is_more_if_drivers_take_all_degrees_of_freedom),
+    cmocka_unit_test(auto_is_larger_if_drivers_take_all_degrees_of_freedom),
     cmocka_unit_test(auto_is_capped_and_always_stable),
-    cmocka_unit_test(auto_keeps_inside_a_small_region),
+    cmocka_unit_test(auto_stays_inside_a_small_region),
     cmocka_unit_test(auto_falls_back_when_nothing_moves),
-    cmocka_unit_test(auto_refuses_a_rate_that_is_no_number),
-    cmocka_unit_test(stable_pairs_near_the_edge_are_warned_of),
-    cmocka_unit_test(small_or_usual_gains_are_not_warned_of),
-    cmocka_unit_test(the_longest_step_is_inside_of_the_region_of_the_gains),
-    cmocka_unit_test(rules_of_the_step_are_refused_without_one),
+    cmocka_unit_test(auto_refuses_a_negative_or_infinite_rate),
+    cmocka_unit_test(stable_gains_near_the_edge_cause_a_warning),
+    cmocka_unit_test(small_and_usual_gains_cause_no_warning),
+    cmocka_unit_test(the_longest_step_keeps_the_gains_stable),
+    cmocka_unit_test(rules_that_need_a_fixed_step_are_refused_without_one),
     cmocka_unit_test(variable_steps_have_no_radius),
-    cmocka_unit_test(weak_damping_is_warned_of_with_variable_steps),
-    cmocka_unit_test(weak_damping_is_a_matter_of_bdf),
+    cmocka_unit_test(weak_damping_causes_a_warning_with_variable_steps),
+    cmocka_unit_test(weak_damping_causes_a_warning_only_with_bdf),
     cmocka_unit_test(numbers_out_of_range_are_refused_by_name_and_unit),
     cmocka_unit_test(numbers_that_overflow_are_refused),
     cmocka_unit_test(unknown_rules_are_refused),
-    cmocka_unit_test(a_step_that_is_no_step_is_refused),
+    cmocka_unit_test(a_step_that_is_not_positive_and_finite_is_refused),
     cmocka_unit_test(unstable_gains_are_refused_with_numbers_and_a_remedy),
     cmocka_unit_test(the_pair_that_a_refusal_offers_is_accepted),
-    cmocka_unit_test(unstable_gains_run_when_allowed_and_say_so),
+    cmocka_unit_test(allowed_unstable_gains_are_reported),
     cmocka_unit_test(the_longest_explanations_are_complete),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

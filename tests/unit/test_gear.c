@@ -95,10 +95,11 @@ static void a_planetary_gear_follows_willis(void **state)
   ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* the sum of terms of about 50 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-13);
   double sun = 11.0;
-  double turned = sun / (1.0 + 90.0 / 20.0);
+  double arm_angle = sun / (1.0 + 90.0 / 20.0);
   p.q[p.mechanism->bodies[scene.link.index1]->q + 2] += sun;
-  p.q[p.mechanism->bodies[arm.index1]->q + 2] += turned;
-  p.q[p.mechanism->bodies[scene.crank.index1]->q + 2] += turned - 20.0 / 35.0 * (sun - turned);
+  p.q[p.mechanism->bodies[arm.index1]->q + 2] += arm_angle;
+  p.q[p.mechanism->bodies[scene.crank.index1]->q + 2] +=
+    arm_angle - 20.0 / 35.0 * (sun - arm_angle);
   test_point_update(&p);
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
   ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-12); /* the sum of terms of about 500 */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the generalized-alpha method: the order of all unknowns, the damping of fast modes, stiff
- * forces, redundant rows, and shortened steps. */
+/* Tests the generalized-alpha method: the order of q, v and lambda, the damping of fast modes,
+ * stiff forces, redundant rows, and shortened steps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -90,10 +90,10 @@ static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The damping is 1e4 1/s and the steps are 10 ms. Explicit methods are unstable with such steps.
- * The slow motion, which is x = exp(-w t / (2 d)) for d >> 1, is accurate. The error comes from the
- * first steps, because they do not resolve the transition from rest to the slow motion. It was
- * measured to be 3e-4, which is a fraction of (w h)^2 = 1e-2. */
+/* The decay rate of the velocity is 1e4 1/s, and the steps are 10 ms long. Explicit methods are
+ * unstable with such steps. The slow motion, which is x = exp(-w t / (2 d)) for d >> 1, is
+ * accurate. The error comes from the first steps, because they do not resolve the transition from
+ * rest to the slow motion. The measured error is 3e-4, which is a fraction of (w h)^2 = 1e-2. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
@@ -182,7 +182,7 @@ static void multipliers_are_of_order_2_from_the_start(void **state)
 
 /* ---- runs ---- */
 
-static void positions_fulfil_the_constraints_to_rounding(void **state)
+static void positions_satisfy_the_constraints_to_rounding(void **state)
 {
   (void)state;
   model m = make_crank((model_slider_crank){0});
@@ -211,7 +211,7 @@ static void end_of(const model *m, baum_simulation_options *options, double *q)
 
 /* A second guide on the same line changes only the matrix of the iteration. The two motions
  * therefore differ by at most the tolerance of the iteration. */
-static void redundant_rows_alter_nothing(void **state)
+static void redundant_rows_do_not_change_the_motion(void **state)
 {
   (void)state;
   model plain = make_crank((model_slider_crank){0});
@@ -250,7 +250,7 @@ static void a_start_off_the_constraints_is_projected(void **state)
 
 /* Samples at one third and at two thirds of every step do not change the motion. They are as
  * accurate as the results at grid points. */
-static void samples_beside_the_grid_alter_nothing(void **state)
+static void samples_between_grid_points_change_nothing(void **state)
 {
   (void)state;
   enum { SAMPLES = 300 };
@@ -293,7 +293,7 @@ static int jump(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-static void samples_of_a_mechanism_alter_nothing_from_the_first_step_on(void **state)
+static void samples_in_the_first_step_change_nothing(void **state)
 {
   (void)state;
   const baum_channel channel = baum_channel_of(BAUM_Q);
@@ -312,7 +312,7 @@ static void samples_of_a_mechanism_alter_nothing_from_the_first_step_on(void **s
   model_destroy(&m);
 }
 
-static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
+static void a_step_that_does_not_converge_leaves_the_state(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = one_coordinate(1.0, 0.0, jump, NULL, NULL);
@@ -412,7 +412,7 @@ static baum_mechanism *link_with_gauge(double *k)
 
 /* The scale of u is 1e-5. The rounding error of x is therefore 1e-11 of this scale, whatever the
  * step. The iteration must accept this error. */
-static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **state)
+static void the_iteration_accepts_rounding_errors_of_a_small_coordinate(void **state)
 {
   (void)state;
   for (double k = 1e8; k <= 1e12; k *= 100.0) {
@@ -438,14 +438,14 @@ int main(void)
     cmocka_unit_test(a_stiff_damper_needs_no_small_steps),
     cmocka_unit_test(positions_velocities_and_multipliers_are_of_order_2),
     cmocka_unit_test(multipliers_are_of_order_2_from_the_start),
-    cmocka_unit_test(positions_fulfil_the_constraints_to_rounding),
-    cmocka_unit_test(redundant_rows_alter_nothing),
+    cmocka_unit_test(positions_satisfy_the_constraints_to_rounding),
+    cmocka_unit_test(redundant_rows_do_not_change_the_motion),
     cmocka_unit_test(a_start_off_the_constraints_is_projected),
-    cmocka_unit_test(samples_beside_the_grid_alter_nothing),
-    cmocka_unit_test(samples_of_a_mechanism_alter_nothing_from_the_first_step_on),
-    cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
+    cmocka_unit_test(samples_between_grid_points_change_nothing),
+    cmocka_unit_test(samples_in_the_first_step_change_nothing),
+    cmocka_unit_test(a_step_that_does_not_converge_leaves_the_state),
     cmocka_unit_test(only_index_3_without_gains_is_offered),
-    cmocka_unit_test(rounding_in_the_scale_of_a_small_coordinate_is_no_failure),
+    cmocka_unit_test(the_iteration_accepts_rounding_errors_of_a_small_coordinate),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

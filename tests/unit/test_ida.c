@@ -70,9 +70,9 @@ static violation largest_violation(baum_formulation formulation, double t)
 }
 
 /* At index 3, the equations contain Phi = 0. At index 2 they contain Phi' = 0, and GGL contains
- * both. These hold within the tolerance of Newton's iteration. At index 2, Phi drifts. The drift is
- * slower than at index 1, where Phi' drifts too. */
-static void violation_is_as_the_formulation_says(void **state)
+ * both. These equations hold within the tolerance of Newton's iteration. At index 2, Phi drifts.
+ * The drift is slower than at index 1, where Phi' drifts too. */
+static void violations_agree_with_the_formulation(void **state)
 {
   (void)state;
   violation unstabilized = largest_violation(BAUM_FORMULATION_UNSTABILIZED, 5.0);
@@ -135,10 +135,10 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* Two runs are compared: one with the exact Jacobian, and one with the dense difference Jacobian
- * that IDA computes itself. The first must not need more steps or iterations. Rounding causes
- * deviations. They have been at most 15 % so far, and 30 % are allowed. A missing term or a wrong
- * sign needs 2 to 40 times as much work. */
+/* Compares a run with the exact Jacobian to a run with the dense difference Jacobian that IDA
+ * computes itself. The first run must not need more steps or iterations. Deviations due to rounding
+ * have been at most 15 % so far, and 30 % are allowed. A missing term or a wrong sign causes 2 to
+ * 40 times as much work. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {
@@ -223,8 +223,9 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
 
 /* Checks that the errors are at most 0.1. The error test excludes multipliers, so that only
  * Newton's iteration controls them. The tolerance of this iteration is 1e-2 of the largest
- * multiplier. It weights each multiplier by the size of its row, and these sizes differ by less
- * than a factor of 10. Without this control the errors would grow to 1e14 times the multipliers. */
+ * multiplier. The iteration weights each multiplier by the size of its row, and these sizes differ
+ * by less than a factor of 10. Without this control the errors would grow to 1e14 times the
+ * multipliers. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -278,8 +279,8 @@ static baum_mechanism *make_sledge(void)
   return mechanism;
 }
 
-/* A body slides freely on a rail, so that its exact multipliers are zero. The computed ones are
- * rounding errors, which must not make the run fail. */
+/* A body slides freely on a rail, so that its exact multipliers are zero. The computed multipliers
+ * are rounding errors, which must not make the run fail. */
 static void multipliers_may_vanish(void **state)
 {
   (void)state;
@@ -380,10 +381,10 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
 }
 
 /* If the error test excludes multipliers, their error is arbitrary. If it includes them, their
- * error is at most 10 times their tolerance, as it is for other unknowns. The value measured was
- * 3.5. If the tolerance decreases by a factor of 10, the number of steps rises less than fivefold,
- * because the order is at least 2. */
-static void multipliers_are_tested_as_their_factor_says(void **state)
+ * error is at most 10 times their tolerance, as for other unknowns. The largest measured error is
+ * 3.5 times the tolerance. If the tolerance decreases by a factor of 10, the number of steps rises
+ * less than fivefold, because the order is at least 2. */
+static void the_error_test_of_multipliers_follows_their_factor(void **state)
 {
   (void)state;
   static const double FACTORS[] = {1.0, 1e-1, 1e-2, 1e-3};
@@ -429,7 +430,7 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
     const double v[2] = {0.3, -1.0};
     assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
     assert_int_equal(integrator_run_restart(&run, 0.0, q, v, 1.0), BAUM_OK);
-    assert_memory_equal(run.state_q, q, sizeof q); /* create does not change the state */
+    assert_memory_equal(run.state_q, q, sizeof q); /* restart() does not change the state */
     assert_int_equal(integrator_run_step(&run), BAUM_OK);
     const double *end = run.state_q;
     double length = hypot(end[0], end[1]);
@@ -446,9 +447,9 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
 }
 
 /* The start is consistent, and the library chooses the first step. At any tolerance, none of the
- * first ten steps should be rejected. There are exceptions. At index 2 one step is rejected by
- * chance, and at index 3 two are. A shorter first step would cause more rejections at index 3. */
-static void the_start_is_smooth(void **state)
+ * first ten steps should be rejected. There are exceptions: at most one step is rejected at index
+ * 2, and at most two at index 3. A shorter first step would cause more rejections at index 3. */
+static void few_of_the_first_steps_are_rejected(void **state)
 {
   (void)state;
   model scene;
@@ -568,14 +569,14 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(error_falls_with_the_tolerance),
-    cmocka_unit_test(violation_is_as_the_formulation_says),
+    cmocka_unit_test(violations_agree_with_the_formulation),
     cmocka_unit_test(the_exact_jacobian_is_as_good_as_differences),
     cmocka_unit_test(the_multipliers_stay_accurate),
     cmocka_unit_test(multipliers_may_vanish),
     cmocka_unit_test(the_unit_of_mass_makes_no_difference),
-    cmocka_unit_test(multipliers_are_tested_as_their_factor_says),
+    cmocka_unit_test(the_error_test_of_multipliers_follows_their_factor),
     cmocka_unit_test(a_start_off_the_constraints_jumps_onto_them),
-    cmocka_unit_test(the_start_is_smooth),
+    cmocka_unit_test(few_of_the_first_steps_are_rejected),
     cmocka_unit_test(redundant_rows_make_no_difference),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),

@@ -23,7 +23,7 @@ typedef struct witness {
   double fails_at; /* value of the first input at which force() fails */
 } witness;
 
-static int look(const double *inputs, witness *w)
+static int record_inputs(const double *inputs, witness *w)
 {
   w->calls++;
   w->none = inputs == NULL;
@@ -41,7 +41,7 @@ static int force(double t, const double *q, const double *v, const double *input
   (void)q;
   (void)v;
   out[0] = inputs ? 4.0 * inputs[0] : 0.0;
-  return look(inputs, user);
+  return record_inputs(inputs, user);
 }
 
 /* Records the inputs that the function receives. The derivative that it returns is zero. */
@@ -52,7 +52,7 @@ static int force_q(double t, const double *q, const double *v, const double *inp
   (void)q;
   (void)v;
   (void)out;
-  return look(inputs, user);
+  return record_inputs(inputs, user);
 }
 
 static int unit_mass(double t, const double *q, double *out, void *user)
@@ -166,7 +166,7 @@ static void copies_have_the_same_inputs_and_their_own_values(void **state)
 
 /* ---- values of a workspace, and the inputs that functions receive ---- */
 
-static void a_workspace_holds_values_of_its_own(void **state)
+static void each_workspace_has_its_own_inputs(void **state)
 {
   (void)state;
   scene s = pushed_scene();
@@ -211,7 +211,7 @@ static void force_functions_receive_the_present_values_in_order(void **state)
   check_seen(&seen, w, 0.5);
   assert_int_equal(baum_workspace_set_input(w, s.push, 2.0), BAUM_OK);
   check_seen(&seen, w, 2.0);
-  /* Functions for derivatives receive inputs too. The last one that is called is force_q(). */
+  /* Functions for derivatives receive inputs too. The last function that is called is force_q(). */
   baum_sparse sparse = {NULL, NULL, NULL, 0};
   const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
   const double y[4] = {0.0, 0.0, 0.0, 0.0};
@@ -226,7 +226,7 @@ static void force_functions_receive_the_present_values_in_order(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void without_inputs_functions_receive_null(void **state)
+static void functions_receive_null_if_there_are_no_inputs(void **state)
 {
   (void)state;
   witness seen = {.fails_at = 1e9};
@@ -304,8 +304,8 @@ static double allowed(step_mode mode)
   return baum_integrator_order(mode.integrator) == 1 ? 3e-3 : 1e-12;
 }
 
-/* Advances to t and compares with the exact motion. This motion starts at (x, v) at a time that is
- * h earlier, and has the constant acceleration a. */
+/* Advances to t and compares with the exact motion. This motion is at (x, v) at the time t - h, and
+ * has the constant acceleration a. */
 static void check_motion(baum_simulation *run, double t, double h, double a, double x, double v,
                          double off)
 {
@@ -318,8 +318,8 @@ enum { CHANGES = 3 };
 
 static void check_run(step_mode mode)
 {
-  /* These times are grid points of fixed steps. A method with variable steps would otherwise step
-   * over several of them at once. */
+  /* These times are grid points of fixed steps. Without the changes, one variable step would pass
+   * over several of them. */
   static const double until[CHANGES + 1] = {0.25, 0.375, 0.75, 1.0};
   static const double inputs[CHANGES + 1] = {0.5, -3.0, 0.0, 1.25};
   scene s = pushed_scene();
@@ -357,7 +357,7 @@ static void a_change_acts_from_the_present_time_on(void **state)
   (void)state;
   int count = 0;
   for (int k = 0; step_mode_at(k).integrator; k++) {
-    /* IDA at index 3 is excluded, because it gives a warning. */
+    /* Methods that offer only index 3 are excluded. */
     if (baum_integrator_offers(step_mode_at(k).integrator, BAUM_FORMULATION_BAUMGARTE)) {
       check_run(step_mode_at(k));
       count++;
@@ -366,7 +366,7 @@ static void a_change_acts_from_the_present_time_on(void **state)
   assert_in_range(count, 12, 100);
 }
 
-static void each_run_has_values_of_its_own(void **state)
+static void each_run_has_its_own_inputs(void **state)
 {
   (void)state;
   scene s = pushed_scene();
@@ -386,7 +386,7 @@ static void each_run_has_values_of_its_own(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void a_state_that_is_set_keeps_the_inputs(void **state)
+static void set_state_keeps_the_inputs(void **state)
 {
   (void)state;
   scene s = pushed_scene();
@@ -421,7 +421,7 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
   assert_true(baum_simulation_time(run) == 0.4);
   assert_int_equal(restarts_of(run), 0);
   /* The run continues with the old input. The first of the following times lie inside the last
-   * step. At these times, too, the motion must be that of the old input. */
+   * step. At these times, too, the motion must follow the old input. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     ASSERT_NEAR(baum_simulation_q(run)[0], 0.5 * t * t, 0.0,
@@ -436,13 +436,13 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(inputs_have_names_numbers_and_initial_values),
     cmocka_unit_test(copies_have_the_same_inputs_and_their_own_values),
-    cmocka_unit_test(a_workspace_holds_values_of_its_own),
+    cmocka_unit_test(each_workspace_has_its_own_inputs),
     cmocka_unit_test(force_functions_receive_the_present_values_in_order),
-    cmocka_unit_test(without_inputs_functions_receive_null),
+    cmocka_unit_test(functions_receive_null_if_there_are_no_inputs),
     cmocka_unit_test(user_coordinates_and_their_check_receive_inputs),
     cmocka_unit_test(a_change_acts_from_the_present_time_on),
-    cmocka_unit_test(each_run_has_values_of_its_own),
-    cmocka_unit_test(a_state_that_is_set_keeps_the_inputs),
+    cmocka_unit_test(each_run_has_its_own_inputs),
+    cmocka_unit_test(set_state_keeps_the_inputs),
     cmocka_unit_test(a_change_of_an_input_that_fails_is_undone),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -70,7 +70,7 @@ static const facts FACTS[] = {
 
 enum { COUNT = sizeof FACTS / sizeof FACTS[0] };
 
-static void integrators_tell_name_order_and_step(void **state)
+static void integrators_report_name_order_and_step(void **state)
 {
   (void)state;
   for (int k = 0; k < COUNT; k++) {
@@ -85,7 +85,7 @@ static void integrators_tell_name_order_and_step(void **state)
   assert_null(baum_integrator_at(-1));
 }
 
-static void only_pairs_take_a_step_or_a_tolerance(void **state)
+static void embedded_pairs_and_sundials_have_variable_steps(void **state)
 {
   (void)state;
   for (int k = 0; k < COUNT; k++) {
@@ -203,7 +203,7 @@ static void gains_follow_formulation_and_direction(void **state)
 
 /* ---- stability through the public interface ---- */
 
-static void stability_comes_from_the_integrators_own_description(void **state)
+static void stability_is_reported_for_each_integrator(void **state)
 {
   (void)state;
   baum_amplification out;
@@ -233,7 +233,7 @@ static void stability_comes_from_the_integrators_own_description(void **state)
   ASSERT_NEAR(good[1], 1.0, 0.0, 0.0);
 }
 
-static void amplification_is_cut_to_the_callers_size(void **state)
+static void amplification_is_truncated_to_the_callers_size(void **state)
 {
   (void)state;
   unsigned char bytes[sizeof(baum_amplification) + 8];
@@ -255,7 +255,7 @@ static void amplification_is_cut_to_the_callers_size(void **state)
     assert_string_equal(baum_message(), (message)); \
   } while (0)
 
-static void wrong_arguments_are_refused_with_the_argument(void **state)
+static void wrong_arguments_are_refused_by_name(void **state)
 {
   (void)state;
   baum_amplification out;
@@ -301,16 +301,16 @@ static void wrong_arguments_are_refused_with_the_argument(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(integrators_tell_name_order_and_step),
-    cmocka_unit_test(only_pairs_take_a_step_or_a_tolerance),
+    cmocka_unit_test(integrators_report_name_order_and_step),
+    cmocka_unit_test(embedded_pairs_and_sundials_have_variable_steps),
     cmocka_unit_test(null_is_accepted_as_no_integrator),
     cmocka_unit_test(integrators_offer_their_formulations_default_first),
     cmocka_unit_test(formulations_have_names),
     cmocka_unit_test(tolerances_grow_with_scale_and_speed_only),
     cmocka_unit_test(gains_follow_formulation_and_direction),
-    cmocka_unit_test(stability_comes_from_the_integrators_own_description),
-    cmocka_unit_test(amplification_is_cut_to_the_callers_size),
-    cmocka_unit_test(wrong_arguments_are_refused_with_the_argument),
+    cmocka_unit_test(stability_is_reported_for_each_integrator),
+    cmocka_unit_test(amplification_is_truncated_to_the_callers_size),
+    cmocka_unit_test(wrong_arguments_are_refused_by_name),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
   return error;
 }
 
-/* Returns the largest allowed error for rtol = 1e-6 or h = 1e-3. The motions have rates of 2 to 6
+/* Returns the largest allowed error for rtol = 1e-6 or h = 1e-3. The motions have rates of 2 to 10
  * 1/s. The error for index 3 may be larger, because its velocities are inaccurate. */
 static double allowed(const integrator_setup *setup)
 {
@@ -133,7 +133,7 @@ static void a_pendulum_swings_forward_and_backward_in_time(void **state)
 
 /* From 0.7 s on, the force fails at every call. It either returns "stop" (-1), or asks for smaller
  * steps (1). The run must fail, and must keep the state at the end of the last good step. */
-static void meet_fault(const method *m)
+static void run_into_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
     force_fault fault = {.after = 0.7, .answer = answer};
@@ -160,7 +160,7 @@ static void meet_fault(const method *m)
 static void a_failing_function_leaves_the_last_good_step(void **state)
 {
   (void)state;
-  for_each(meet_fault);
+  for_each(run_into_fault);
 }
 
 /* After a function has returned "stop", the step must not call it again. */
@@ -174,21 +174,20 @@ static void stop_at_once(const method *m)
   while (integrator_run_step(&run) == BAUM_OK) {
     fault.calls = 0;
   }
-  /* The calls that were counted are those of the failing step, up to the call that returned
-   * "stop". */
+  /* Only the calls in the failing step are counted, up to the call that returned "stop". */
   assert_true(fault.calls <= 16);
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
 
-static void a_function_that_stops_is_left_alone(void **state)
+static void a_function_that_returns_stop_is_not_called_again(void **state)
 {
   (void)state;
   for_each(stop_at_once);
 }
 
 /* After a failure, restarts the run at another time, and then backwards in time. */
-static void begin_anew(const method *m)
+static void restart_after_failure(const method *m)
 {
   if (m->fixed || !m->integrator->restart) {
     return;
@@ -225,11 +224,12 @@ static void begin_anew(const method *m)
 static void a_restart_works_after_a_failure_and_backwards(void **state)
 {
   (void)state;
-  for_each(begin_anew);
+  for_each(restart_after_failure);
 }
 
-/* The force fails twice and then works again. The run must continue from the last good state. */
-static void go_on(const method *m)
+/* The run fails twice, and then the force works again. The run must continue from the last good
+ * state. */
+static void continue_after_failures(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
   baum_mechanism *mechanism = make_faulty_pendulum(&fault);
@@ -248,14 +248,14 @@ static void go_on(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void a_run_goes_on_when_what_failed_is_mended(void **state)
+static void a_run_continues_when_the_force_works_again(void **state)
 {
   (void)state;
-  for_each(go_on);
+  for_each(continue_after_failures);
 }
 
 /* Interpolates inside the last step and at both of its ends. Other times must be refused. */
-static void look_inside(const method *m)
+static void interpolate_in_last_step(const method *m)
 {
   if (m->fixed) {
     return;
@@ -288,12 +288,12 @@ static void look_inside(const method *m)
 static void positions_inside_the_last_step_are_interpolated(void **state)
 {
   (void)state;
-  for_each(look_inside);
+  for_each(interpolate_in_last_step);
 }
 
 /* The tolerance is below rounding, so that the first step becomes too short. The run must fail, and
  * its message must advise to raise rtol. */
-static void ask_too_much(const method *m)
+static void use_too_small_tolerance(const method *m)
 {
   if (m->fixed) {
     return;
@@ -310,15 +310,15 @@ static void ask_too_much(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void too_small_tolerances_are_an_error_of_the_step(void **state)
+static void too_small_tolerances_make_the_step_fail(void **state)
 {
   (void)state;
-  for_each(ask_too_much);
+  for_each(use_too_small_tolerance);
 }
 
 /* Near 1e15 s, neighbouring doubles are 0.125 s apart. The end of a shorter step therefore cannot
  * be represented. The run must fail. */
-static void lose_the_step(const method *m)
+static void run_at_late_time(const method *m)
 {
   if (m->fixed) {
     return;
@@ -340,10 +340,10 @@ static void lose_the_step(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void a_step_lost_in_the_rounding_of_time_is_an_error(void **state)
+static void a_step_below_the_rounding_of_time_fails(void **state)
 {
   (void)state;
-  for_each(lose_the_step);
+  for_each(run_at_late_time);
 }
 
 /* ---- order ---- */
@@ -363,8 +363,8 @@ static double error_with_step(const method *m, double step)
 
 /* Computes the order of a method from two errors: with the step COARSE, and with this step halved
  * three times. COARSE is short enough for the leading error term to dominate. It is long enough for
- * all errors to be far above rounding (1e-13). For orders 5 and 8 there is no such step. There the
- * step is halved only twice, and a larger deviation is allowed. */
+ * all errors to be far above rounding (1e-13). For orders 5 and 8, no step satisfies both
+ * conditions. Their step is halved only twice, and a larger deviation is allowed. */
 static void observe_order(const method *m)
 {
   static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};
@@ -414,12 +414,12 @@ int main(void)
     cmocka_unit_test(an_oscillator_keeps_time),
     cmocka_unit_test(a_pendulum_swings_forward_and_backward_in_time),
     cmocka_unit_test(a_failing_function_leaves_the_last_good_step),
-    cmocka_unit_test(a_function_that_stops_is_left_alone),
+    cmocka_unit_test(a_function_that_returns_stop_is_not_called_again),
     cmocka_unit_test(a_restart_works_after_a_failure_and_backwards),
-    cmocka_unit_test(a_run_goes_on_when_what_failed_is_mended),
+    cmocka_unit_test(a_run_continues_when_the_force_works_again),
     cmocka_unit_test(positions_inside_the_last_step_are_interpolated),
-    cmocka_unit_test(too_small_tolerances_are_an_error_of_the_step),
-    cmocka_unit_test(a_step_lost_in_the_rounding_of_time_is_an_error),
+    cmocka_unit_test(too_small_tolerances_make_the_step_fail),
+    cmocka_unit_test(a_step_below_the_rounding_of_time_fails),
     cmocka_unit_test(fixed_step_methods_have_their_order),
     cmocka_unit_test(bdf_is_given_a_portion_of_rtol),
   };

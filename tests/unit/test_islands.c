@@ -11,7 +11,7 @@
 
 /* ---- mechanisms ---- */
 
-static baum_mechanism *begin(void)
+static baum_mechanism *create_mechanism(void)
 {
   baum_mechanism *m = NULL;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
@@ -77,10 +77,10 @@ static void assert_island(baum_i_island island, int bodies, int joints, int rows
   assert_int_equal(island.rows, rows);
 }
 
-static void ground_holds_no_island_together(void **state)
+static void ground_does_not_connect_islands(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id a = add_body(m, 1.0, 0.0);
   (void)add_body(m, 5.0, 5.0); /* a body without joints */
   baum_body_id b = add_body(m, 1.0, 3.0);
@@ -93,12 +93,12 @@ static void ground_holds_no_island_together(void **state)
 }
 
 /* Makes a chain of bodies. Its joints are added in a mixed order. */
-static void joints_in_any_order_make_one_island(void **state)
+static void joints_in_any_order_form_one_island(void **state)
 {
   (void)state;
   enum { BODIES = 41 };
   for (int step = 1; step < BODIES; step++) { /* 41 is prime, so this joins all bodies */
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_body_id bodies[BODIES];
     for (int k = 0; k < BODIES; k++) {
       bodies[k] = add_body(m, k, 0.0);
@@ -111,15 +111,15 @@ static void joints_in_any_order_make_one_island(void **state)
   }
 }
 
-static void a_welded_frame_holds_no_island_together(void **state)
+static void a_welded_frame_does_not_connect_islands(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id left = add_body(m, 0.0, -1.0);
   baum_body_id frame = add_body(m, 0.0, 0.0);
   baum_body_id right = add_body(m, 2.0, -1.0);
   baum_body_id plate = add_body(m, 1.0, 0.0);
-  baum_body_id hand = add_body(m, 2.0, -2.0); /* it is welded, but to a body that moves */
+  baum_body_id hand = add_body(m, 2.0, -2.0); /* this body is welded to a body that moves */
   pin(m, frame, left, 0.0, 0.0);
   weld(m, plate, frame);
   weld(m, frame, BAUM_GROUND);
@@ -129,19 +129,19 @@ static void a_welded_frame_holds_no_island_together(void **state)
   assert_island(count(m, 2), 2, 2, 5);
 }
 
-static void fixed_bodies_make_no_island(void **state)
+static void fixed_bodies_form_no_island(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   weld(m, add_body(m, 1.0, 0.0), BAUM_GROUND);
   assert_island(count(m, 0), 0, 0, 0);
 }
 
 /* ---- errors of one island ---- */
 
-/* Makes a slider-crank at a dead centre, whose slider is driven with the given acceleration. No
- * acceleration of the crank achieves this. Beside it, a force accelerates a lever by about 2e9
- * rad/s^2. */
+/* Makes a slider-crank at a dead centre. A driver prescribes the acceleration of its slider, which
+ * no acceleration of the crank can produce. In another island, a force of 1e9 N accelerates a
+ * lever. */
 static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
 {
   baum_joint_id guide;
@@ -175,7 +175,7 @@ static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
   return w;
 }
 
-static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **state)
+static void a_fast_lever_does_not_hide_a_contradiction_in_another_island(void **state)
 {
   (void)state;
   /* With the first acceleration, the row of the driver is omitted; with the second, all rows are
@@ -183,7 +183,7 @@ static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **sta
   const double accelerations[] = {1.0, 1e-6};
   for (int k = 0; k < 2; k++) {
     double q[12], v[12] = {0.0}, a[12] = {0.0};
-    baum_mechanism *m = begin();
+    baum_mechanism *m = create_mechanism();
     baum_workspace *w = make_driven(accelerations[k], m);
     assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
     memset(v, 0, sizeof v);
@@ -194,14 +194,14 @@ static void the_fast_lever_hides_no_contradiction_of_the_slider_crank(void **sta
   }
 }
 
-/* Two drivers of one pin contradict each other by 1e-3 rad/s. Beside them, a body rotates at 1e6
- * rad/s. */
-static void a_fast_body_hides_no_contradiction_of_two_drivers(void **state)
+/* Two drivers of one pin contradict each other by 1e-3 rad/s. In another island, a body rotates at
+ * 1e6 rad/s. */
+static void a_fast_body_does_not_hide_a_contradiction_of_two_drivers(void **state)
 {
   (void)state;
   double q[6], v[6] = {[5] = 1e6};
   baum_workspace *w = NULL;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_driver_def driver = baum_driver_def_default();
   driver.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   for (int k = 0; k < 2; k++) {
@@ -220,12 +220,12 @@ static void a_fast_body_hides_no_contradiction_of_two_drivers(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(ground_holds_no_island_together),
-    cmocka_unit_test(joints_in_any_order_make_one_island),
-    cmocka_unit_test(a_welded_frame_holds_no_island_together),
-    cmocka_unit_test(fixed_bodies_make_no_island),
-    cmocka_unit_test(the_fast_lever_hides_no_contradiction_of_the_slider_crank),
-    cmocka_unit_test(a_fast_body_hides_no_contradiction_of_two_drivers),
+    cmocka_unit_test(ground_does_not_connect_islands),
+    cmocka_unit_test(joints_in_any_order_form_one_island),
+    cmocka_unit_test(a_welded_frame_does_not_connect_islands),
+    cmocka_unit_test(fixed_bodies_form_no_island),
+    cmocka_unit_test(a_fast_lever_does_not_hide_a_contradiction_in_another_island),
+    cmocka_unit_test(a_fast_body_does_not_hide_a_contradiction_of_two_drivers),
   };
   return cmocka_run_group_tests_name("islands", tests, NULL, NULL);
 }

@@ -61,7 +61,7 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 /* ---- branches ---- */
 
 /* Chooses a random configuration on either branch. It is at least a few hundredths of a radian from
- * a lock-up. The velocity is 0.01 to 100 rad/s, in either direction. */
+ * a lock-up. The angular velocity of the crank is 0.01 to 100 rad/s, in either direction. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -103,8 +103,8 @@ static void follow(const slider_crank *data, double gap, tally *all)
   close_run(run, mechanism);
 }
 
-/* For one crank angle, the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2) apart.
- * For the three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
+/* At the same crank angle, the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2)
+ * apart. For the three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;
@@ -127,7 +127,7 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 }
 
 /* The only output is after 1000 revolutions. Errors must not accumulate until then. */
-static void a_thousand_revolutions_end_where_the_crank_says(void **state)
+static void a_thousand_revolutions_accumulate_no_errors(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.4, .rate = 2.0}};
@@ -146,7 +146,7 @@ enum { LOOPS = 8 };
 
 /* One mechanism contains eight independent slider-cranks in random configurations. Any of them may
  * be close to its other branch. */
-static void no_loop_of_many_leaves_its_branch(void **state)
+static void none_of_many_loops_leaves_its_branch(void **state)
 {
   (void)state;
   const double rods[3] = {0.16, 0.1501, 0.150001};
@@ -176,7 +176,7 @@ static void no_loop_of_many_leaves_its_branch(void **state)
 
 /* ---- results ---- */
 
-static void positions_velocities_accelerations_are_those_of_the_closed_form(void **state)
+static void positions_velocities_and_accelerations_agree_with_the_closed_form(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.7, .rate = 20.0}};
@@ -222,7 +222,7 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
       double weight = i % 3 == 1 ? -9.81 * mass[i] : 0.0;
       power += (mass[i] * row[SLIDER_NV + i] - weight) * row[i];
     }
-    /* The J of the driver is 1 for the crank's angle. The torque of the driver is therefore
+    /* The driver's entry in J is 1 for the crank angle. The torque of the driver is therefore
      * -lambda. Powers are about 10 W. */
     ASSERT_NEAR(-row[2 * SLIDER_NV + MOTOR_ROW], power / -20.0, 1e-11, 1e-12);
   }
@@ -269,7 +269,7 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     double t = 0.31 * k;
     double s[3];
     baum_status status = baum_simulation_advance_to(run, t);
-    /* Scene 1 has a redundant row, so it warns. */
+    /* The first call warns of the redundant row. */
     assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1));
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
@@ -287,7 +287,7 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
   close_run(run, mechanism);
 }
 
-static void two_guides_are_one_too_many_and_change_nothing(void **state)
+static void a_second_guide_is_redundant_and_changes_nothing(void **state)
 {
   (void)state;
   double x[2];
@@ -326,7 +326,7 @@ static void backward_in_time_is_the_same_motion(void **state)
   close_run(run, mechanism);
 }
 
-static void a_crank_at_rest_stays_for_any_time(void **state)
+static void a_crank_at_rest_stays_at_rest(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 0.0}};
@@ -357,9 +357,9 @@ static int bump(double t, double s[3], void *user)
   return 0;
 }
 
-/* Without max_step, the kinematics integrator may step over this motion. Outputs inside it must be
- * right nevertheless. */
-static void outputs_inside_a_motion_that_steps_may_pass_over_are_right(void **state)
+/* Without max_step, the kinematics integrator may step over this motion. Outputs during this motion
+ * must still be right. */
+static void outputs_are_right_where_steps_may_pass_over_a_motion(void **state)
 {
   (void)state;
   for (int kind = 0; kind < 2; kind++) {
@@ -426,8 +426,8 @@ static void units_do_not_matter(void **state)
   assert_int_equal(steps[1], steps[0]);
 }
 
-/* The other branch is equally valid. After set_state() has set a state on it, the run must stay on
- * it. */
+/* The other branch is equally valid. If set_state() sets a state on this branch, the run must stay
+ * there. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
   (void)state;
@@ -505,10 +505,10 @@ static void kinematics_are_cheaper_than_integration(void **state)
   baum_mechanism *mechanism = slider_crank_make(&data);
   baum_counters exact = cost_of(mechanism, baum_kinematics(), (double)NAN);
   baum_counters adams = cost_of(mechanism, baum_cvode_adams(), 1e-8);
-  printf(
-    "10 turns: kinematics %lld steps, %lld factorizations; cvode_adams at 1e-8 %lld and %lld\n",
-    (long long)exact.steps, (long long)exact.factorizations, (long long)adams.steps,
-    (long long)adams.factorizations);
+  printf("10 revolutions: kinematics %lld steps, %lld factorizations; cvode_adams at 1e-8 %lld and "
+         "%lld\n",
+         (long long)exact.steps, (long long)exact.factorizations, (long long)adams.steps,
+         (long long)adams.factorizations);
   assert_true(2 * exact.factorizations < adams.factorizations);
   assert_true(exact.nonlinear_iterations <= 5 * (exact.steps + exact.rejected));
   baum_mechanism_destroy(mechanism);
@@ -518,16 +518,16 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(slider_cranks_stay_on_their_branch_from_any_start),
-    cmocka_unit_test(a_thousand_revolutions_end_where_the_crank_says),
-    cmocka_unit_test(no_loop_of_many_leaves_its_branch),
-    cmocka_unit_test(positions_velocities_accelerations_are_those_of_the_closed_form),
+    cmocka_unit_test(a_thousand_revolutions_accumulate_no_errors),
+    cmocka_unit_test(none_of_many_loops_leaves_its_branch),
+    cmocka_unit_test(positions_velocities_and_accelerations_agree_with_the_closed_form),
     cmocka_unit_test(the_multiplier_of_the_driver_is_its_torque),
     cmocka_unit_test(a_driven_four_bar_follows_its_crank_for_many_revolutions),
     cmocka_unit_test(a_third_crank_is_redundant_and_changes_nothing),
-    cmocka_unit_test(two_guides_are_one_too_many_and_change_nothing),
+    cmocka_unit_test(a_second_guide_is_redundant_and_changes_nothing),
     cmocka_unit_test(backward_in_time_is_the_same_motion),
-    cmocka_unit_test(a_crank_at_rest_stays_for_any_time),
-    cmocka_unit_test(outputs_inside_a_motion_that_steps_may_pass_over_are_right),
+    cmocka_unit_test(a_crank_at_rest_stays_at_rest),
+    cmocka_unit_test(outputs_are_right_where_steps_may_pass_over_a_motion),
     cmocka_unit_test(targets_do_not_alter_the_steps),
     cmocka_unit_test(units_do_not_matter),
     cmocka_unit_test(a_state_of_the_other_branch_can_be_set),

@@ -85,7 +85,7 @@ static void run_into_lock(const slider_crank *data, tally *worst)
 
 /* The rod is 0.14 m long, the offset is 0.05 m, and the crank is 0.1 m long. For crank angles
  * between -64 and -116 degrees, no configuration exists. */
-static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
+static void a_rod_that_is_too_short_locks_the_crank_from_any_start(void **state)
 {
   (void)state;
   uint64_t seed = 5;
@@ -107,8 +107,9 @@ static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
   assert_true(worst.error <= 1e-9);
 }
 
-/* The outputs before the lock-up must be computed, although the last output lies behind it. */
-static void outputs_up_to_the_lock_up_are_given(void **state)
+/* The outputs before the lock-up must be computed, although the last output time is after the
+ * lock-up. */
+static void outputs_before_the_lock_up_are_computed(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.14, 0.05, 1, {.angle = 0.0, .rate = -1.0}};
@@ -131,9 +132,9 @@ static void outputs_up_to_the_lock_up_are_given(void **state)
   close_run(run, mechanism);
 }
 
-/* When a parallelogram is flat it can continue as an antiparallelogram. In this configuration J is
- * singular, and the driver does not determine the motion. The run must therefore stop before it. */
-static void where_branches_cross_a_run_stops(void **state)
+/* A flat parallelogram can continue as an antiparallelogram. In this configuration J is singular,
+ * and the driver does not determine the motion. The run must therefore stop before it. */
+static void a_run_stops_where_branches_cross(void **state)
 {
   (void)state;
   for (int sign = -1; sign <= 1; sign += 2) {
@@ -152,7 +153,7 @@ static void where_branches_cross_a_run_stops(void **state)
 
 /* Rows 0 and 2 are equal until 0.5 s. Until then, one of them is omitted. Later they contradict
  * each other. */
-static int part(double t, const double *q, double *out, void *user)
+static int diverging_rows(double t, const double *q, double *out, void *user)
 {
   (void)user;
   out[0] = q[0] - t;
@@ -161,7 +162,7 @@ static int part(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
+static void omitted_rows_that_are_violated_stop_the_run(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = NULL;
@@ -175,7 +176,7 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
   rows.bodies = &point;
   rows.body_count = 1;
   rows.row_count = 3;
-  rows.phi = part;
+  rows.phi = diverging_rows;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &rows, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation *run = open_run(mechanism);
@@ -206,7 +207,7 @@ static int faulty(double t, double s[3], void *user)
   return fails && f->answer != 9 ? f->answer : 0;
 }
 
-static void meet(int answer, baum_status want, const char *message)
+static void run_with_faulty_law(int answer, baum_status want, const char *message)
 {
   fault f = {.after = (double)INFINITY, .answer = answer};
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
@@ -231,19 +232,20 @@ static void meet(int answer, baum_status want, const char *message)
 static void a_law_that_fails_leaves_the_last_good_step(void **state)
 {
   (void)state;
-  meet(-3, BAUM_ERR_CALLBACK, "\"motor\": law() returned -3 (stop)");
-  meet(4, BAUM_ERR_CALLBACK, "\"motor\": law() returned 4 (retry)");
-  meet(0, BAUM_ERR_NOT_FINITE, "\"motor\": law() gave nan for the rate");
+  run_with_faulty_law(-3, BAUM_ERR_CALLBACK, "\"motor\": law() returned -3 (stop)");
+  run_with_faulty_law(4, BAUM_ERR_CALLBACK, "\"motor\": law() returned 4 (retry)");
+  run_with_faulty_law(0, BAUM_ERR_NOT_FINITE, "\"motor\": law() gave nan for the rate");
 }
 
 static void a_law_that_jumps_is_an_error(void **state)
 {
   (void)state;
-  meet(9, BAUM_ERR_CONVERGENCE,
-       "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
+  run_with_faulty_law(
+    9, BAUM_ERR_CONVERGENCE,
+    "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
 }
 
-static void a_law_that_stops_is_left_alone(void **state)
+static void a_law_that_returns_stop_is_not_called_again(void **state)
 {
   (void)state;
   fault f = {.after = (double)INFINITY, .answer = -1};
@@ -258,7 +260,7 @@ static void a_law_that_stops_is_left_alone(void **state)
   close_run(run, mechanism);
 }
 
-/* ---- what is refused at create ---- */
+/* ---- runs that are not created ---- */
 
 static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **state)
 {
@@ -310,7 +312,7 @@ static void settings_of_other_integrators_are_refused(void **state)
 }
 
 /* A start that is 0.01 m off the constraints is corrected. A start that is 1 m off is refused. */
-static void a_start_off_the_constraints_is_solved_or_refused(void **state)
+static void a_start_off_the_constraints_is_corrected_or_refused(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 1.0}};
@@ -406,7 +408,7 @@ static void a_singular_start_is_refused(void **state)
 
 /* ---- explanations and advice ---- */
 
-static void a_run_explains_itself_and_others_suggest_it(void **state)
+static void kinematics_is_explained_and_other_integrators_suggest_it(void **state)
 {
   (void)state;
   const drive motor = {.angle = 1.0, .rate = 2.0};
@@ -466,20 +468,20 @@ static void configurations_are_returned_inside_the_last_step_only(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_rod_too_short_locks_the_crank_whatever_the_start),
-    cmocka_unit_test(outputs_up_to_the_lock_up_are_given),
-    cmocka_unit_test(where_branches_cross_a_run_stops),
-    cmocka_unit_test(omitted_rows_that_no_longer_follow_stop_the_run),
+    cmocka_unit_test(a_rod_that_is_too_short_locks_the_crank_from_any_start),
+    cmocka_unit_test(outputs_before_the_lock_up_are_computed),
+    cmocka_unit_test(a_run_stops_where_branches_cross),
+    cmocka_unit_test(omitted_rows_that_are_violated_stop_the_run),
     cmocka_unit_test(a_law_that_fails_leaves_the_last_good_step),
     cmocka_unit_test(a_law_that_jumps_is_an_error),
-    cmocka_unit_test(a_law_that_stops_is_left_alone),
+    cmocka_unit_test(a_law_that_returns_stop_is_not_called_again),
     cmocka_unit_test(degrees_of_freedom_are_refused_with_their_number_and_advice),
     cmocka_unit_test(settings_of_other_integrators_are_refused),
-    cmocka_unit_test(a_start_off_the_constraints_is_solved_or_refused),
+    cmocka_unit_test(a_start_off_the_constraints_is_corrected_or_refused),
     cmocka_unit_test(a_restart_that_fails_changes_nothing),
     cmocka_unit_test(a_singular_state_cannot_be_set),
     cmocka_unit_test(a_singular_start_is_refused),
-    cmocka_unit_test(a_run_explains_itself_and_others_suggest_it),
+    cmocka_unit_test(kinematics_is_explained_and_other_integrators_suggest_it),
     cmocka_unit_test(configurations_are_returned_inside_the_last_step_only),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -43,7 +43,7 @@ static void products_agree_with_the_dense_matrix(void **state)
   saddle_free(&system);
 }
 
-static void products_add_to_what_is_there(void **state)
+static void products_are_added_to_the_result(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(1, 1);
@@ -205,7 +205,7 @@ static void two_blocks_may_share_rows(void **state)
   saddle_free(&system);
 }
 
-static void right_side_of_zeros_gives_zeros(void **state)
+static void a_zero_right_hand_side_gives_a_zero_solution(void **state)
 {
   (void)state;
   for (int k = 0; k < CHOICES; k++) {
@@ -236,7 +236,7 @@ static void solving_before_factoring_is_singular(void **state)
   saddle_free(&system);
 }
 
-static void numbers_that_are_not_finite_are_refused_and_then_forgotten(void **state)
+static void matrices_that_are_not_finite_are_refused(void **state)
 {
   (void)state;
   const double bad[] = {NAN, INFINITY, -INFINITY};
@@ -259,7 +259,7 @@ static void numbers_that_are_not_finite_are_refused_and_then_forgotten(void **st
   }
 }
 
-static void a_right_side_that_is_not_finite_leaves_everything_as_it_was(void **state)
+static void a_right_hand_side_that_is_not_finite_changes_nothing(void **state)
 {
   (void)state;
   saddle system = saddle_make_random(1, 4);
@@ -280,8 +280,8 @@ static void a_right_side_that_is_not_finite_leaves_everything_as_it_was(void **s
   saddle_free(&system);
 }
 
-/* Makes all full blocks of M those of rods along (1, 2, 2), with small moments about their axes,
- * and sorts the columns of J. The blocks keep the gaps between their values. */
+/* Replaces every 6 x 6 block of M by the mass matrix of a slender rod along (1, 2, 2), and sorts
+ * the columns of J. The gaps between the values of the blocks remain. */
 static void make_rods(saddle *system)
 {
   static const double axis[3] = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};
@@ -322,7 +322,7 @@ static void slender_tensors_are_whitened_in_blocks_with_gaps(void **state)
   }
 }
 
-static void destroying_nothing_is_fine(void **state)
+static void destroying_null_does_nothing(void **state)
 {
   (void)state;
   baum_i_kkt_destroy(NULL);
@@ -332,7 +332,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(products_agree_with_the_dense_matrix),
-    cmocka_unit_test(products_add_to_what_is_there),
+    cmocka_unit_test(products_are_added_to_the_result),
     cmocka_unit_test(random_systems_are_solved_to_rounding_by_every_backend),
     cmocka_unit_test(new_values_on_the_same_structure_keep_the_pivots),
     cmocka_unit_test(omitted_rows_have_no_multiplier_and_no_influence),
@@ -341,11 +341,11 @@ int main(void)
     cmocka_unit_test(as_many_rows_as_velocities_leave_no_degree_of_freedom),
     cmocka_unit_test(two_blocks_may_share_rows),
     cmocka_unit_test(slender_tensors_are_whitened_in_blocks_with_gaps),
-    cmocka_unit_test(right_side_of_zeros_gives_zeros),
+    cmocka_unit_test(a_zero_right_hand_side_gives_a_zero_solution),
     cmocka_unit_test(solving_before_factoring_is_singular),
-    cmocka_unit_test(numbers_that_are_not_finite_are_refused_and_then_forgotten),
-    cmocka_unit_test(a_right_side_that_is_not_finite_leaves_everything_as_it_was),
-    cmocka_unit_test(destroying_nothing_is_fine),
+    cmocka_unit_test(matrices_that_are_not_finite_are_refused),
+    cmocka_unit_test(a_right_hand_side_that_is_not_finite_changes_nothing),
+    cmocka_unit_test(destroying_null_does_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

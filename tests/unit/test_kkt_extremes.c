@@ -42,7 +42,7 @@ static void change_unit(saddle *system, double per_metre)
   }
 }
 
-static saddle make_pose(int loops, double angle)
+static saddle make_four_bars(int loops, double angle)
 {
   saddle system = saddle_make_four_bar(loops);
   uint64_t seed = 17;
@@ -62,7 +62,7 @@ static baum_i_kkt_quality compare_units(double angle, double per_metre, double t
   double rcond[2];
   double a[2][15];
   for (int k = 0; k < 2; k++) {
-    saddle system = make_pose(2, angle);
+    saddle system = make_four_bars(2, angle);
     double unit = k == 0 ? 1.0 : per_metre;
     change_unit(&system, unit);
     baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
@@ -91,8 +91,8 @@ static void the_unit_of_length_does_not_matter(void **state)
   const double units[] = {1e3, 1e-3, 39.37, 1e9, 1e-9};
   for (int k = 0; k < 5; k++) {
     assert_int_equal(compare_units(1.0, units[k], 1e-14), BAUM_I_KKT_GOOD);
-    /* The distance from the singular configuration is 1e-4 rad here. Rounding errors are divided by
-     * it. */
+    /* Rounding errors are divided by the distance from the singular configuration, which is 1e-4
+     * rad. */
     assert_int_equal(compare_units(1e-4, units[k], 1e-10), BAUM_I_KKT_GOOD);
   }
 }
@@ -102,7 +102,7 @@ static void masses_of_very_different_size_are_all_accurate(void **state)
   (void)state;
   /* Every second body is made 1e-27 to 1e21 times as heavy as the others. */
   for (int exponent = -27; exponent <= 21; exponent += 3) {
-    saddle system = make_pose(3, 1.0);
+    saddle system = make_four_bars(3, 1.0);
     double want[MOST_UNKNOWNS];
     for (int b = 0; b < system.structure.mass_block_count; b += 2) {
       for (int k = 0; k < 9; k++) {
@@ -130,7 +130,7 @@ static void values_near_the_ends_of_the_range_are_solved(void **state)
   (void)state;
   const double sizes[] = {1e-150, 1e150};
   for (int k = 0; k < 4; k++) {
-    saddle system = make_pose(1, 1.0);
+    saddle system = make_four_bars(1, 1.0);
     double want[MOST_UNKNOWNS];
     for (int i = 0; i < system.mass_count; i++) {
       system.mass[i] *= sizes[k % 2];
@@ -157,7 +157,7 @@ static void values_beyond_the_range_of_scaling_are_solved_or_refused(void **stat
   (void)state;
   const double sizes[] = {1e-300, 1e-200, 1e200, 1e300};
   for (int k = 0; k < 16; k++) {
-    saddle system = make_pose(1, 1.0);
+    saddle system = make_four_bars(1, 1.0);
     for (int i = 0; i < system.mass_count; i++) {
       system.mass[i] *= sizes[k % 4];
     }
@@ -183,7 +183,7 @@ static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
 {
   (void)state;
   for (int k = 0; k < CHOICES; k++) {
-    saddle system = make_pose(2, 1.0);
+    saddle system = make_four_bars(2, 1.0);
     for (int b = 3; b < 5; b++) {
       memset(system.mass + system.mass_blocks[b].value, 0, 9 * sizeof(double));
     }
@@ -252,13 +252,13 @@ static void a_system_without_mass_is_solved_by_its_rows(void **state)
   saddle_free(&system);
 }
 
-/* ---- singular positions ---- */
+/* ---- singular configurations ---- */
 
 /* Solves the system for 720 angles, in steps of half a degree. Skips the flat configurations, which
  * are singular. */
 static void turn_and_solve(int loops, double start)
 {
-  saddle system = make_pose(loops, start);
+  saddle system = make_four_bars(loops, start);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   for (int k = 0; k < 720; k++) {
     double angle = start + k * PI / 360.0;
@@ -312,12 +312,12 @@ static void pivots_that_have_become_small_are_chosen_again(void **state)
   saddle_free(&system);
 }
 
-static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **state)
+static void errors_grow_as_the_inverse_distance_from_a_singularity(void **state)
 {
   (void)state;
   for (int exponent = 0; exponent <= 11; exponent++) {
     double distance = pow(10.0, -exponent);
-    saddle system = make_pose(1, distance);
+    saddle system = make_four_bars(1, distance);
     double want[MOST_UNKNOWNS];
     baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
     assert_int_equal(factor(kkt, &system), BAUM_OK);
@@ -333,10 +333,10 @@ static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **st
   }
 }
 
-static void close_to_a_singular_position_the_solver_says_so(void **state)
+static void the_solver_reports_a_nearly_singular_configuration(void **state)
 {
   (void)state;
-  saddle system = make_pose(1, 1e-12);
+  saddle system = make_four_bars(1, 1e-12);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor(kkt, &system), BAUM_OK);
   assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_NEAR_SINGULAR);
@@ -349,10 +349,10 @@ static void close_to_a_singular_position_the_solver_says_so(void **state)
   saddle_free(&system);
 }
 
-static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
+static void qr_takes_over_in_a_singular_configuration_only(void **state)
 {
   (void)state;
-  saddle system = make_pose(1, 0.0);
+  saddle system = make_four_bars(1, 0.0);
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor(kkt, &system), BAUM_OK);
   assert_int_equal(solve(kkt, &system), BAUM_OK);
@@ -372,7 +372,7 @@ static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
 
 /* ---- contradictions ---- */
 
-/* Rows 0 to 2 are multiples of the same row. Their right sides agree except for `error`. */
+/* Rows 0 to 2 are multiples of the same row. Their right-hand sides agree except for `error`. */
 static saddle make_repeated(double error)
 {
   saddle system = saddle_make_dense(4, 4);
@@ -393,7 +393,7 @@ static saddle make_repeated(double error)
   return system;
 }
 
-static void rows_that_repeat_each_other_share_their_multiplier(void **state)
+static void repeated_rows_that_agree_are_solved(void **state)
 {
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
@@ -414,10 +414,10 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* The contradictions have both signs and sizes from 1e-6 to 1e12. Compared with the largest one,
- * the other right sides are negligible. If the matrix was factored, the same factors must
- * afterwards solve the system without the contradiction. */
-static void rows_that_contradict_each_other_are_singular(void **state)
+/* The contradictions have both signs and sizes from 1e-6 to 1e12. Compared with the largest
+ * contradiction, the other right-hand sides are negligible. If the matrix was factored, the same
+ * factors must afterwards solve the system without the contradiction. */
+static void rows_that_contradict_each_other_are_refused(void **state)
 {
   (void)state;
   static const double errors[] = {1e-6, -1e-3, 1.0, -1e3, 1e12};
@@ -426,8 +426,8 @@ static void rows_that_contradict_each_other_are_singular(void **state)
       saddle system = make_repeated(errors[e]);
       baum_i_kkt *kkt = make_solver(&system, choices[k]);
       baum_status status = factor(kkt, &system);
-      /* KLU finds the rank deficiency when it factorizes the matrix, and refuses. The least-squares
-       * solver finds the contradiction only when it solves. */
+      /* KLU finds the rank deficiency when it factors the matrix. The least-squares solver finds
+       * the contradiction only when it solves. */
       assert_int_equal(status, choices[k] == BAUM_I_KKT_KLU ? BAUM_ERR_SINGULAR : BAUM_OK);
       system.a[0] = 123.0;
       assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
@@ -440,7 +440,7 @@ static void rows_that_contradict_each_other_are_singular(void **state)
   }
 }
 
-static void scales_of_the_least_and_largest_numbers_are_powers_of_two(void **state)
+static void scales_of_the_smallest_and_largest_numbers_are_powers_of_two(void **state)
 {
   (void)state;
   static const double sizes[] = {0x1p-1074, 0x1p-1020, 1.0, 0x1p+1023};
@@ -471,12 +471,12 @@ int main(void)
     cmocka_unit_test(a_system_without_mass_is_solved_by_its_rows),
     cmocka_unit_test(a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere),
     cmocka_unit_test(pivots_that_have_become_small_are_chosen_again),
-    cmocka_unit_test(accuracy_falls_only_as_fast_as_the_singular_position_nears),
-    cmocka_unit_test(close_to_a_singular_position_the_solver_says_so),
-    cmocka_unit_test(at_a_singular_position_qr_takes_over_and_hands_back),
-    cmocka_unit_test(rows_that_repeat_each_other_share_their_multiplier),
-    cmocka_unit_test(rows_that_contradict_each_other_are_singular),
-    cmocka_unit_test(scales_of_the_least_and_largest_numbers_are_powers_of_two),
+    cmocka_unit_test(errors_grow_as_the_inverse_distance_from_a_singularity),
+    cmocka_unit_test(the_solver_reports_a_nearly_singular_configuration),
+    cmocka_unit_test(qr_takes_over_in_a_singular_configuration_only),
+    cmocka_unit_test(repeated_rows_that_agree_are_solved),
+    cmocka_unit_test(rows_that_contradict_each_other_are_refused),
+    cmocka_unit_test(scales_of_the_smallest_and_largest_numbers_are_powers_of_two),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,14 +56,14 @@ static double solve(backend *klu, saddle *system)
   return saddle_backward_error(system);
 }
 
-static void turn(saddle *system, double angle)
+static void set_rotation(saddle *system, double angle)
 {
   system->jacobian[0] = system->jacobian[3] = cos(angle);
   system->jacobian[1] = sin(angle);
   system->jacobian[2] = -sin(angle);
 }
 
-static void kept_pivots_may_silently_give_nonsense_and_rcond_shows_it(void **state)
+static void rcond_shows_that_kept_pivots_give_wrong_solutions(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 2);
@@ -71,11 +71,11 @@ static void kept_pivots_may_silently_give_nonsense_and_rcond_shows_it(void **sta
   system.r[1] = 2.0;
   backend klu;
   open_backend(&klu, &system);
-  turn(&system, 0.0);
+  set_rotation(&system, 0.0);
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_CHOOSE), BAUM_OK);
   assert_true(rcond(&klu) > 0.1);
   assert_true(solve(&klu, &system) < 1e-15);
-  turn(&system, PI / 2.0); /* the pivots that are kept, cos(angle), are now 6e-17 */
+  set_rotation(&system, PI / 2.0); /* the pivots that are kept, cos(angle), are now 6e-17 */
   assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_KEEP), BAUM_OK);
   assert_true(solve(&klu, &system) > 0.1);
   assert_true(rcond(&klu) < 1e-10);
@@ -94,7 +94,7 @@ static void a_zero_pivot_is_singular_whether_kept_or_chosen(void **state)
   backend klu;
   open_backend(&klu, &system);
   for (int k = 0; k < 3; k++) {
-    turn(&system, 0.0);
+    set_rotation(&system, 0.0);
     assert_int_equal(factor(&klu, &system, BAUM_I_EFFORT_CHOOSE), BAUM_OK);
     memset(system.jacobian, 0, 4 * sizeof *system.jacobian);
     assert_int_equal(factor(&klu, &system, efforts[k]), BAUM_ERR_SINGULAR);
@@ -104,7 +104,7 @@ static void a_zero_pivot_is_singular_whether_kept_or_chosen(void **state)
   saddle_free(&system);
 }
 
-static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
+static void careful_pivots_are_accurate_near_a_singularity(void **state)
 {
   (void)state;
   /* A four-bar at a distance of 1e-9 rad from its flat configuration. With ordinary pivots, the
@@ -129,7 +129,7 @@ static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
   saddle_free(&system);
 }
 
-static void kept_careful_pivots_stay_weighted(void **state)
+static void kept_careful_pivots_have_the_same_rcond(void **state)
 {
   (void)state;
   saddle system = saddle_make_random(8, 10);
@@ -144,7 +144,7 @@ static void kept_careful_pivots_stay_weighted(void **state)
   saddle_free(&system);
 }
 
-static void destroying_nothing_is_fine(void **state)
+static void destroying_null_does_nothing(void **state)
 {
   (void)state;
   baum_i_klu_ops.destroy(NULL);
@@ -153,11 +153,11 @@ static void destroying_nothing_is_fine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(kept_pivots_may_silently_give_nonsense_and_rcond_shows_it),
+    cmocka_unit_test(rcond_shows_that_kept_pivots_give_wrong_solutions),
     cmocka_unit_test(a_zero_pivot_is_singular_whether_kept_or_chosen),
-    cmocka_unit_test(careful_pivots_are_accurate_where_usual_ones_are_not),
-    cmocka_unit_test(kept_careful_pivots_stay_weighted),
-    cmocka_unit_test(destroying_nothing_is_fine),
+    cmocka_unit_test(careful_pivots_are_accurate_near_a_singularity),
+    cmocka_unit_test(kept_careful_pivots_have_the_same_rcond),
+    cmocka_unit_test(destroying_null_does_nothing),
   };
   return cmocka_run_group_tests_name("klu", tests, NULL, NULL);
 }

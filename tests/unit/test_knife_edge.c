@@ -36,8 +36,7 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_edge, false, check_rows_balance);
 }
 
-/* The row must be the velocity of the point of the blade in the direction to the left of the
- * blade. */
+/* The row of J must give the velocity of the blade's point towards the left of the blade. */
 static void the_row_is_the_velocity_across_the_blade(void **state)
 {
   (void)state;

@@ -14,7 +14,7 @@
 #include "mechanism/model.h"
 #include "simulate/hermite.h"
 
-/* ---- least values ---- */
+/* ---- minima ---- */
 
 typedef struct counted {
   baum_i_function *function;
@@ -65,7 +65,7 @@ static void assert_found(baum_i_function *function, double place, int most)
   assert_in_range(c.count, 1, most);
 }
 
-static void least_values_are_found_in_few_looks(void **state)
+static void minima_are_found_in_few_evaluations(void **state)
 {
   (void)state;
   assert_found(parabola, 0.3, 8);
@@ -74,7 +74,7 @@ static void least_values_are_found_in_few_looks(void **state)
   assert_found(wall, 0.55, 40);
 }
 
-static void a_search_ends_when_it_is_told(void **state)
+static void a_search_ends_after_the_given_number_of_evaluations(void **state)
 {
   (void)state;
   const double ends[2] = {0.0, 1.0};
@@ -123,7 +123,7 @@ static void assert_power(int count, int power, double from, double t)
   assert_true(got[1] == -1.0 && rate[1] == -1.0);
 }
 
-static void polynomials_of_their_degree_are_exact(void **state)
+static void polynomials_up_to_the_degree_are_exact(void **state)
 {
   (void)state;
   static const double at[] = {10.0, 10.03, 10.25, 10.29, 10.4};
@@ -140,9 +140,9 @@ static void polynomials_of_their_degree_are_exact(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(least_values_are_found_in_few_looks),
-    cmocka_unit_test(a_search_ends_when_it_is_told),
-    cmocka_unit_test(polynomials_of_their_degree_are_exact),
+    cmocka_unit_test(minima_are_found_in_few_evaluations),
+    cmocka_unit_test(a_search_ends_after_the_given_number_of_evaluations),
+    cmocka_unit_test(polynomials_up_to_the_degree_are_exact),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
