@@ -20,8 +20,8 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* The sizes of the largest mechanism tested here, which has every element. WIDE includes the
- * multipliers lambda and mu of GGL. */
+/* Sizes of the largest tested mechanism, which has every element. WIDE includes the multipliers
+ * lambda and mu of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
 /* ---- a scene at some state ---- */
@@ -43,7 +43,8 @@ static void open_stage(stage *s, baum_mechanism *mechanism)
     s->v[i] = 0.3 * baum_i_golden(i + 1);
     s->a[i] = baum_i_golden(i + 7);
   }
-  check(baum_workspace_move(s->w, s->v, s->q)); /* the state violates the constraints */
+  /* After this displacement, the state violates the constraints. */
+  check(baum_workspace_move(s->w, s->v, s->q));
   for (int i = 0; i < s->mechanism->nv; i++) {
     s->v[i] = 2.0 * baum_i_golden(i + 20);
   }

@@ -74,8 +74,8 @@ static void numbers_that_are_not_finite_are_found_everywhere(void **state)
 }
 
 /* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0. If
- * v at the end then changes by e, the error of v changes by e. The error of q changes by h e / 2 if
- * dq is given. If dq is computed from the samples, two terms of this error cancel. */
+ * v at the end of the step then changes by e, the error of v changes by e. The error of q changes
+ * by h e / 2 if dq is given. If dq is computed from the samples, two terms of this error cancel. */
 static void polynomials_have_no_local_error(void **state)
 {
   (void)state;

@@ -183,7 +183,7 @@ static void islands_appear_as_parts_and_intervals_and_in_searches(void **state)
   double B;
   baum_i_stability_nearest(&island, 3.6, 14.0, &A, &B);
   assert_true(baum_i_amplification_within(&island, A, B, -0.1));
-  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* the other part of the region is 8 away */
+  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* other parts of the region are more than 6 away */
 }
 
 static void intervals_of_all_methods_begin_at_zero(void **state)

@@ -251,7 +251,7 @@ static void wrong_calls_are_refused(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void the_last_fields_may_be_missing_in_older_programs(void **state)
+static void a_page_of_an_older_program_may_lack_the_last_fields(void **state)
 {
   (void)state;
   static char text[BYTES];
@@ -320,7 +320,7 @@ int main(void)
     cmocka_unit_test(a_sample_shows_paths_and_reactions_in_the_view_of_the_motion),
     cmocka_unit_test(wrong_samples_are_refused),
     cmocka_unit_test(wrong_calls_are_refused),
-    cmocka_unit_test(the_last_fields_may_be_missing_in_older_programs),
+    cmocka_unit_test(a_page_of_an_older_program_may_lack_the_last_fields),
     cmocka_unit_test(a_long_run_keeps_its_extremes_in_at_most_600_frames),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -154,8 +154,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
-/* Makes a horizontal chain of links of 1 m, which begins at the origin. A number `pins` of equal
- * pins joins each link to the previous link. */
+/* Makes a horizontal chain of links of 1 m, which begins at the origin. `pins` equal pins join each
+ * link to the previous link. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
   baum_mechanism *m = NULL;

@@ -139,8 +139,8 @@ static void a_slider_crank_is_counted(void **state)
   assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
 }
 
-/* This is a ring of n pins that is not joined to ground. Each of the first n - 3 eliminations adds
- * one coupling, which connects the two neighbours of the eliminated node. */
+/* The mechanism is a ring of n pins that is not joined to ground. Each of the first n - 3
+ * eliminations adds one coupling, which connects the two neighbours of the eliminated node. */
 static void fill_is_the_number_of_couplings_that_elimination_adds(void **state)
 {
   (void)state;

@@ -297,7 +297,7 @@ static void the_stability_polynomial_agrees_with_the_table(void **state)
         }
         power[i] = next;
       }
-      /* The tolerance is 1e-17, because the last coefficient of rk8 is only 3.6e-10. */
+      /* The absolute tolerance is 1e-17, because the last coefficient of rk8 is only 3.6e-10. */
       ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
     }
   }

@@ -197,7 +197,7 @@ static void check_within(baum_simulation *run, baum_joint_id joint, double t, mo
 }
 
 /* Checks the value and the velocity of a joint's coordinate. The tolerance for the velocity is ten
- * times as large, because velocities reach 10 1/s. */
+ * times as large. */
 static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion want,
                      double tolerance)
 {

@@ -43,8 +43,7 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
 }
 
 /* Fills column j with up to three entries in rows near the diagonal, and with one more entry in a
- * random row. If `hub` is set, this entry is in row 0 for every column, which couples all
- * columns. */
+ * random row. If `hub` is set, this entry is always in row 0, which couples all columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {

@@ -99,7 +99,8 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    /* This row and the next one are roots of R, found by the Durand-Kerner iteration in Python. */
+    /* This row and the next one follow from roots of R, found by the Durand-Kerner iteration in
+     * Python. */
     [RK3] = {0.701964181008339, 3.7592297596248},
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };

@@ -73,7 +73,7 @@ static int give_flag(baum_i_sundials *run, double target, double *tau)
   return answer;
 }
 
-/* Takes a step of 0.001 s from t = 0. SUNDIALS is replaced by a function that returns `flag`. */
+/* Takes a step of 0.001 s from t = 0. A function that returns `flag` replaces SUNDIALS. */
 static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
 {
   const baum_i_sundials_package package = {

@@ -46,8 +46,8 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Chooses a random state for both copies. Positions are up to two scales, and velocities up to
- * three scales times the rate. */
+/* Chooses a random state for both copies. Positions are up to two times their scale. Velocities are
+ * up to three times their scale times the rate. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
