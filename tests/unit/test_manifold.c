@@ -20,8 +20,8 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* The sizes of the largest mechanism tested here, which has every element. WIDE includes the
- * multipliers lambda and mu of GGL. */
+/* Sizes of the largest tested mechanism, which has every element. WIDE includes the multipliers
+ * lambda and mu of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
 /* ---- a scene at some state ---- */
@@ -43,7 +43,8 @@ static void open_stage(stage *s, baum_mechanism *mechanism)
     s->v[i] = 0.3 * baum_i_golden(i + 1);
     s->a[i] = baum_i_golden(i + 7);
   }
-  check(baum_workspace_move(s->w, s->v, s->q)); /* the state violates the constraints */
+  /* After this displacement, the state violates the constraints. */
+  check(baum_workspace_move(s->w, s->v, s->q));
   for (int i = 0; i < s->mechanism->nv; i++) {
     s->v[i] = 2.0 * baum_i_golden(i + 20);
   }
@@ -65,7 +66,7 @@ static void for_each_scene(void (*test)(stage *s, const manifold_scene *scene))
   }
 }
 
-/* Sets q to the configuration that is reached when q of the stage moves by h x. */
+/* Sets q to the configuration of the stage, displaced by h x. */
 static void move_to(const stage *s, double h, const double *x, double *q)
 {
   memcpy(q, s->q, (size_t)s->mechanism->nq * sizeof *q);
@@ -80,8 +81,8 @@ static void set_axis(const stage *s, int j, double *x)
 
 /* ---- the functions ---- */
 
-/* Checks N v by a central difference of move. Also checks that N^+ is the inverse of N, and that
- * difference is the inverse of move. The central difference has an error of 1e-8. */
+/* Checks N v by a central difference of move. The central difference has an error of 1e-8. Also
+ * checks that N^+ N v = v, and that difference is the inverse of move. */
 static void check_functions(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -109,8 +110,7 @@ static void check_functions(stage *s, const manifold_scene *scene)
   }
 }
 
-/* Checks q'' by a central difference of q' along the motion. The velocity of this motion is v + h
- * a. */
+/* Checks q'' by a central difference of q' along a motion with the velocity v + h a. */
 static void check_second_rates(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -164,8 +164,8 @@ static void columns_of_positions_and_velocities_may_differ(void **state)
 
 /* ---- assembly ---- */
 
-/* Assembly must make displacements (nv) as small as possible, not changes of q (nq). Its result
- * must then be the same as that of the twin mechanism. */
+/* Assembly must minimize the displacements (nv), not the changes of q (nq). The twin mechanism must
+ * then be assembled into the same configuration. */
 static void assembly_moves_along_the_manifold(void **state)
 {
   (void)state;
@@ -200,14 +200,14 @@ static void assembly_moves_along_the_manifold(void **state)
 
 /* ---- derivatives of constraints ---- */
 
-/* Writes the dense J (nc x nv). */
+/* Computes the dense J (nc x nv). */
 static void jacobian_at(const stage *s, const double *q, double *out)
 {
   check(baum_workspace_jacobian(s->w, 0.0, q, out));
 }
 
 /* Checks (J x)_q and (J^T lambda)_q by central differences of J along the manifold. These
- * differences have errors of 1e-8. On a manifold (J^T lambda)_q need not be symmetric. */
+ * differences have errors of 1e-8. On a manifold, (J^T lambda)_q need not be symmetric. */
 static void check_second_derivatives(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -257,7 +257,7 @@ static void check_second_derivatives(stage *s, const manifold_scene *scene)
   assert_true(turns ? asymmetry > 0.01 : asymmetry < 1e-6);
 }
 
-static void second_derivatives_are_along_the_manifold(void **state)
+static void second_derivatives_agree_with_differences_along_the_manifold(void **state)
 {
   (void)state;
   for_each_scene(check_second_derivatives);
@@ -330,7 +330,7 @@ static void check_residuals(stage *s, const manifold_scene *scene)
   check_residual_forms(s);
 }
 
-static void jacobians_of_residuals_are_by_positions(void **state)
+static void jacobians_of_residuals_agree_with_differences(void **state)
 {
   (void)state;
   stage s;
@@ -342,9 +342,9 @@ static void jacobians_of_residuals_are_by_positions(void **state)
 
 /* ---- definitions ---- */
 
-/* Sets a valid definition. Its coordinate is one angle, represented by (cos, sin). Tests replace
- * single fields of it. */
-static void with_angle(baum_coordinates_def *def)
+/* Makes a valid definition of one angle, which (cos, sin) represents. Tests replace single fields
+ * of the definition. */
+static void set_angle_definition(baum_coordinates_def *def)
 {
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
   baum_mechanism *m = NULL;
@@ -374,16 +374,16 @@ static void definitions_must_be_complete(void **state)
   baum_coordinates_def def;
   const double off[2] = {0.6, 0.80001};
   const double bad_scale[2] = {1.0, 0.0};
-  with_angle(&def);
+  set_angle_definition(&def);
   def.move = NULL;
   expect_refused(&def, "move() is NULL, must be given");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.difference = NULL;
   expect_refused(&def, "difference() is NULL, must be given");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.q = NULL;
   expect_refused(&def, "q is NULL, must be given");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.rate = NULL;
   expect_refused(&def, "move() is given, but rate() is NULL");
   def.move = NULL;
@@ -392,27 +392,27 @@ static void definitions_must_be_complete(void **state)
   expect_refused(&def, "normalize() is given, but rate() is NULL");
   def.normalize = NULL;
   expect_refused(&def, "position_count is given, but rate() is NULL");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.q = off;
   expect_refused(&def, "normalize() changes q by more than 1e-6");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.position_count = -2;
   expect_refused(&def, "position_count is -2");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.size = 3;
   expect_refused(&def, "position_count is 2, must be at least size (3)");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.position_scale = bad_scale;
   expect_refused(&def, "position_scale[1] is 0");
 }
 
-static void replacing_keeps_the_manifold(void **state)
+static void a_new_definition_cannot_change_the_manifold(void **state)
 {
   (void)state;
   baum_coordinates_def def;
   baum_mechanism *m = NULL;
   baum_body_id id;
-  with_angle(&def);
+  set_angle_definition(&def);
   check(baum_mechanism_create(&m));
   check(baum_mechanism_add_coordinates(m, &def, &id));
   check(baum_mechanism_set_coordinates(m, id, &def));
@@ -449,7 +449,7 @@ static void wrong_difference(const double *from, const double *to, double *dx, v
   dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* this is the chord and not the signed angle */
 }
 
-/* This function makes the cosine positive, which may give the opposite angle. */
+/* This function makes the cosine positive. If it was negative, the angle changes by pi. */
 static void wrong_normalize(double *q, void *user)
 {
   (void)user;
@@ -469,25 +469,25 @@ static void expect_found(const baum_coordinates_def *def, const char *message)
   baum_mechanism_destroy(m);
 }
 
-static void functions_that_do_not_fit_are_found(void **state)
+static void functions_that_do_not_agree_are_found(void **state)
 {
   (void)state;
   baum_coordinates_def def;
-  with_angle(&def);
+  set_angle_definition(&def);
   def.rate = wrong_rate;
   expect_found(&def, "rate()[0] is");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.move = wrong_move;
   expect_found(&def, "rate along move()[");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.difference = wrong_difference;
   expect_found(&def, "difference()[0] is");
-  with_angle(&def);
+  set_angle_definition(&def);
   def.normalize = wrong_normalize;
   expect_found(&def, "normalize()[1] is");
 }
 
-/* ---- states from outside ---- */
+/* ---- states that the user sets ---- */
 
 static void states_off_the_manifold_are_refused(void **state)
 {
@@ -519,11 +519,11 @@ int main(void)
     cmocka_unit_test(functions_agree_with_each_other),
     cmocka_unit_test(columns_of_positions_and_velocities_may_differ),
     cmocka_unit_test(assembly_moves_along_the_manifold),
-    cmocka_unit_test(second_derivatives_are_along_the_manifold),
-    cmocka_unit_test(jacobians_of_residuals_are_by_positions),
+    cmocka_unit_test(second_derivatives_agree_with_differences_along_the_manifold),
+    cmocka_unit_test(jacobians_of_residuals_agree_with_differences),
     cmocka_unit_test(definitions_must_be_complete),
-    cmocka_unit_test(replacing_keeps_the_manifold),
-    cmocka_unit_test(functions_that_do_not_fit_are_found),
+    cmocka_unit_test(a_new_definition_cannot_change_the_manifold),
+    cmocka_unit_test(functions_that_do_not_agree_are_found),
     cmocka_unit_test(states_off_the_manifold_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

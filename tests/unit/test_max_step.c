@@ -47,7 +47,8 @@ static baum_mechanism *hanging_pendulum(void)
 }
 
 /* Returns the position x at 5.5 s. */
-static double pushed_to(const baum_mechanism *m, const baum_integrator *integrator, double max_step)
+static double pushed_position(const baum_mechanism *m, const baum_integrator *integrator,
+                              double max_step)
 {
   baum_simulation_options o = baum_simulation_options_default();
   baum_simulation *s = NULL;
@@ -69,18 +70,18 @@ static void a_force_that_begins_late_is_not_stepped_over(void **state)
 {
   (void)state;
   baum_mechanism *m = hanging_pendulum();
-  double want = pushed_to(m, baum_rk4(), (double)NAN);
+  double want = pushed_position(m, baum_rk4(), (double)NAN);
   assert_true(want > 0.1);
   const baum_integrator *integrators[] = {baum_dp5(), baum_rk8(), baum_cvode_adams(),
                                           baum_cvode_bdf(), baum_ida()};
   for (int k = 0; k < (baum_has("sundials") ? 5 : 2); k++) {
-    /* The force jumps inside a step. This causes errors above the tolerance. */
-    ASSERT_NEAR(pushed_to(m, integrators[k], 0.05), want, 0.0, 1e-3);
+    /* The force jumps inside a step, which causes errors above the tolerance. */
+    ASSERT_NEAR(pushed_position(m, integrators[k], 0.05), want, 0.0, 1e-3);
   }
   baum_mechanism_destroy(m);
 }
 
-static void at_rest_in_an_equilibrium_gravity_sets_the_rate(void **state)
+static void gravity_determines_alpha_at_rest(void **state)
 {
   (void)state;
   if (!baum_has("sundials")) {
@@ -99,7 +100,7 @@ static void at_rest_in_an_equilibrium_gravity_sets_the_rate(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void a_longest_step_is_checked(void **state)
+static void max_step_is_validated(void **state)
 {
   (void)state;
   baum_mechanism *m = hanging_pendulum();
@@ -124,8 +125,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_force_that_begins_late_is_not_stepped_over),
-    cmocka_unit_test(at_rest_in_an_equilibrium_gravity_sets_the_rate),
-    cmocka_unit_test(a_longest_step_is_checked),
+    cmocka_unit_test(gravity_determines_alpha_at_rest),
+    cmocka_unit_test(max_step_is_validated),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

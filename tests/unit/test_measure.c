@@ -30,7 +30,7 @@ static void fill(double *x, double seed)
   }
 }
 
-static void sizes_are_those_of_plain_loops(void **state)
+static void sizes_agree_with_plain_loops(void **state)
 {
   (void)state;
   double x[MOST];
@@ -74,7 +74,8 @@ static void numbers_that_are_not_finite_are_found_everywhere(void **state)
 }
 
 /* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0. If
- * v at the end is then changed by e, dv changes by e, and the term h dv / 2 of dq by h e / 2. */
+ * v at the end of the step then changes by e, the error of v changes by e. The error of q changes
+ * by h e / 2 if dq is given. If dq is computed from the samples, two terms of this error cancel. */
 static void polynomials_have_no_local_error(void **state)
 {
   (void)state;
@@ -102,7 +103,8 @@ static void polynomials_have_no_local_error(void **state)
     s.a[k] = numbers[k][2];
   }
   for (int k = 0; k < 2; k++) {
-    /* exact up to rounding of terms below 6: the Hermite rule has the error h^5 / 720 q^(5) = 0 */
+    /* The error of the Hermite rule is h^5 / 720 q^(5) = 0. Rounding errors of terms below 6
+     * remain. */
     ASSERT_NEAR(kernel_of(k)->local_error(MOST, &s), 0.0, 0.0, 1e-14);
   }
   numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* dv = 0.5, dq = -h/2 0.5 + h/2 dv = 0 */
@@ -120,7 +122,7 @@ static void polynomials_have_no_local_error(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(sizes_are_those_of_plain_loops),
+    cmocka_unit_test(sizes_agree_with_plain_loops),
     cmocka_unit_test(numbers_that_are_not_finite_are_found_everywhere),
     cmocka_unit_test(polynomials_have_no_local_error),
   };

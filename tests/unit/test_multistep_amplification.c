@@ -13,15 +13,15 @@
 
 enum { POINTS = 400, MOST = 8, SQUARINGS = 40 };
 
-/* The matrix of one step. It multiplies the vector of (x, v) and of the derivatives (x', v') in
- * earlier steps. */
+/* The matrix of one step. It multiplies a vector of (x, v) and the derivatives (x', v') at earlier
+ * steps. */
 typedef struct matrix {
   int n;
   double a[MOST][MOST];
 } matrix;
 
 /* Returns the matrix of one step for x'' = -2 A x' - B x with h = 1. It multiplies the vector (x,
- * v, f(n-1), f(n-2), ...). Here f are the derivatives of (x, v). */
+ * v, f(n-1), f(n-2), ...), where f denotes the derivatives of (x, v). */
 static matrix step_matrix(const baum_i_method *method, double A, double B)
 {
   const double rate[2][2] = {{0.0, 1.0}, {-B, -2.0 * A}};
@@ -87,7 +87,7 @@ static void random_point(uint64_t *seed, int method, double point[2])
   point[1] = scale * scale * uniform(seed, -0.5, 4.0);
 }
 
-static void radius_is_that_of_the_matrix_of_a_step(void **state)
+static void radius_is_the_spectral_radius_of_the_step_matrix(void **state)
 {
   (void)state;
   uint64_t seed = 1;
@@ -96,8 +96,8 @@ static void radius_is_that_of_the_matrix_of_a_step(void **state)
       double p[2];
       random_point(&seed, m, p);
       double want = matrix_radius(step_matrix(&methods[m], p[0], p[1]));
-      /* Each of the 40 squarings has half the weight of the one before. Rounding errors therefore
-       * do not add up. The radius is accurate if the largest roots are simple. */
+      /* Each of the 40 squarings has half the weight of the previous one, so rounding errors do not
+       * add up. The radius is accurate if the largest roots are simple. */
       ASSERT_NEAR(amplification_at(m, p[0], p[1]).spectral_radius, want, 1e-9, 0.0);
     }
   }
@@ -124,7 +124,7 @@ static void within_agrees_with_the_radius(void **state)
       assert_false(baum_i_amplification_within(&methods[m], p[0], p[1], growth - off));
     }
   }
-  assert_true(within > POINTS); /* of all POINTS * METHOD_COUNT points */
+  assert_true(within > POINTS); /* out of POINTS * METHOD_COUNT points */
 }
 
 /* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu. Returns the smaller
@@ -159,7 +159,7 @@ static void both_z_are_roots_and_the_larger_comes_first(void **state)
       random_point(&seed, m, p);
       baum_amplification a = amplification_at(m, p[0], p[1]);
       double scale = pow(1.0 + a.spectral_radius, methods[m].degree);
-      for (int i = 0; i < 2; i++) { /* allows for rounding errors of powers of z */
+      for (int i = 0; i < 2; i++) { /* the tolerance allows for rounding errors of powers of z */
         ASSERT_NEAR(residual(m, p[0], p[1], a.z[i]), 0.0, 0.0, 1e-13 * scale);
       }
       assert_true(hypot(a.z[0][0], a.z[0][1]) >= hypot(a.z[1][0], a.z[1][1]) - 1e-12);
@@ -186,7 +186,7 @@ static void small_gains_keep_their_digits(void **state)
 
 /* At the end of the stable interval of real mu, z = -1. This gives mu = 2 (-1)^k / sum b_j
  * (-1)^(k-1-j). */
-static void limits_of_critical_damping_are_the_published_ones(void **state)
+static void limits_with_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;
   static const double want[] = {1.0, 6.0 / 11.0, 3.0 / 10.0};
@@ -195,7 +195,7 @@ static void limits_of_critical_damping_are_the_published_ones(void **state)
   }
 }
 
-static void numbers_beyond_double_are_infinitely_unstable(void **state)
+static void gains_that_overflow_are_unstable(void **state)
 {
   (void)state;
   for (int m = AB2; m <= AB4; m++) {
@@ -209,12 +209,12 @@ static void numbers_beyond_double_are_infinitely_unstable(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(radius_is_that_of_the_matrix_of_a_step),
+    cmocka_unit_test(radius_is_the_spectral_radius_of_the_step_matrix),
     cmocka_unit_test(within_agrees_with_the_radius),
     cmocka_unit_test(both_z_are_roots_and_the_larger_comes_first),
     cmocka_unit_test(small_gains_keep_their_digits),
-    cmocka_unit_test(limits_of_critical_damping_are_the_published_ones),
-    cmocka_unit_test(numbers_beyond_double_are_infinitely_unstable),
+    cmocka_unit_test(limits_with_critical_damping_are_the_published_ones),
+    cmocka_unit_test(gains_that_overflow_are_unstable),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

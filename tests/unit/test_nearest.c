@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The most similar of several names. */
+/* Tests which of several known names is suggested for a wrong name. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,11 +32,11 @@ static void a_misspelt_name_is_found(void **state)
   check("revolute", "; did you mean \"planar_revolute\"?");
 }
 
-static void another_name_is_not(void **state)
+static void a_different_name_is_not_found(void **state)
 {
   (void)state;
   check("", "");
-  check("b", ""); /* one character of one is too much */
+  check("b", ""); /* no edit is allowed in a name of one character */
   check("mxxx", "");
   check("mxxs", "");
   check("mxss", "; did you mean \"mass\"?");
@@ -66,7 +66,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_misspelt_name_is_found),
-    cmocka_unit_test(another_name_is_not),
+    cmocka_unit_test(a_different_name_is_not_found),
     cmocka_unit_test(long_names_are_compared_up_to_a_limit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of a vector x. It is computed with the
- * factors of the last solution. P is defined by two properties: J P x = J x, and P x is
- * M-orthogonal to every y with J y = 0. A second function computes the same vector P x from J x
- * instead of x. */
+/* Tests the normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of a vector x. The factors of the last
+ * solution are used. Two properties define P: J P x = J x, and P x is M-orthogonal to every y with
+ * J y = 0. A second function computes P x from J x instead of x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,7 +26,7 @@ typedef struct vectors {
   double out[SIZE];
 } vectors;
 
-static void draw(chance *c, int n, double *x)
+static void draw_vector(chance *c, int n, double *x)
 {
   for (int i = 0; i < n; i++) {
     x[i] = chance_number(c, -1.0, 1.0);
@@ -70,7 +69,7 @@ static void check_rows(baum_workspace *w, vectors *d)
   }
 }
 
-static void check_upright(baum_workspace *w, vectors *d)
+static void check_orthogonal(baum_workspace *w, vectors *d)
 {
   int n = w->mechanism->nv;
   for (int i = 0; i < n; i++) {
@@ -90,7 +89,7 @@ static void check_by_rows(baum_workspace *w, vectors *d)
   baum_i_jacobian_times(&w->structure, w->jacobian, d->x, rows);
   assert_int_equal(baum_i_least_with_rows(w, rows, d->out), BAUM_OK);
   for (int i = 0; i < w->mechanism->nv; i++) {
-    /* The tolerance is the rounding error of two such solutions. */
+    /* The tolerance is the rounding error of two solutions without refinement. */
     ASSERT_NEAR(d->out[i], d->normal[i], 0.0, 1e-9 * (1.0 + largest(w->mechanism->nv, d->normal)));
   }
 }
@@ -101,9 +100,9 @@ static bool check_mechanism(baum_workspace *w, chance *c)
   const baum_mechanism *m = w->mechanism;
   static vectors d;
   assert_true(m->nv <= SIZE && m->nc <= SIZE);
-  draw(c, m->nv, d.v);
-  draw(c, m->nv, d.x);
-  draw(c, m->nv, d.other);
+  draw_vector(c, m->nv, d.v);
+  draw_vector(c, m->nv, d.x);
+  draw_vector(c, m->nv, d.other);
   if (baum_i_acceleration(w, 0.0, m->design_q, d.v, 0.0, 0.0) != BAUM_OK || w->near_singular > 0) {
     return false;
   }
@@ -112,7 +111,7 @@ static bool check_mechanism(baum_workspace *w, chance *c)
   assert_int_equal(baum_i_need_jacobian(w), BAUM_OK);
   assert_int_equal(baum_i_evaluate_mass(w), BAUM_OK);
   check_rows(w, &d);
-  check_upright(w, &d);
+  check_orthogonal(w, &d);
   check_by_rows(w, &d);
   return true;
 }

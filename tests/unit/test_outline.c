@@ -59,7 +59,7 @@ static double region_area(int count, int *parts)
   return sum;
 }
 
-static void points_lie_on_the_line(void **state)
+static void outlines_have_the_given_radius(void **state)
 {
   (void)state;
   static const double radii[] = {1.0, 0.9, 0.5, 1.3};
@@ -69,8 +69,8 @@ static void points_lie_on_the_line(void **state)
       for (int k = 0; k < count; k++) {
         if (alpha_h[k] > 1e-12 && beta2_h2[k] > 1e-12) {
           double got = amplification_at(m, alpha_h[k], beta2_h2[k]).spectral_radius;
-          /* The points are found by 42 bisections. Their error is amplified here, because the
-           * spectral radius of rk8 changes steeply. */
+          /* The points are found by 42 bisections. The spectral radius of rk8 changes steeply,
+           * which amplifies their error. */
           ASSERT_NEAR(got, radii[r], 0.0, 1e-9);
         }
       }
@@ -87,8 +87,7 @@ static double most(const double *values, int count)
   return out;
 }
 
-/* Returns the area of the region. It is found by counting which points of a fine grid are
- * inside. */
+/* Computes the area of the region by counting the points of a fine grid that are inside. */
 static double counted_area(int method, double radius, double A, double B)
 {
   int inside = 0;
@@ -99,7 +98,7 @@ static double counted_area(int method, double radius, double A, double B)
   return A * B * inside / (COLUMNS * ROWS);
 }
 
-static void outlines_go_round_what_is_inside(void **state)
+static void outlined_areas_agree_with_counted_areas(void **state)
 {
   (void)state;
   static const double radii[] = {1.0, 0.9, 0.6};
@@ -110,7 +109,7 @@ static void outlines_go_round_what_is_inside(void **state)
       double B = most(beta2_h2, count);
       int parts;
       double got = region_area(count, &parts);
-      /* The boundary passes through about 2 / 120 of the cells. Counting includes each of these
+      /* The boundary passes through about 2 / 120 of the cells. The count includes each of these
        * cells completely or not at all. */
       ASSERT_NEAR(got, counted_area(m, radii[r], A, B), 0.0, 0.01 * A * B);
       assert_true((count > 0) == (parts > 0));
@@ -118,7 +117,7 @@ static void outlines_go_round_what_is_inside(void **state)
   }
 }
 
-static void the_triangles_of_both_eulers_have_their_corners_and_areas(void **state)
+static void regions_of_both_euler_methods_are_the_known_triangles(void **state)
 {
   (void)state;
   int parts;
@@ -132,7 +131,7 @@ static void the_triangles_of_both_eulers_have_their_corners_and_areas(void **sta
   ASSERT_NEAR(most(beta2_h2, count), 4.0, 1e-9, 0.0);
 }
 
-static void the_capacity_is_kept_and_the_count_is_that_of_all(void **state)
+static void at_most_capacity_points_are_written_and_all_are_counted(void **state)
 {
   (void)state;
   int all = outline(&methods[RK4], 0.5);
@@ -160,7 +159,7 @@ static void a_region_that_is_empty_or_unbounded_has_no_outline(void **state)
 
 /* ---- Islands -------------------------------------------------------------- */
 
-static void islands_are_parts_intervals_and_nearest_points(void **state)
+static void islands_appear_as_parts_and_intervals_and_in_searches(void **state)
 {
   (void)state;
   double from[4];
@@ -184,10 +183,10 @@ static void islands_are_parts_intervals_and_nearest_points(void **state)
   double B;
   baum_i_stability_nearest(&island, 3.6, 14.0, &A, &B);
   assert_true(baum_i_amplification_within(&island, A, B, -0.1));
-  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* the other part of the region is 8 away */
+  assert_true(hypot(A - 3.6, B - 14.0) < 1.5); /* other parts of the region are more than 6 away */
 }
 
-static void intervals_of_our_methods_begin_at_zero(void **state)
+static void intervals_of_all_methods_begin_at_zero(void **state)
 {
   (void)state;
   for (int m = 0; m < METHOD_COUNT; m++) {
@@ -201,7 +200,7 @@ static void intervals_of_our_methods_begin_at_zero(void **state)
   }
 }
 
-static void a_ray_without_end_is_one_interval(void **state)
+static void stable_rays_have_one_interval_and_unstable_rays_have_none(void **state)
 {
   (void)state;
   static const baum_i_method always = {
@@ -265,7 +264,7 @@ static void best_points_of_adams_bashforth_are_the_known_ones(void **state)
   }
 }
 
-static void no_point_of_a_ray_is_better_than_its_best(void **state)
+static void no_point_of_a_ray_is_better_than_the_best(void **state)
 {
   (void)state;
   for (int m = 0; m < METHOD_COUNT; m++) {
@@ -288,17 +287,17 @@ static void no_point_of_a_ray_is_better_than_its_best(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(points_lie_on_the_line),
-    cmocka_unit_test(outlines_go_round_what_is_inside),
-    cmocka_unit_test(the_triangles_of_both_eulers_have_their_corners_and_areas),
-    cmocka_unit_test(the_capacity_is_kept_and_the_count_is_that_of_all),
+    cmocka_unit_test(outlines_have_the_given_radius),
+    cmocka_unit_test(outlined_areas_agree_with_counted_areas),
+    cmocka_unit_test(regions_of_both_euler_methods_are_the_known_triangles),
+    cmocka_unit_test(at_most_capacity_points_are_written_and_all_are_counted),
     cmocka_unit_test(a_region_that_is_empty_or_unbounded_has_no_outline),
-    cmocka_unit_test(islands_are_parts_intervals_and_nearest_points),
-    cmocka_unit_test(intervals_of_our_methods_begin_at_zero),
-    cmocka_unit_test(a_ray_without_end_is_one_interval),
+    cmocka_unit_test(islands_appear_as_parts_and_intervals_and_in_searches),
+    cmocka_unit_test(intervals_of_all_methods_begin_at_zero),
+    cmocka_unit_test(stable_rays_have_one_interval_and_unstable_rays_have_none),
     cmocka_unit_test(no_grid_point_is_better_than_the_best),
     cmocka_unit_test(best_points_of_adams_bashforth_are_the_known_ones),
-    cmocka_unit_test(no_point_of_a_ray_is_better_than_its_best),
+    cmocka_unit_test(no_point_of_a_ray_is_better_than_the_best),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

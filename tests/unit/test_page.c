@@ -49,7 +49,7 @@ static void only_an_open_joint_has_a_red_line(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up(void **state)
+static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_stopped(void **state)
 {
   (void)state;
   static char text[BYTES];
@@ -83,7 +83,7 @@ static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up
   baum_mechanism_destroy(m);
 }
 
-static void names_stay_texts(void **state)
+static void names_are_escaped(void **state)
 {
   (void)state;
   baum_mechanism *m = drawn_crank();
@@ -115,8 +115,8 @@ static void names_stay_texts(void **state)
 
 /* ---- samples of a motion ---- */
 
-/* Makes three samples of the crank, which rotates by half a revolution, with the reaction of its
- * pin. */
+/* Makes a page with three samples of the crank, which rotates by half a revolution, and with the
+ * reaction of its pin. */
 static baum_page page_of_crank(const baum_mechanism *m, double rows[3][15])
 {
   static const double times[3] = {0.0, 1.0, 2.0};
@@ -251,7 +251,7 @@ static void wrong_calls_are_refused(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void the_page_of_an_older_program_lacks_its_last_fields(void **state)
+static void a_page_of_an_older_program_may_lack_the_last_fields(void **state)
 {
   (void)state;
   static char text[BYTES];
@@ -276,7 +276,7 @@ static void the_page_of_an_older_program_lacks_its_last_fields(void **state)
 
 /* ---- long runs ---- */
 
-static void a_long_run_keeps_600_frames_and_its_extremes(void **state)
+static void a_long_run_keeps_its_extremes_in_at_most_600_frames(void **state)
 {
   (void)state;
   enum { N = 5000, NQ = 12 };
@@ -315,13 +315,13 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(only_an_open_joint_has_a_red_line),
-    cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_gave_up),
-    cmocka_unit_test(names_stay_texts),
+    cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_stopped),
+    cmocka_unit_test(names_are_escaped),
     cmocka_unit_test(a_sample_shows_paths_and_reactions_in_the_view_of_the_motion),
     cmocka_unit_test(wrong_samples_are_refused),
     cmocka_unit_test(wrong_calls_are_refused),
-    cmocka_unit_test(the_page_of_an_older_program_lacks_its_last_fields),
-    cmocka_unit_test(a_long_run_keeps_600_frames_and_its_extremes),
+    cmocka_unit_test(a_page_of_an_older_program_may_lack_the_last_fields),
+    cmocka_unit_test(a_long_run_keeps_its_extremes_in_at_most_600_frames),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,7 @@ typedef struct graph {
   baum_i_kkt_structure structure;
 } graph;
 
-static void begin(graph *d)
+static void begin_graph(graph *d)
 {
   memset(d, 0, sizeof *d);
   d->structure = (baum_i_kkt_structure){.nv = 3 * BODIES, .row_blocks = d->blocks};
@@ -30,7 +30,7 @@ static void begin(graph *d)
   }
 }
 
-static double *add(graph *d, int rows, const int bodies[2])
+static double *add_rows(graph *d, int rows, const int bodies[2])
 {
   int b = d->structure.row_block_count++;
   baum_i_row_block *block = &d->blocks[b];
@@ -48,7 +48,7 @@ static double *add(graph *d, int rows, const int bodies[2])
 /* Adds a pin. Its arm is (x, y) on each of the two bodies. The body -1 is ground. */
 static void pin(graph *d, int body_a, int body_b, double x, double y)
 {
-  double *value = add(d, 2, (const int[2]){body_a, body_b});
+  double *value = add_rows(d, 2, (const int[2]){body_a, body_b});
   for (int row = 0; row < 2; row++) {
     for (int side = 0; side < 2; side++) {
       if ((side == 0 ? body_a : body_b) >= 0) {
@@ -63,7 +63,7 @@ static void pin(graph *d, int body_a, int body_b, double x, double y)
 
 static void motor(graph *d, int body_a, int body_b)
 {
-  double *value = add(d, 1, (const int[2]){body_a, body_b});
+  double *value = add_rows(d, 1, (const int[2]){body_a, body_b});
   value[2] = 1.0;
   value[5] = body_a >= 0 && body_b >= 0 ? -1.0 : 0.0;
 }
@@ -86,7 +86,7 @@ static void an_open_chain_with_motors_is_peeled_off_completely(void **state)
   (void)state;
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
-  begin(&d);
+  begin_graph(&d);
   pin(&d, -1, 0, 0.5, 0.2);
   motor(&d, -1, 0);
   pin(&d, 0, 1, 0.3, -0.4);
@@ -101,7 +101,7 @@ static void loops_are_kept_and_open_chains_on_them_are_peeled_off(void **state)
   (void)state;
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
-  begin(&d);
+  begin_graph(&d);
   pin(&d, 2, 3, 0.6, 0.1); /* rows 0 and 1: this pin connects body 3 with the loop */
   pin(&d, -1, 0, 0.5, 0.2);
   pin(&d, 0, 1, 0.3, -0.4);
@@ -117,7 +117,7 @@ static void a_joint_added_twice_is_kept_with_the_chain_that_carries_it(void **st
   (void)state;
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
-  begin(&d);
+  begin_graph(&d);
   pin(&d, -1, 0, 0.5, 0.2);
   pin(&d, 0, 1, 0.3, -0.4);
   pin(&d, 0, 1, 0.3, -0.4);
@@ -131,16 +131,16 @@ static void rows_that_are_not_clearly_independent_are_kept(void **state)
   unsigned char peeled[2 * MOST_JOINTS];
   const double offsets[] = {1e-2, 1e-4, 0.0};
   for (int k = 0; k < 3; k++) {
-    begin(&d);
-    double *value = add(&d, 2, (const int[2]){-1, 0});
+    begin_graph(&d);
+    double *value = add_rows(&d, 2, (const int[2]){-1, 0});
     value[0] = value[3] = 1.0;
     value[4] = offsets[k];
     assert_int_equal(peel(&d, peeled), k == 0 ? 0 : 2);
   }
   /* Two rows must not be peeled off: a row of zeros, and a row whose squares overflow. */
   for (int k = 0; k < 2; k++) {
-    begin(&d);
-    double *value = add(&d, 1, (const int[2]){-1, 0});
+    begin_graph(&d);
+    double *value = add_rows(&d, 1, (const int[2]){-1, 0});
     value[0] = k == 0 ? 0.0 : 1e200;
     assert_int_equal(peel(&d, peeled), 1);
   }
@@ -151,7 +151,7 @@ static void rows_and_columns_may_have_any_size(void **state)
   (void)state;
   graph d;
   unsigned char peeled[2 * MOST_JOINTS];
-  begin(&d);
+  begin_graph(&d);
   pin(&d, -1, 0, 0.5, 0.2);
   pin(&d, 0, 1, 0.3, -0.4);
   for (int k = 0; k < 2 * PIN_SIZE; k++) {

@@ -17,8 +17,8 @@ static bool is_particle(const planar_scene *scene, baum_body_id body)
   return body.index1 == scene->ball.index1 || body.index1 == scene->bead.index1;
 }
 
-/* Adds a pin in a slot. The slot belongs to body a. If a is a particle, it belongs to body b, and
- * if both are particles, to the link. */
+/* Adds a pin in a slot. The slot belongs to body a. If a is a particle, the slot belongs to b. If
+ * both are particles, it belongs to the link. */
 static void add_slot(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
   baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
@@ -79,7 +79,7 @@ static void the_pin_moves_along_the_axis_and_rotates(void **state)
   baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
   def.body_a = scene.link;
   def.body_b = scene.crank;
-  def.point[0] = -0.3; /* the centre of the crank, so that its angle does not matter */
+  def.point[0] = -0.3; /* the centre of the crank, so that the angle of the crank does not matter */
   def.point[1] = 1.2;
   def.axis[0] = 3.0;
   def.axis[1] = 4.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the smallest pivot. It must become small near singular configurations, but not because
- * masses are very different. */
+ * masses differ by large factors. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,9 +38,9 @@ static double pivot_of(const baum_mechanism *m)
   return pivot;
 }
 
-/* The rods have inertias down to 1e-14 kg m^2. Unless the rod is horizontal or vertical, the block
- * solver fails for such inertias. The solver of the whole system then replaces it. */
-static void a_body_of_small_inertia_is_as_far_from_singular_in_all_directions(void **state)
+/* The rods have inertias down to 1e-14 kg m^2. At 1e-12 kg m^2 and less, the block solver fails in
+ * most directions of the rod. The solver of the whole system then replaces it. */
+static void the_pivot_of_a_pinned_rod_is_one_for_all_inertias_and_directions(void **state)
 {
   (void)state;
   for (double inertia = 1.0; inertia > 1e-14; inertia /= 10.0) {
@@ -59,7 +59,7 @@ static void a_body_of_small_inertia_is_as_far_from_singular_in_all_directions(vo
   }
 }
 
-static void pivots_fall_with_the_square_of_the_distance(void **state)
+static void pivots_fall_with_the_square_of_the_distance_to_a_singularity(void **state)
 {
   (void)state;
   double first = 0.0;
@@ -79,14 +79,14 @@ static void pivots_fall_with_the_square_of_the_distance(void **state)
   model_destroy(&m);
 }
 
-/* A slider of 1e-12 kg is at the end of a slider-crank, which makes one revolution. KLU keeps its
- * pivots as long as they are suitable. */
-static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
+/* A slider-crank with a slider of 1e-12 kg swings from a crank angle of 0.3 rad to -3.4 rad and
+ * back. KLU keeps its pivots as long as they are suitable. */
+static void a_light_slider_causes_few_near_singular_intervals(void **state)
 {
   (void)state;
   double angle = 0.3;
-  double turn = -asin(sin(angle) / 2.0);
-  double end = cos(angle) + 2.0 * cos(turn);
+  double rod_angle = -asin(sin(angle) / 2.0);
+  double end = cos(angle) + 2.0 * cos(rod_angle);
   baum_mechanism *m = NULL;
   baum_i_parts parts = baum_i_parts_begin();
   baum_planar_body_def slider = baum_planar_body_def_default();
@@ -94,7 +94,8 @@ static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
   slider.inertia = 1e-15;
   slider.position[0] = end;
   baum_body_id crank = add_rod(&parts, cos(angle) / 2.0, sin(angle) / 2.0, angle, 1.0 / 12.0);
-  baum_body_id rod = add_rod(&parts, (cos(angle) + end) / 2.0, sin(angle) / 2.0, turn, 4.0 / 12.0);
+  baum_body_id rod =
+    add_rod(&parts, (cos(angle) + end) / 2.0, sin(angle) / 2.0, rod_angle, 4.0 / 12.0);
   baum_body_id light = baum_i_parts_body(&parts, &slider);
   baum_i_parts_gravity(&parts, 9.81);
   baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
@@ -112,7 +113,7 @@ static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
   check(baum_simulation_step(run, 600));
   check(baum_simulation_counters(run, &counters, sizeof counters));
   /* Estimates from KLU's pivots differ by a factor of 25 between configurations. If KLU kept its
-   * first pivots, they would falsely report 12 near-singular intervals. */
+   * first pivots, 12 near-singular intervals would be reported falsely. */
   assert_true(counters.near_singular_intervals <= 2);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -121,9 +122,9 @@ static void a_light_slider_makes_hardly_any_configuration_singular(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_body_of_small_inertia_is_as_far_from_singular_in_all_directions),
-    cmocka_unit_test(pivots_fall_with_the_square_of_the_distance),
-    cmocka_unit_test(a_light_slider_makes_hardly_any_configuration_singular),
+    cmocka_unit_test(the_pivot_of_a_pinned_rod_is_one_for_all_inertias_and_directions),
+    cmocka_unit_test(pivots_fall_with_the_square_of_the_distance_to_a_singularity),
+    cmocka_unit_test(a_light_slider_causes_few_near_singular_intervals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,7 +27,7 @@ static baum_planar_revolute_def pin(baum_body_id a, baum_body_id b)
   return def;
 }
 
-/* ---- the first fields, which all definitions have in common ---- */
+/* ---- common fields of definitions ---- */
 
 #define HAS_HEAD(NAME)                                                                             \
   do {                                                                                             \
@@ -39,7 +39,7 @@ static baum_planar_revolute_def pin(baum_body_id a, baum_body_id b)
     assert_int_equal(offsetof(baum_##NAME##_def, point_b), offsetof(baum_i_planar_head, point_b)); \
   } while (0)
 
-static void definitions_between_two_bodies_begin_alike(void **state)
+static void definitions_between_two_bodies_begin_with_the_same_fields(void **state)
 {
   (void)state;
   HAS_HEAD(planar_revolute);
@@ -49,7 +49,7 @@ static void definitions_between_two_bodies_begin_alike(void **state)
   HAS_HEAD(planar_spring);
 }
 
-/* ---- what is refused ---- */
+/* ---- refused definitions ---- */
 
 static void bodies_that_cannot_be_joined_are_refused(void **state)
 {
@@ -122,7 +122,7 @@ static void points_are_given_either_in_ground_or_in_body_axes(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void a_particle_is_its_own_point(void **state)
+static void a_point_on_a_particle_must_be_at_the_particle(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -177,7 +177,7 @@ static void a_point_of_the_design_is_converted_into_body_axes(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void a_particle_is_at_its_point_up_to_rounding(void **state)
+static void a_point_may_differ_from_its_particle_by_rounding(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -221,7 +221,7 @@ static void design_frames_are_at_rest(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void a_driver_does_not_change_the_size_of_the_design(void **state)
+static void a_driver_does_not_change_the_characteristic_length(void **state)
 {
   (void)state;
   double length[2];
@@ -256,7 +256,7 @@ static void open_span(test_point *p)
   test_point_open(p, scene.mechanism);
 }
 
-static void packing_leaves_out_what_a_particle_does_not_have(void **state)
+static void packing_omits_the_angle_of_a_particle(void **state)
 {
   (void)state;
   test_point p;
@@ -305,16 +305,16 @@ static void scattering_adds_what_gathering_takes(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(definitions_between_two_bodies_begin_alike),
+    cmocka_unit_test(definitions_between_two_bodies_begin_with_the_same_fields),
     cmocka_unit_test(bodies_that_cannot_be_joined_are_refused),
     cmocka_unit_test(user_coordinates_have_no_place_in_the_plane),
     cmocka_unit_test(points_are_given_either_in_ground_or_in_body_axes),
-    cmocka_unit_test(a_particle_is_its_own_point),
+    cmocka_unit_test(a_point_on_a_particle_must_be_at_the_particle),
     cmocka_unit_test(a_point_of_the_design_is_converted_into_body_axes),
-    cmocka_unit_test(a_particle_is_at_its_point_up_to_rounding),
+    cmocka_unit_test(a_point_may_differ_from_its_particle_by_rounding),
     cmocka_unit_test(design_frames_are_at_rest),
-    cmocka_unit_test(a_driver_does_not_change_the_size_of_the_design),
-    cmocka_unit_test(packing_leaves_out_what_a_particle_does_not_have),
+    cmocka_unit_test(a_driver_does_not_change_the_characteristic_length),
+    cmocka_unit_test(packing_omits_the_angle_of_a_particle),
     cmocka_unit_test(scattering_adds_what_gathering_takes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

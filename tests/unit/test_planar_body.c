@@ -54,7 +54,7 @@ static void mass_gravity_and_potential_are_those_of_a_rigid_body(void **state)
   test_point_close(&p);
 }
 
-static void a_second_body_has_its_own_numbers(void **state)
+static void a_second_body_has_its_own_parameters(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -81,7 +81,7 @@ static void a_second_body_has_its_own_numbers(void **state)
   test_point_close(&p);
 }
 
-static void the_design_is_the_start(void **state)
+static void the_definition_sets_the_design_state(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -111,9 +111,9 @@ static void the_design_is_the_start(void **state)
   test_point_close(&p);
 }
 
-/* Both points of a pin at the centre of mass are equal only up to rounding. Their distance is no
- * size of the mechanism. */
-static void rounding_is_no_characteristic_length(void **state)
+/* A pin is at the centre of mass up to rounding. This tiny offset must not become the
+ * characteristic length. */
+static void rounding_does_not_set_the_characteristic_length(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -190,9 +190,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_rigid_body),
-    cmocka_unit_test(a_second_body_has_its_own_numbers),
-    cmocka_unit_test(the_design_is_the_start),
-    cmocka_unit_test(rounding_is_no_characteristic_length),
+    cmocka_unit_test(a_second_body_has_its_own_parameters),
+    cmocka_unit_test(the_definition_sets_the_design_state),
+    cmocka_unit_test(rounding_does_not_set_the_characteristic_length),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

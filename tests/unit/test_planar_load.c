@@ -28,7 +28,8 @@ static baum_planar_load_def good(const planar_scene *scene)
   return def;
 }
 
-/* Checks a load at 20 random states. */
+/* Adds the load twice. Checks its derivatives and, if it is conservative, its potential at 20
+ * random states. */
 static void check_at_random(const planar_scene *scene, const baum_planar_load_def *def,
                             bool conservative)
 {
@@ -99,7 +100,7 @@ static void derivatives_with_an_input_agree_with_differences(void **state)
 }
 
 /* Computes force and potential of a load on the crank, whose angle is 90 degrees. `input` is the
- * value of the load's input. If it is NaN, the load has no input. */
+ * value of the load's input, or NaN if the load has no input. */
 static void evaluate_with(const baum_planar_load_def *given, double input, double force[3],
                           double *potential)
 {
@@ -161,7 +162,7 @@ static void a_load_keeps_its_direction_or_follows_its_body(void **state)
   ASSERT_NEAR(potential, 0.0, 0.0, 0.0);
 }
 
-static void an_input_multiplies_force_and_torque_and_takes_the_potential(void **state)
+static void an_input_multiplies_force_and_torque_and_removes_the_potential(void **state)
 {
   (void)state;
   static const double inputs[] = {-2.5, 0.0, 1.0};
@@ -270,7 +271,7 @@ static void definitions_come_back(void **state)
   second.torque = 9.0;
   second.follows_body = true;
   assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", 1.0, &second.input), BAUM_OK);
-  /* Compares only the fields before `input`, because there are padding bytes after them. `input` is
+  /* This compares only the fields before `input`, because padding bytes follow them. `input` is
    * compared below. */
   CHECK_ROUND_TRIP(force, planar_load, follows_body, scene.mechanism, &first, &second);
   baum_force_id load;
@@ -291,7 +292,7 @@ int main(void)
     cmocka_unit_test(derivatives_on_a_particle_agree_with_differences),
     cmocka_unit_test(a_load_keeps_its_direction_or_follows_its_body),
     cmocka_unit_test(derivatives_with_an_input_agree_with_differences),
-    cmocka_unit_test(an_input_multiplies_force_and_torque_and_takes_the_potential),
+    cmocka_unit_test(an_input_multiplies_force_and_torque_and_removes_the_potential),
     cmocka_unit_test(a_wrong_input_is_refused),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(wrong_bodies_are_refused),

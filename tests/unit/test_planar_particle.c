@@ -50,7 +50,7 @@ static void mass_gravity_and_potential_are_those_of_a_point(void **state)
   test_point_close(&p);
 }
 
-static void a_second_particle_has_its_own_numbers(void **state)
+static void a_second_particle_has_its_own_parameters(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -76,7 +76,7 @@ static void a_second_particle_has_its_own_numbers(void **state)
   test_point_close(&p);
 }
 
-static void the_design_is_the_start(void **state)
+static void the_definition_sets_the_design_state(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -141,8 +141,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_point),
-    cmocka_unit_test(a_second_particle_has_its_own_numbers),
-    cmocka_unit_test(the_design_is_the_start),
+    cmocka_unit_test(a_second_particle_has_its_own_parameters),
+    cmocka_unit_test(the_definition_sets_the_design_state),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),
   };

@@ -82,8 +82,8 @@ static void derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_with_law, true, check_force_when_long);
 }
 
-/* Opens a test point with a spring "S" between ball and bead. The spring has a user's law. The bead
- * is at (3, 4) from the ball and moves along x. */
+/* Opens a test point with a spring "S" between ball and bead. The user gives its law. The bead is
+ * at (3, 4) relative to the ball and moves along x. */
 static void open_law(test_point *p, spring_law *user)
 {
   planar_scene scene = planar_scene_make();
@@ -105,7 +105,7 @@ static void open_law(test_point *p, spring_law *user)
   test_point_update(p);
 }
 
-static void a_law_replaces_the_numbers_and_has_no_potential(void **state)
+static void a_law_replaces_stiffness_and_damping_and_has_no_potential(void **state)
 {
   (void)state;
   test_point p;
@@ -299,7 +299,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(a_spring_pulls_both_ends_together_and_damps_along_its_line),
-    cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
+    cmocka_unit_test(a_law_replaces_stiffness_and_damping_and_has_no_potential),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),
     cmocka_unit_test(a_spring_without_length_has_no_force),

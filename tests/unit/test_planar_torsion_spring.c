@@ -64,8 +64,8 @@ static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const 
   test_point_update(p);
 }
 
-/* Checks the torques on both bodies. The link must have this torque and the crank the opposite one,
- * and all other forces must be zero. */
+/* Checks that the link has the torque `want`, that the crank has the opposite torque, and that all
+ * other forces are zero. */
 static void check_torque(test_point *p, double want)
 {
   double force[TEST_SIZE_MAX];
@@ -79,7 +79,7 @@ static void check_torque(test_point *p, double want)
 
 /* ---- tests ---- */
 
-static void both(test_point *p)
+static void check_derivatives_and_potential(test_point *p)
 {
   check_force_derivatives(p);
   check_potential_gradient(p);
@@ -88,7 +88,7 @@ static void both(test_point *p)
 static void derivatives_agree_with_differences(void **state)
 {
   (void)state;
-  for_each_planar_pair(add_linear, false, both);
+  for_each_planar_pair(add_linear, false, check_derivatives_and_potential);
   for_each_planar_pair(add_with_law, false, check_force_derivatives);
 }
 
@@ -108,7 +108,7 @@ static void a_torsion_spring_rotates_the_bodies_back_and_damps(void **state)
   test_point_close(&p);
 }
 
-static void a_law_replaces_the_numbers_and_has_no_potential(void **state)
+static void a_law_replaces_stiffness_and_damping_and_has_no_potential(void **state)
 {
   (void)state;
   test_point p;
@@ -219,7 +219,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(a_torsion_spring_rotates_the_bodies_back_and_damps),
-    cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
+    cmocka_unit_test(a_law_replaces_stiffness_and_damping_and_has_no_potential),
     cmocka_unit_test(a_failing_law_is_named),
     cmocka_unit_test(wrong_derivatives_are_found),
     cmocka_unit_test(the_free_angle_follows_from_the_design_unless_given),

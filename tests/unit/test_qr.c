@@ -17,7 +17,8 @@
 enum { NV = 7, NC = 5, N = NV + NC };
 
 /* Makes a system of five rows. Row 3 equals row 0, and row 4 is row 1 minus row 2. The masses are
- * 1, and the largest entry in rows 0 to 3 is 1. Scaling therefore does not change these rows. */
+ * 1, and the largest entry in each of rows 0 to 3 is 1. Scaling therefore does not change these
+ * rows. */
 static saddle make_dependent(void)
 {
   saddle system = saddle_make_dense(NV, NC);
@@ -57,7 +58,7 @@ static baum_status factor_and_solve(baum_i_kkt *kkt, saddle *system)
   return baum_i_kkt_solve(kkt, system->f, system->r, system->a, system->lambda);
 }
 
-static void dependent_rows_are_singular_to_klu_alone(void **state)
+static void klu_alone_reports_dependent_rows_as_singular(void **state)
 {
   (void)state;
   saddle system = make_dependent();
@@ -93,15 +94,15 @@ static void dependent_rows_leave_accelerations_unique(void **state)
   }
 }
 
-static void multipliers_that_are_not_unique_are_of_least_norm(void **state)
+static void multipliers_that_are_not_unique_have_the_least_norm(void **state)
 {
   (void)state;
   saddle system = make_dependent();
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor_and_solve(kkt, &system), BAUM_OK);
-  /* The multipliers have the least norm if they are orthogonal to every w with J^T w = 0. Here
-   * these are the vectors (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1). The norm is computed from the
-   * scaled multipliers. The scale of the rows is 1. Only the last row may have another scale e,
+  /* The multipliers have the least norm if they are orthogonal to every w with J^T w = 0. In this
+   * system, the vectors (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1) span these w. The norm is computed
+   * from the scaled multipliers. Rows 0 to 3 have the scale 1. Row 4 may have another scale e,
    * because it is a difference of rows. */
   const double *lambda = system.lambda;
   double largest = 0.0;
@@ -115,7 +116,7 @@ static void multipliers_that_are_not_unique_are_of_least_norm(void **state)
   saddle_free(&system);
 }
 
-static void rounding_in_dependent_rows_is_forgiven(void **state)
+static void rounding_errors_in_dependent_rows_are_tolerated(void **state)
 {
   (void)state;
   saddle system = make_dependent();
@@ -161,7 +162,7 @@ static void the_units_of_dependent_rows_do_not_matter(void **state)
     saddle system = make_dependent();
     double want[N];
     solve_independent(&system, want);
-    /* Changes the units of rows 3 and 4, then the unit of velocity 5, and then all units. */
+    /* Changes the units of rows 3 and 4, and the unit of velocity 5. */
     for (int j = 0; j < NV; j++) {
       system.jacobian[3 * NV + j] *= units[k];
       system.jacobian[4 * NV + j] *= units[3 - k];
@@ -184,7 +185,7 @@ static void the_units_of_dependent_rows_do_not_matter(void **state)
   }
 }
 
-static void more_rows_than_velocities_are_solved_if_they_agree(void **state)
+static void more_rows_than_velocities_are_solved_if_they_are_consistent(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 5);
@@ -204,7 +205,7 @@ static void more_rows_than_velocities_are_solved_if_they_agree(void **state)
   saddle_free(&system);
 }
 
-static void a_row_of_zeros_takes_no_force(void **state)
+static void rows_of_zeros_have_no_multipliers(void **state)
 {
   (void)state;
   saddle system = make_dependent();
@@ -222,7 +223,7 @@ static void a_row_of_zeros_takes_no_force(void **state)
   saddle_free(&system);
 }
 
-static void qr_by_choice_estimates_how_singular_a_matrix_is(void **state)
+static void qr_estimates_how_singular_a_matrix_is(void **state)
 {
   (void)state;
   saddle system = saddle_make_four_bar(1);
@@ -243,7 +244,7 @@ static void qr_by_choice_estimates_how_singular_a_matrix_is(void **state)
   saddle_free(&system);
 }
 
-static void destroying_nothing_is_fine(void **state)
+static void destroying_null_does_nothing(void **state)
 {
   (void)state;
   baum_i_qr_ops.destroy(NULL);
@@ -252,16 +253,16 @@ static void destroying_nothing_is_fine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(dependent_rows_are_singular_to_klu_alone),
+    cmocka_unit_test(klu_alone_reports_dependent_rows_as_singular),
     cmocka_unit_test(dependent_rows_leave_accelerations_unique),
-    cmocka_unit_test(multipliers_that_are_not_unique_are_of_least_norm),
-    cmocka_unit_test(rounding_in_dependent_rows_is_forgiven),
+    cmocka_unit_test(multipliers_that_are_not_unique_have_the_least_norm),
+    cmocka_unit_test(rounding_errors_in_dependent_rows_are_tolerated),
     cmocka_unit_test(rows_that_contradict_each_other_are_singular),
     cmocka_unit_test(the_units_of_dependent_rows_do_not_matter),
-    cmocka_unit_test(more_rows_than_velocities_are_solved_if_they_agree),
-    cmocka_unit_test(a_row_of_zeros_takes_no_force),
-    cmocka_unit_test(qr_by_choice_estimates_how_singular_a_matrix_is),
-    cmocka_unit_test(destroying_nothing_is_fine),
+    cmocka_unit_test(more_rows_than_velocities_are_solved_if_they_are_consistent),
+    cmocka_unit_test(rows_of_zeros_have_no_multipliers),
+    cmocka_unit_test(qr_estimates_how_singular_a_matrix_is),
+    cmocka_unit_test(destroying_null_does_nothing),
   };
   return cmocka_run_group_tests_name("qr", tests, NULL, NULL);
 }

@@ -57,10 +57,9 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_rack, false, check_rows_balance);
 }
 
-/* A wheel rolls on the floor, and the floor is the rack. An observer who looks along the axis (1,
- * 0) of the rack has the floor on the right of the centre of the wheel. The radius is therefore
- * negative. */
-static void a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward(void **state)
+/* A wheel rolls on the floor, and the floor is the rack. If you look along the axis (1, 0) of the
+ * rack, the floor is to the right of the centre of the wheel. The radius is therefore negative. */
+static void a_wheel_on_the_floor_rolls_backward_if_its_angle_increases(void **state)
 {
   (void)state;
   const double radius = 0.4;
@@ -147,7 +146,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(reactions_balance),
-    cmocka_unit_test(a_wheel_on_the_floor_rolls_backwards_when_it_turns_forward),
+    cmocka_unit_test(a_wheel_on_the_floor_rolls_backward_if_its_angle_increases),
     cmocka_unit_test(the_offset_follows_from_the_design_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -23,8 +23,8 @@ static void fill_with_ones(double *x, int count)
   }
 }
 
-/* Makes random rows. Each row that `dependent` marks is a random sum of the independent rows before
- * it. */
+/* Makes random rows. Each row that `dependent` marks is a random linear combination of the
+ * independent rows before it. */
 static saddle make_rows(int nv, int nc, const unsigned char *dependent, uint64_t seed)
 {
   saddle system = saddle_make_dense(nv, nc);
@@ -48,7 +48,7 @@ static void assert_rank(const saddle *system, const double *column_scale, int wa
 {
   unsigned char independent[MOST];
   int rank = -1;
-  /* All rows have the same mark, so that they are chosen in their order. */
+  /* All rows have the same mark, so they are chosen in their order. */
   memset(independent, 7, sizeof independent);
   assert_int_equal(baum_i_jacobian_rank(&system->structure, system->jacobian, column_scale,
                                         tolerance, &rank, independent),
@@ -59,7 +59,7 @@ static void assert_rank(const saddle *system, const double *column_scale, int wa
   }
 }
 
-static void of_dependent_rows_the_later_ones_are_given_up(void **state)
+static void later_rows_depend_on_earlier_rows(void **state)
 {
   (void)state;
   uint64_t seed = 3;
@@ -104,9 +104,9 @@ static void sizes_of_rows_and_columns_do_not_matter(void **state)
   }
 }
 
-/* Row 2 is the sum of rows 0 and 1. Row 4 is the sum of rows 1, 2 and 3. Each case marks some rows.
- * These must be chosen as independent before other rows. */
-static void marked_rows_are_taken_first(void **state)
+/* Row 2 is the sum of rows 0 and 1. Row 4 is the sum of rows 1, 2 and 3. The cases mark no row, one
+ * row and two rows. Marked rows must be chosen before other rows. */
+static void marked_rows_are_chosen_first(void **state)
 {
   (void)state;
   static const double rows[5][4] = {
@@ -129,7 +129,7 @@ static void marked_rows_are_taken_first(void **state)
   saddle_free(&system);
 }
 
-static void the_tolerance_is_on_what_is_left_of_a_unit_row(void **state)
+static void the_tolerance_applies_to_the_remainder_of_a_unit_row(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 2);
@@ -158,7 +158,7 @@ static void a_joint_added_twice_is_found(void **state)
   fill_with_ones(ones, MOST);
   saddle_pose_four_bar(&system, 0.7);
   assert_rank(&system, ones, 20, dependent);
-  /* Adds a copy of the last joint that has the same values. */
+  /* Adds the last joint again, with the same values. */
   baum_i_row_block blocks[11];
   memcpy(blocks, system.row_blocks, 10 * sizeof *blocks);
   blocks[10] = blocks[9];
@@ -198,7 +198,7 @@ static void joints_of_a_sparse_mechanism_added_twice_are_found(void **state)
   }
 }
 
-static void a_flat_four_bar_has_one_row_too_many(void **state)
+static void a_flat_four_bar_has_one_dependent_row(void **state)
 {
   (void)state;
   saddle system = saddle_make_four_bar(1);
@@ -230,7 +230,7 @@ static void rows_of_zeros_are_dependent(void **state)
   saddle_free(&system);
 }
 
-static void more_rows_than_velocities_have_at_most_their_rank(void **state)
+static void the_rank_is_at_most_the_number_of_velocities(void **state)
 {
   (void)state;
   const unsigned char drawn[] = {0, 0, 0, 0, 0, 0};
@@ -275,15 +275,15 @@ static void numbers_that_are_not_finite_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(of_dependent_rows_the_later_ones_are_given_up),
+    cmocka_unit_test(later_rows_depend_on_earlier_rows),
     cmocka_unit_test(sizes_of_rows_and_columns_do_not_matter),
-    cmocka_unit_test(marked_rows_are_taken_first),
-    cmocka_unit_test(the_tolerance_is_on_what_is_left_of_a_unit_row),
+    cmocka_unit_test(marked_rows_are_chosen_first),
+    cmocka_unit_test(the_tolerance_applies_to_the_remainder_of_a_unit_row),
     cmocka_unit_test(a_joint_added_twice_is_found),
     cmocka_unit_test(joints_of_a_sparse_mechanism_added_twice_are_found),
-    cmocka_unit_test(a_flat_four_bar_has_one_row_too_many),
+    cmocka_unit_test(a_flat_four_bar_has_one_dependent_row),
     cmocka_unit_test(rows_of_zeros_are_dependent),
-    cmocka_unit_test(more_rows_than_velocities_have_at_most_their_rank),
+    cmocka_unit_test(the_rank_is_at_most_the_number_of_velocities),
     cmocka_unit_test(no_rows_have_rank_zero),
     cmocka_unit_test(numbers_that_are_not_finite_are_refused),
   };

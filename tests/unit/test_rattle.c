@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests RATTLE: which quantities it conserves, the solvers of its equations, and the steps that it
- * refuses. */
+/* Tests RATTLE: the quantities that it conserves, the solvers of its equations, and the steps that
+ * it refuses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -138,10 +138,10 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* The method is symmetric, so the same number of steps backwards leads to the start again. What
- * remains are the rounding errors of 500 steps. The motion amplifies them as it amplifies all
- * perturbations. */
-static void going_back_leads_to_the_start(void **state)
+/* The method is symmetric, so the same number of backward steps returns to the start, up to the
+ * rounding errors of 500 steps in each direction. The motion amplifies these errors like any
+ * perturbation. */
+static void steps_backward_return_to_the_start(void **state)
 {
   (void)state;
   model m = {0};
@@ -175,9 +175,9 @@ static void map_angle(baum_simulation *run, int steps, const double from[2], dou
   to[1] = x[0] * u[1] - x[1] * u[0];
 }
 
-/* Returns by which factor 40 steps change areas in phase space. This is the determinant of the
- * derivative of map_angle(), which is computed by central differences. For a symplectic method this
- * factor is 1. */
+/* Returns the factor by which 40 steps change areas in phase space. This factor is the determinant
+ * of the derivative of map_angle(), computed by central differences. It is 1 for a symplectic
+ * method. */
 static double area_factor(const baum_integrator *integrator)
 {
   const double d = 1e-4; /* the truncation error is d^2 times third derivatives, about 1e-7 */
@@ -202,7 +202,7 @@ static double area_factor(const baum_integrator *integrator)
   return derivative[0][0] * derivative[1][1] - derivative[0][1] * derivative[1][0];
 }
 
-static void areas_in_phase_space_are_kept(void **state)
+static void areas_in_phase_space_are_conserved(void **state)
 {
   (void)state;
   ASSERT_NEAR(area_factor(baum_rattle()), 1.0, 0.0, 1e-5);
@@ -241,7 +241,7 @@ static void all_solvers_give_the_same_motion(void **state)
 }
 
 /* Neither redundant rows nor fixed bodies may change the motion. */
-static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
+static void redundant_rows_and_fixed_bodies_do_not_change_the_motion(void **state)
 {
   (void)state;
   model plain = make_crank((model_slider_crank){0});
@@ -263,10 +263,10 @@ static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   model_destroy(&framed);
 }
 
-/* A step of 0.5 s at 10 m/s leads 5 m along the tangent of a circle of 1 m. RATTLE corrects the
- * position by a force along the rod at the start of the step. From there, no such force leads back
- * to the circle. */
-static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
+/* A step of 0.5 s at 10 m/s leads 5 m along the tangent of a circle with a radius of 1 m. RATTLE
+ * corrects the position by a force in the direction that the rod has at the start of the step. No
+ * force in this direction leads back to the circle. */
+static void a_step_without_a_solution_is_refused_and_keeps_the_state(void **state)
 {
   (void)state;
   model_pendulum data = MODEL_PENDULUM_A01;
@@ -289,11 +289,11 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(positions_and_velocities_fulfil_the_constraints_to_rounding),
     cmocka_unit_test(the_energy_of_long_runs_stays_in_its_band),
-    cmocka_unit_test(going_back_leads_to_the_start),
-    cmocka_unit_test(areas_in_phase_space_are_kept),
+    cmocka_unit_test(steps_backward_return_to_the_start),
+    cmocka_unit_test(areas_in_phase_space_are_conserved),
     cmocka_unit_test(all_solvers_give_the_same_motion),
-    cmocka_unit_test(redundant_rows_and_fixed_bodies_alter_nothing),
-    cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
+    cmocka_unit_test(redundant_rows_and_fixed_bodies_do_not_change_the_motion),
+    cmocka_unit_test(a_step_without_a_solution_is_refused_and_keeps_the_state),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows must be found and named, and must do no harm. Rows that contradict each other must
- * be found, named and refused. */
+/* Tests redundant rows, which must be found and named and must not change the motion. Rows that
+ * contradict each other must be found, named and refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,7 +44,7 @@ static baum_joint_id add_pin(baum_mechanism *m, const char *name, baum_body_id a
   return id;
 }
 
-/* A physical pendulum with one, two or three equal pins. */
+/* Makes a physical pendulum with one, two or three equal pins. */
 static baum_mechanism *pendulum_with_pins(int pins)
 {
   static const char *const names[3] = {"pin", "pin again", "pin once more"};
@@ -107,7 +107,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* if the norm is least, each pin carries half of the force */
+  for (int i = 0; i < 2; i++) { /* each pin carries half of the force if the norm is least */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }
@@ -136,8 +136,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* This is Lagrange's equation for the angle of the cranks: (3 (J + m/4) + m) angle'' = -(3
-   * m/2 + m) g cos(angle), with m = 2 kg, J = 0.3 kg m^2 and the length 1 m. */
+  /* Lagrange's equation for the angle of the cranks is (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g
+   * cos(angle), with m = 2 kg, J = 0.3 kg m^2 and the length 1 m. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
     ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
@@ -154,8 +154,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
-/* Makes a horizontal chain of links of 1 m, which begins at the origin. Each link is joined to the
- * one before it by `pins` equal pins. */
+/* Makes a horizontal chain of links of 1 m, which begins at the origin. `pins` equal pins join each
+ * link to the previous link. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
   baum_mechanism *m = NULL;
@@ -183,7 +183,7 @@ static void many_duplicated_joints_share_their_forces(void **state)
   double got[3 * LINKS];
   double force[2 * LINKS];
   double shared[4 * LINKS];
-  for (int k = 0; k < LINKS; k++) { /* the chain must rotate like a rigid body */
+  for (int k = 0; k < LINKS; k++) { /* the chain rotates like a rigid body */
     v[3 * k] = 0.0;
     v[3 * k + 1] = 2.0 * (k + 0.5);
     v[3 * k + 2] = 2.0;
@@ -230,7 +230,7 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The test makes multipliers wrong by 1e-5, while forces are about 10 N. */
+/* The test changes a multiplier by 1e-5 N. Forces are about 10 N. */
 static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
 {
   (void)state;
@@ -379,7 +379,7 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   }
   ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* a method of order 1 with h = 1e-5 s */
   ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* with rtol 1e-9 */
-  /* Also with rtol 1e-9. The error of IDA, however, exceeds this tolerance. */
+  /* The global error of IDA with rtol 1e-9 is larger. */
   ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6);
   baum_mechanism_destroy(m);
 }
@@ -418,7 +418,7 @@ static int64_t warnings_after(const baum_mechanism *m, double t)
 }
 
 /* At t = 0, both drivers prescribe the same position and velocity, but different accelerations. */
-static void a_workspace_refuses_accelerations_that_miss_an_omitted_row(void **state)
+static void a_workspace_refuses_accelerations_that_violate_an_omitted_row(void **state)
 {
   (void)state;
   const double q[3] = {1.0, 0.0, 0.0};
@@ -441,13 +441,13 @@ static void a_workspace_refuses_accelerations_that_miss_an_omitted_row(void **st
   }
 }
 
-static void drivers_that_contradict_each_other_later_are_warned_of(void **state)
+static void drivers_that_contradict_each_other_later_cause_a_warning(void **state)
 {
   (void)state;
   baum_mechanism *same = driven_twice(0.0);
   baum_mechanism *parting = driven_twice(1.0);
   assert_int_equal(warnings_after(same, 1.0), 1); /* the warning about redundant rows */
-  assert_true(warnings_after(parting, 1.0) >= 2); /* also a warning that one of them is violated */
+  assert_true(warnings_after(parting, 1.0) >= 2); /* also a warning that a driver is violated */
   baum_mechanism_destroy(same);
   baum_mechanism_destroy(parting);
 }
@@ -476,8 +476,8 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
 }
 
 /* If acceleration = 1, the two motors differ by t^2 / 2 in the angle and by t in the velocity.
- * Projection can thus satisfy only one of them. */
-static void projection_names_redundant_rows_that_the_others_do_not_meet(void **state)
+ * Projection can therefore satisfy only one of the motors. */
+static void projection_names_redundant_rows_that_remain_violated(void **state)
 {
   (void)state;
   static const struct {
@@ -518,7 +518,7 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
   }
 }
 
-static void a_run_that_blows_up_is_warned_of(void **state)
+static void a_diverging_run_causes_warnings(void **state)
 {
   (void)state;
   baum_mechanism *m = pendulum_with_pins(1);
@@ -553,11 +553,11 @@ int main(void)
     cmocka_unit_test(a_body_without_a_joint_is_named),
     cmocka_unit_test(two_contradicting_rods_are_named_and_refused),
     cmocka_unit_test(a_redundant_mechanism_runs_with_a_warning_that_names_its_joints),
-    cmocka_unit_test(a_workspace_refuses_accelerations_that_miss_an_omitted_row),
-    cmocka_unit_test(drivers_that_contradict_each_other_later_are_warned_of),
+    cmocka_unit_test(a_workspace_refuses_accelerations_that_violate_an_omitted_row),
+    cmocka_unit_test(drivers_that_contradict_each_other_later_cause_a_warning),
     cmocka_unit_test(a_workspace_projects_a_redundant_mechanism),
-    cmocka_unit_test(projection_names_redundant_rows_that_the_others_do_not_meet),
-    cmocka_unit_test(a_run_that_blows_up_is_warned_of),
+    cmocka_unit_test(projection_names_redundant_rows_that_remain_violated),
+    cmocka_unit_test(a_diverging_run_causes_warnings),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

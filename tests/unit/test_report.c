@@ -51,7 +51,7 @@ static void assert_says(const baum_report *report, const char *part)
 
 /* ---- parts ---- */
 
-static baum_mechanism *begin(void)
+static baum_mechanism *create_mechanism(void)
 {
   baum_mechanism *m = NULL;
   must(baum_mechanism_create(&m));
@@ -139,13 +139,13 @@ static void a_slider_crank_is_counted(void **state)
   assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
 }
 
-/* A ring of n pins that is not joined to ground. Each of the first n - 3 eliminations adds one
- * coupling, which connects the two neighbours of the eliminated node. */
-static void fill_counts_couplings_that_elimination_adds(void **state)
+/* The mechanism is a ring of n pins that is not joined to ground. Each of the first n - 3
+ * eliminations adds one coupling, which connects the two neighbours of the eliminated node. */
+static void fill_is_the_number_of_couplings_that_elimination_adds(void **state)
 {
   (void)state;
   enum { RING = 9 };
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id bodies[RING];
   for (int k = 0; k < RING; k++) {
     bodies[k] = add_body(m, NULL, cos(2.0 * PI * k / RING), sin(2.0 * PI * k / RING));
@@ -166,7 +166,7 @@ static void fill_counts_couplings_that_elimination_adds(void **state)
 static void islands_are_counted(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id a = add_body(m, NULL, 1.0, 0.0);
   baum_body_id b = add_body(m, NULL, 2.0, 0.0);
   (void)add_body(m, NULL, 5.0, 5.0);
@@ -183,7 +183,7 @@ static void islands_are_counted(void **state)
 static void fixed_bodies_are_reported(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id low = add_body(m, "low", 0.0, -1.0);
   baum_body_id high = add_body(m, "high", 0.0, 0.0);
   weld(m, BAUM_GROUND, low);
@@ -200,10 +200,10 @@ static void fixed_bodies_are_reported(void **state)
   assert_says(&r, "2 fixed bodies");
 }
 
-static void no_joints_need_no_solution(void **state)
+static void a_mechanism_without_joints_has_no_nodes(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   (void)add_body(m, NULL, 0.0, 0.0);
   baum_report r = report_once(m);
   assert_int_equal(r.nodes, 0);
@@ -217,7 +217,7 @@ static void no_joints_need_no_solution(void **state)
 static void a_hub_is_named(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_body_id hub = add_body(m, "hub", 0.0, 0.0);
   pin(m, BAUM_GROUND, hub, 0.0, 0.0);
   pin_around(m, hub, 60);
@@ -237,7 +237,7 @@ static void a_hub_is_named(void **state)
 static void a_mechanism_that_cannot_be_assembled_is_reported_too(void **state)
 {
   (void)state;
-  baum_mechanism *m = begin();
+  baum_mechanism *m = create_mechanism();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   rod.body_a = BAUM_GROUND;
   rod.body_b = add_body(m, NULL, 1.0, 0.0);
@@ -259,10 +259,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slider_crank_is_counted),
-    cmocka_unit_test(fill_counts_couplings_that_elimination_adds),
+    cmocka_unit_test(fill_is_the_number_of_couplings_that_elimination_adds),
     cmocka_unit_test(islands_are_counted),
     cmocka_unit_test(fixed_bodies_are_reported),
-    cmocka_unit_test(no_joints_need_no_solution),
+    cmocka_unit_test(a_mechanism_without_joints_has_no_nodes),
     cmocka_unit_test(a_hub_is_named),
     cmocka_unit_test(a_mechanism_that_cannot_be_assembled_is_reported_too),
   };

@@ -43,7 +43,7 @@ static void coordinate_derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_pin, false, check_coordinate_derivatives);
 }
 
-static void rows_are_the_points_of_body_a_minus_body_b(void **state)
+static void rows_are_the_point_of_body_a_minus_the_point_of_body_b(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -61,7 +61,7 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_close(&p);
 }
 
-static void a_design_point_is_met_by_both_bodies(void **state)
+static void both_bodies_meet_at_the_design_point(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -150,8 +150,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(coordinate_derivatives_agree_with_differences),
-    cmocka_unit_test(rows_are_the_points_of_body_a_minus_body_b),
-    cmocka_unit_test(a_design_point_is_met_by_both_bodies),
+    cmocka_unit_test(rows_are_the_point_of_body_a_minus_the_point_of_body_b),
+    cmocka_unit_test(both_bodies_meet_at_the_design_point),
     cmocka_unit_test(coordinate_counts_revolutions),
     cmocka_unit_test(wrong_points_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -58,7 +58,7 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-static void forces_of_time_are_integrated_to_the_order(void **state)
+static void polynomial_forces_of_time_are_integrated_exactly(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -77,7 +77,7 @@ static void forces_of_time_are_integrated_to_the_order(void **state)
 }
 
 /* If a stage fails, the step must leave the state unchanged, so that it can be repeated. */
-static void a_failing_stage_leaves_the_state(void **state)
+static void a_failing_stage_keeps_the_state(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -129,8 +129,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(one_step_of_an_oscillator_is_the_stability_polynomial),
-    cmocka_unit_test(forces_of_time_are_integrated_to_the_order),
-    cmocka_unit_test(a_failing_stage_leaves_the_state),
+    cmocka_unit_test(polynomial_forces_of_time_are_integrated_exactly),
+    cmocka_unit_test(a_failing_stage_keeps_the_state),
     cmocka_unit_test(a_step_costs_one_evaluation_for_each_stage),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

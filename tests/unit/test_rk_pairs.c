@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests Runge-Kutta pairs with variable steps: the interpolant, how many evaluations it and a step
- * need, and what makes a step shorter. test_rk_tables.c tests the coefficients of the pairs, and
- * test_integrators.c tests what all integrators have in common. */
+/* Tests Runge-Kutta pairs with variable steps: the interpolant, the number of evaluations, and the
+ * causes of shorter steps. test_rk_tables.c tests the coefficients of the pairs, and
+ * test_integrators.c tests the common properties of all integrators. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,9 +24,9 @@ typedef struct method {
   int dense_order;
 } method;
 
-typedef void battery_fn(const method *m);
+typedef void method_test(const method *m);
 
-static void for_each(battery_fn *test)
+static void for_each(method_test *test)
 {
   const baum_integrator *const pairs[2] = {baum_dp5(), baum_rk8()};
   static const int dense_orders[2] = {4, 7};
@@ -45,7 +45,7 @@ static void open_run(integrator_run *run, baum_mechanism *mechanism, const metho
   assert_int_equal(integrator_run_open(run, &setup), BAUM_OK);
 }
 
-static void look(integrator_run *run, double t)
+static void interpolate_at(integrator_run *run, double t)
 {
   baum_status status = run->integrator->interpolate(run->self, &run->problem, t, run->q, run->v);
   if (status != BAUM_OK) {
@@ -62,8 +62,8 @@ static int64_t rejected(const integrator_run *run)
 
 /* ---- the interpolant ---- */
 
-/* Returns the largest error inside the first step, whose length is h. max_step enforces this
- * length. The tolerance would allow steps that are ten times as long. */
+/* Returns the largest error inside the first step. max_step enforces the step h. The tolerance
+ * would allow a step that is ten times as long. */
 static double error_inside(const method *m, double h)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -77,7 +77,7 @@ static double error_inside(const method *m, double h)
     double q[2];
     double v[2];
     pendulum_motion(0.125 * i * h, q, v);
-    look(&run, 0.125 * i * h);
+    interpolate_at(&run, 0.125 * i * h);
     largest = fmax(largest, motion_error(2, run.q, run.v, q, v, 4.43));
   }
   integrator_run_close(&run);
@@ -87,7 +87,7 @@ static double error_inside(const method *m, double h)
 
 /* The error inside a step must be of order h^(order + 1). Higher terms increase the measured order
  * slightly. Shorter steps would avoid this, but then the errors would be rounding errors. */
-static void fall_inside(const method *m)
+static void check_order_inside(const method *m)
 {
   double longest = m->dense_order == 4 ? 0.1 : 0.2;
   double first = error_inside(m, longest);
@@ -99,25 +99,25 @@ static void fall_inside(const method *m)
   }
 }
 
-static void interpolants_have_their_order(void **state)
+static void interpolants_have_the_stated_order(void **state)
 {
   (void)state;
-  for_each(fall_inside);
+  for_each(check_order_inside);
 }
 
-/* Returns q' at one end of the step. It is computed from values of the interpolant inside the step,
- * by a one-sided difference of order 2. */
+/* Computes q' at one end of the step from values of the interpolant inside the step, by a one-sided
+ * difference of order 2. */
 static double rate_at_end(integrator_run *run, double t, double inwards, double at_end)
 {
-  look(run, t + inwards);
+  interpolate_at(run, t + inwards);
   double near = run->q[0];
-  look(run, t + 2.0 * inwards);
+  interpolate_at(run, t + 2.0 * inwards);
   return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
 }
 
-/* At both ends of every step, the interpolant must have the q, v and q' of the states there. It is
- * then continuously differentiable. */
-static void join(const method *m)
+/* At both ends of every step, the interpolant must have the q, v and q' of the state. Successive
+ * interpolants then form a continuously differentiable curve. */
+static void check_joined_steps(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
   integrator_run run;
@@ -127,7 +127,7 @@ static void join(const method *m)
     double q[2] = {run.state_q[0], run.state_q[1]};
     double v[2] = {run.state_v[0], run.state_v[1]};
     assert_int_equal(integrator_run_step(&run), BAUM_OK);
-    look(&run, before.t);
+    interpolate_at(&run, before.t);
     assert_memory_equal(run.q, q, sizeof q);
     assert_memory_equal(run.v, v, sizeof v);
     double inwards = 1e-4 * (run.state.t - before.t);
@@ -135,7 +135,7 @@ static void join(const method *m)
     ASSERT_NEAR(rate_at_end(&run, before.t, inwards, q[0]), v[0], 0.0, 1e-7);
     ASSERT_NEAR(rate_at_end(&run, run.state.t, -inwards, run.state_q[0]), run.state_v[0], 0.0,
                 1e-7);
-    look(&run, run.state.t);
+    interpolate_at(&run, run.state.t);
     for (int i = 0; i < 2; i++) {
       ASSERT_NEAR(run.q[i], run.state_q[i], 0.0, 1e-15);
       ASSERT_NEAR(run.v[i], run.state_v[i], 0.0, 1e-14);
@@ -145,15 +145,15 @@ static void join(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void steps_join_with_value_and_rate(void **state)
+static void interpolants_of_successive_steps_join_smoothly(void **state)
 {
   (void)state;
-  for_each(join);
+  for_each(check_joined_steps);
 }
 
-/* Interpolation must not change any bit of the motion. It may only cost the evaluation of the extra
+/* Interpolation must not change any bit of the motion. It may only add the evaluations of the extra
  * stages, once per step. */
-static void look_at_every_step(const method *m)
+static void check_motion_with_interpolation(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
   integrator_run plain;
@@ -170,7 +170,7 @@ static void look_at_every_step(const method *m)
     assert_memory_equal(plain.state_q, watched.state_q, 2 * sizeof(double));
     assert_memory_equal(plain.state_v, watched.state_v, 2 * sizeof(double));
     for (int i = 0; i < 3; i++) {
-      look(&watched, begin + 0.3 * i * (watched.state.t - begin));
+      interpolate_at(&watched, begin + 0.3 * i * (watched.state.t - begin));
     }
     looked++;
   }
@@ -180,15 +180,16 @@ static void look_at_every_step(const method *m)
   baum_mechanism_destroy(mechanism);
 }
 
-static void interpolation_does_not_alter_the_motion(void **state)
+static void interpolation_does_not_change_the_motion(void **state)
 {
   (void)state;
-  for_each(look_at_every_step);
+  for_each(check_motion_with_interpolation);
 }
 
 /* ---- steps ---- */
 
-/* A step needs one evaluation for each stage. The first step needs one more. */
+/* A step needs one evaluation for each stage. The first step needs one more. If rk8 interpolates in
+ * the last step, this step needs three more. */
 static void count_evaluations(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -211,7 +212,7 @@ static void a_step_costs_one_evaluation_for_each_stage(void **state)
   for_each(count_evaluations);
 }
 
-static void keep_below(const method *m)
+static void check_max_step(const method *m)
 {
   for (int sign = -1; sign <= 1; sign += 2) {
     baum_mechanism *mechanism = make_pendulum();
@@ -232,14 +233,14 @@ static void keep_below(const method *m)
   }
 }
 
-static void no_step_is_longer_than_the_longest(void **state)
+static void no_step_is_longer_than_max_step(void **state)
 {
   (void)state;
-  for_each(keep_below);
+  for_each(check_max_step);
 }
 
 /* If max_step changes between two steps, the next step must obey it. */
-static void a_longest_step_acts_at_once(void **state)
+static void a_new_max_step_acts_at_once(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = make_throw();
@@ -255,10 +256,10 @@ static void a_longest_step_acts_at_once(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* ---- what makes a step shorter ---- */
+/* ---- causes of shorter steps ---- */
 
-/* A force of zero, which fails in a number of calls. The first of these is call number `from`, and
- * the last is number from + times - 1. */
+/* A force of zero that fails in calls number `from` to from + times - 1. Calls are counted from
+ * 0. */
 typedef struct hiccup {
   int calls;
   int from;
@@ -308,9 +309,9 @@ static baum_mechanism *make_hiccup(hiccup *h)
   return mechanism;
 }
 
-/* The force fails twice. The first failure is in call number `from` of the step. Each failure
- * halves the step, which is then repeated. The motion must be accurate nevertheless. */
-static void get_over(const method *m)
+/* After the run has reached 0.06 s, the force fails in calls number `from` and from + 1. Each
+ * failure halves the step, which is then repeated. The motion must be accurate nevertheless. */
+static void check_recovery(const method *m)
 {
   for (int answer = 0; answer <= 1; answer++) {
     for (int from = 1; from <= 26; from++) {
@@ -334,10 +335,10 @@ static void get_over(const method *m)
   }
 }
 
-static void evaluations_that_fail_for_a_while_are_got_over(void **state)
+static void runs_recover_from_evaluations_that_fail_twice(void **state)
 {
   (void)state;
-  for_each(get_over);
+  for_each(check_recovery);
 }
 
 /* The force x'^2 acts on 1 kg. If x'(0) = 1 m/s, the motion is x' = 1 / (1 - t), which becomes
@@ -353,7 +354,7 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-static void a_motion_without_bound_ends_in_steps_too_short(void **state)
+static void a_motion_without_bound_ends_with_a_step_error(void **state)
 {
   (void)state;
   const baum_integrator *const pairs[2] = {baum_dp5(), baum_rk8()};
@@ -376,14 +377,14 @@ static void a_motion_without_bound_ends_in_steps_too_short(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(interpolants_have_their_order),
-    cmocka_unit_test(steps_join_with_value_and_rate),
-    cmocka_unit_test(interpolation_does_not_alter_the_motion),
+    cmocka_unit_test(interpolants_have_the_stated_order),
+    cmocka_unit_test(interpolants_of_successive_steps_join_smoothly),
+    cmocka_unit_test(interpolation_does_not_change_the_motion),
     cmocka_unit_test(a_step_costs_one_evaluation_for_each_stage),
-    cmocka_unit_test(no_step_is_longer_than_the_longest),
-    cmocka_unit_test(a_longest_step_acts_at_once),
-    cmocka_unit_test(evaluations_that_fail_for_a_while_are_got_over),
-    cmocka_unit_test(a_motion_without_bound_ends_in_steps_too_short),
+    cmocka_unit_test(no_step_is_longer_than_max_step),
+    cmocka_unit_test(a_new_max_step_acts_at_once),
+    cmocka_unit_test(runs_recover_from_evaluations_that_fail_twice),
+    cmocka_unit_test(a_motion_without_bound_ends_with_a_step_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks the coefficients of Runge-Kutta pairs by the order conditions (J. Butcher; Hairer,
- * Norsett, Wanner 1993, section II.2). Let a method have the weights b_i and the stages a_ij. Its
- * order is p if every rooted tree t of up to p nodes satisfies
+ * Norsett, Wanner 1993, section II.2). A method with the weights b_i and the coefficients a_ij has
+ * the order p if every rooted tree t of up to p nodes satisfies
  *
  *   sum_i b_i phi_i(t) = 1 / gamma(t),
  *   phi_i(t) = product over the branches t' of the root of sum_j a_ij phi_j(t'),
  *   gamma(t) = |t| times the product of gamma(t') over these branches.
  *
- * An interpolant b(x) has order p if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). The weights of an
- * error estimate are differences of the weights of two methods. Their sums over a tree are
- * therefore zero up to the lower of the two orders. There are 200 trees of up to 8 nodes.
+ * An interpolant b(x) has the order p if these trees satisfy sum_i b_i(x) phi_i(t) = x^|t| /
+ * gamma(t). The weights of an error estimate are differences of the weights of two methods.
+ * Therefore sum_i b_i phi_i(t) is zero for these weights up to the lower of the two orders. There
+ * are 200 trees of up to 8 nodes.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -29,7 +30,7 @@ enum { TREES = 200, NODES_MAX = 8, STAGES_MAX = 16 };
 typedef struct tree {
   int nodes;
   int branch_count;
-  /* Indices of the smaller trees that are its branches, in increasing order. */
+  /* Indices of the smaller trees that are the branches of the root, in increasing order. */
   int branches[NODES_MAX];
   double gamma;
 } tree;
@@ -39,7 +40,7 @@ typedef struct forest {
   int count;
 } forest;
 
-static void plant(forest *f, const tree *t)
+static void add_tree(forest *f, const tree *t)
 {
   tree grown = *t;
   grown.gamma = t->nodes;
@@ -55,7 +56,7 @@ static void plant(forest *f, const tree *t)
 static void branch_out(forest *f, tree *t, int missing, int first)
 {
   if (missing == 0) {
-    plant(f, t);
+    add_tree(f, t);
     return;
   }
   for (int i = first; i < f->count && f->trees[i].nodes <= missing; i++) {
@@ -86,7 +87,7 @@ typedef struct matrix {
   double c[STAGES_MAX];
 } matrix;
 
-static void fill(const baum_i_rk_pair *pair, matrix *m)
+static void fill_matrix(const baum_i_rk_pair *pair, matrix *m)
 {
   const baum_i_rk_table *table = &pair->table;
   int s = table->stages;
@@ -109,7 +110,7 @@ static void fill(const baum_i_rk_pair *pair, matrix *m)
 }
 
 /* Computes phi of all trees at all stages. */
-static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX])
+static void compute_phi(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX])
 {
   for (int k = 0; k < f->count; k++) {
     for (int i = 0; i < m->n; i++) {
@@ -130,7 +131,7 @@ typedef struct scene {
   const baum_i_rk_pair *pair;
   const baum_integrator *integrator;
   int dense_order;
-  int error_order;  /* the highest order up to which the sums of the estimates are zero */
+  int error_order;  /* sums of the estimates are zero up to this order */
   int error3_order; /* 0 if there is no second estimate */
   forest trees;
   matrix m;
@@ -146,8 +147,8 @@ static scene *scenes(void)
   for (int k = 0; k < 2; k++) {
     both[k].pair = both[k].integrator->table;
     grow(&both[k].trees);
-    fill(both[k].pair, &both[k].m);
-    weigh(&both[k].trees, &both[k].m, both[k].phi);
+    fill_matrix(both[k].pair, &both[k].m);
+    compute_phi(&both[k].trees, &both[k].m, both[k].phi);
   }
   return both;
 }
@@ -166,7 +167,7 @@ static double sum_of(const scene *s, const double *weights, int count, int k)
 /* The coefficients are up to 358, and they are rounded to 16 digits. */
 static const double ROUNDING = 1e-13;
 
-static void rows_add_up_to_their_times(void **state)
+static void rows_sum_to_their_times(void **state)
 {
   (void)state;
   scene *all = scenes();
@@ -189,7 +190,7 @@ static bool fulfils(const scene *s, int k)
   return fabs(sum - 1.0 / t->gamma) <= ROUNDING;
 }
 
-static void all_trees_up_to_the_order_and_not_beyond(void **state)
+static void order_conditions_hold_up_to_the_order_and_not_beyond(void **state)
 {
   (void)state;
   scene *all = scenes();
@@ -205,7 +206,7 @@ static void all_trees_up_to_the_order_and_not_beyond(void **state)
   }
 }
 
-static void check_vanishing(const scene *s, const double *weights, int order)
+static void check_zero_sums(const scene *s, const double *weights, int order)
 {
   double beyond = 0.0;
   for (int i = 0; i < TREES; i++) {
@@ -220,14 +221,14 @@ static void check_vanishing(const scene *s, const double *weights, int order)
   assert_true(beyond > 1e-6);
 }
 
-static void estimates_vanish_up_to_their_order(void **state)
+static void estimates_are_zero_up_to_their_order(void **state)
 {
   (void)state;
   scene *all = scenes();
   for (int k = 0; k < 2; k++) {
-    check_vanishing(&all[k], all[k].pair->error, all[k].error_order);
+    check_zero_sums(&all[k], all[k].pair->error, all[k].error_order);
     if (all[k].pair->error3) {
-      check_vanishing(&all[k], all[k].pair->error3, all[k].error3_order);
+      check_zero_sums(&all[k], all[k].pair->error3, all[k].error3_order);
     }
   }
 }
@@ -252,7 +253,7 @@ static void interpolate(const scene *s, double x, double *weights)
   }
 }
 
-static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
+static void interpolants_satisfy_the_conditions_up_to_their_order(void **state)
 {
   (void)state;
   scene *all = scenes();
@@ -272,7 +273,7 @@ static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
 }
 
 /* The polynomial is R(mu) = 1 + sum over k of mu^k b A^(k-1) e, where e is the vector of ones. */
-static void the_stability_polynomial_is_that_of_the_table(void **state)
+static void the_stability_polynomial_agrees_with_the_table(void **state)
 {
   (void)state;
   scene *all = scenes();
@@ -296,7 +297,7 @@ static void the_stability_polynomial_is_that_of_the_table(void **state)
         }
         power[i] = next;
       }
-      /* The tolerance is 1e-17, because the last coefficient of rk8 is only 3.6e-10. */
+      /* The absolute tolerance is 1e-17, because the last coefficient of rk8 is only 3.6e-10. */
       ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
     }
   }
@@ -305,11 +306,11 @@ static void the_stability_polynomial_is_that_of_the_table(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_add_up_to_their_times),
-    cmocka_unit_test(all_trees_up_to_the_order_and_not_beyond),
-    cmocka_unit_test(estimates_vanish_up_to_their_order),
-    cmocka_unit_test(interpolants_fulfil_all_trees_up_to_their_order),
-    cmocka_unit_test(the_stability_polynomial_is_that_of_the_table),
+    cmocka_unit_test(rows_sum_to_their_times),
+    cmocka_unit_test(order_conditions_hold_up_to_the_order_and_not_beyond),
+    cmocka_unit_test(estimates_are_zero_up_to_their_order),
+    cmocka_unit_test(interpolants_satisfy_the_conditions_up_to_their_order),
+    cmocka_unit_test(the_stability_polynomial_agrees_with_the_table),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests gains of single rows, mainly with integrators that choose their steps. If alpha = beta = b
+/* Tests gains of single rows, with integrators that choose their steps. If alpha = beta = b
  * and a row has the factor f, this row satisfies in any mechanism
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
@@ -29,7 +29,7 @@ static const baum_integrator *find(const char *name)
     const baum_integrator *at = baum_integrator_at(k);
     found = strcmp(baum_integrator_name(at), name) == 0 ? at : found;
   }
-  /* Of the integrators tested here, all that have no fixed step need SUNDIALS. */
+  /* Among the tested integrators, only those without a fixed step need SUNDIALS. */
   bool runs = found && (baum_has("sundials") || baum_integrator_has_fixed_step(found));
   return runs ? found : NULL;
 }
@@ -54,8 +54,8 @@ static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *in
 
 static const double FACTORS[ROWS] = {0.5, 0.25, 2.0, 4.0, 1.0, 3.0, 0.7, 1.5};
 
-/* Moves a slider-crank so that it violates every row slightly. Returns Phi. */
-static void start_beside_the_constraints(baum_simulation *run, double *phi)
+/* Moves a slider-crank so that it violates every row slightly. Sets `phi` to the violations. */
+static void start_with_violations(baum_simulation *run, double *phi)
 {
   const baum_channel violation = baum_channel_of(BAUM_PHI);
   double q[9];
@@ -75,7 +75,7 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
   double rows[SAMPLES * ROWS];
   double start[ROWS];
   baum_simulation *run = begin(m, find(name), gain, FACTORS);
-  start_beside_the_constraints(run, start);
+  start_with_violations(run, start);
   for (int k = 0; k < SAMPLES; k++) {
     times[k] = 0.7 * (k + 1) / gain;
   }
@@ -83,8 +83,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     fail_msg("%s: %s", name, baum_message());
   }
   for (int k = 0; k < SAMPLES * ROWS; k++) {
-    double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
-    double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
+    double decay = gain * FACTORS[k % ROWS] * times[k / ROWS];
+    double want = start[k % ROWS] * (1.0 + decay) * exp(-decay);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
     /* The tolerance allows for the errors of several hundred steps at rtol 1e-8, with lengths below
      * 1 m. An error of 1e-6 or more would show that a factor is missing in some term. */
@@ -118,7 +118,7 @@ static void each_row_decays_with_its_own_gains_backward_in_time(void **state)
       double end[ROWS];
       const baum_channel violation = baum_channel_of(BAUM_PHI);
       baum_simulation *run = begin(m.mechanism, find(NAMES[k]), 50.0, FACTORS);
-      start_beside_the_constraints(run, start);
+      start_with_violations(run, start);
       assert_true(baum_simulation_advance_to(run, -0.02) >= BAUM_OK);
       assert_int_equal(baum_simulation_get(run, &violation, 1, end), BAUM_OK);
       for (int i = 0; i < ROWS; i++) {
@@ -147,7 +147,7 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
 /* The gains reach 4e4 1/s. A plain fixed-point iteration converges only if 2 alpha h < 2, which
  * would require 2000 steps. CVODE Adams, CVODE BDF and IDA were measured to take 620, 440 and 580
  * steps. With equal gains of 1e4 1/s they take 340, 370 and 390 steps. */
-static void steps_do_not_become_short(void **state)
+static void steps_do_not_become_much_shorter(void **state)
 {
   (void)state;
   static const double ones[ROWS] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
@@ -155,12 +155,12 @@ static void steps_do_not_become_short(void **state)
   assert_int_equal(model_slider_crank_build((model_slider_crank){.moving = true}, &m), BAUM_OK);
   for (int k = 0; k < METHODS - 1; k++) {
     if (find(NAMES[k])) {
-      baum_counters alike = count_steps(m.mechanism, NAMES[k], 1e4, NULL);
-      baum_counters likewise = count_steps(m.mechanism, NAMES[k], 1e4, ones);
+      baum_counters equal = count_steps(m.mechanism, NAMES[k], 1e4, NULL);
+      baum_counters with_ones = count_steps(m.mechanism, NAMES[k], 1e4, ones);
       baum_counters own = count_steps(m.mechanism, NAMES[k], 1e4, FACTORS);
-      /* Factors of 1 leave the gains unchanged. Sums are formed in another order, however, so
+      /* Factors of 1 leave the gains unchanged. The order of summation differs, however, so
        * rounding may change the number of steps slightly. */
-      ASSERT_NEAR((double)likewise.steps, (double)alike.steps, 0.1, 0.0);
+      ASSERT_NEAR((double)with_ones.steps, (double)equal.steps, 0.1, 0.0);
       assert_in_range(own.steps, 1, 1000);
       assert_in_range(own.nonlinear_iterations, 1, 2000);
     }
@@ -173,7 +173,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_row_decays_with_its_own_gains),
     cmocka_unit_test(each_row_decays_with_its_own_gains_backward_in_time),
-    cmocka_unit_test(steps_do_not_become_short),
+    cmocka_unit_test(steps_do_not_become_much_shorter),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,9 +15,9 @@
 
 /* The checksums cover the sizes of all parts that a run saves. Never change a row of this table. If
  * sizes change, raise the version and add a row. Versions up to 8 had another kind of list. Version
- * 12 saves more angles of spatial joints than version 11. This run has no such joints, so both
+ * 12 saves more angles of spatial joints than version 11. This run has no spatial joints, so both
  * checksums are equal. Version 13 saves one more number of the monitors. Version 14 also saves the
- * angles of springs in space. This run has no such springs. */
+ * angles of springs in space. This run has none. */
 static const struct {
   int version;
   uint64_t list;
@@ -39,7 +39,7 @@ static uint64_t sum_of(const baum_i_saved *list)
   return sum.value;
 }
 
-static void the_list_is_that_of_the_version(void **state)
+static void the_list_of_parts_agrees_with_the_version(void **state)
 {
   (void)state;
   static baum_i_saved list;
@@ -61,8 +61,9 @@ static void the_list_is_that_of_the_version(void **state)
   }
   assert_int_equal(VERSIONS[VERSION_COUNT - 1].version, BAUM_I_SAVED_VERSION);
   if (sum_of(&list) != VERSIONS[VERSION_COUNT - 1].list) {
-    fail_msg("what is saved has changed: raise BAUM_I_SAVED_VERSION and add a row with 0x%llx",
-             (unsigned long long)sum_of(&list));
+    fail_msg(
+      "the list of saved parts has changed: raise BAUM_I_SAVED_VERSION, add a row with 0x%llx",
+      (unsigned long long)sum_of(&list));
   }
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
@@ -71,7 +72,7 @@ static void the_list_is_that_of_the_version(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_list_is_that_of_the_version),
+    cmocka_unit_test(the_list_of_parts_agrees_with_the_version),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static double from_roots(uint64_t *seed, int degree, double most, baum_i_polynom
   return largest;
 }
 
-static void the_test_says_whether_all_roots_are_inside(void **state)
+static void the_sign_of_the_margin_tells_whether_all_roots_are_inside(void **state)
 {
   (void)state;
   uint64_t seed = 1;
@@ -51,7 +51,8 @@ static void the_test_says_whether_all_roots_are_inside(void **state)
     int degree = 1 + n % BAUM_I_SCHUR_COHN_DEGREE;
     double largest = from_roots(&seed, degree, 1.2, &p);
     double radius = uniform(&seed, 0.3, 1.5);
-    if (fabs(largest - radius) > 1e-3) { /* if a root is closer to the circle, rounding decides */
+    /* Rounding decides if the largest root is closer to the circle. */
+    if (fabs(largest - radius) > 1e-3) {
       assert_int_equal(baum_i_schur_cohn_margin(&p, radius) > 0.0, largest < radius);
       inside += largest < radius;
     }
@@ -59,7 +60,7 @@ static void the_test_says_whether_all_roots_are_inside(void **state)
   assert_true(inside > POLYNOMIALS / 10 && inside < POLYNOMIALS * 9 / 10);
 }
 
-static void the_radius_is_that_of_the_largest_root(void **state)
+static void the_radius_is_the_modulus_of_the_largest_root(void **state)
 {
   (void)state;
   uint64_t seed = 2;
@@ -73,7 +74,7 @@ static void the_radius_is_that_of_the_largest_root(void **state)
   }
 }
 
-static void multiple_roots_are_found_as_well_as_promised(void **state)
+static void multiple_roots_have_the_stated_accuracy(void **state)
 {
   (void)state;
   for (int m = 1; m <= 4; m++) {
@@ -81,8 +82,8 @@ static void multiple_roots_are_found_as_well_as_promised(void **state)
     for (int k = 0; k < m; k++) {
       multiply(&p, 0.48, 0.64);
     }
-    /* The file schur_cohn.h states this accuracy. The rounding of the coefficients alone changes a
-     * root of multiplicity m by the m-th root of 1e-16. */
+    /* The file schur_cohn.h states the relative error 1e-16^(1/(m+1)) for a root of multiplicity
+     * m. */
     ASSERT_NEAR(baum_i_schur_cohn_radius(&p), 0.8, 4.0 * pow(1e-16, 1.0 / (m + 1)) + 1e-10, 0.0);
   }
 }
@@ -100,7 +101,7 @@ static void roots_on_the_circle_are_not_inside(void **state)
   assert_true(baum_i_schur_cohn_margin(&pair, 1.0 + 1e-9) > 0.0);
 }
 
-static void coefficients_beyond_double_give_an_infinite_radius(void **state)
+static void coefficients_that_overflow_give_an_infinite_radius(void **state)
 {
   (void)state;
   const double numbers[] = {1e200, (double)INFINITY, (double)NAN};
@@ -113,11 +114,11 @@ static void coefficients_beyond_double_give_an_infinite_radius(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_test_says_whether_all_roots_are_inside),
-    cmocka_unit_test(the_radius_is_that_of_the_largest_root),
-    cmocka_unit_test(multiple_roots_are_found_as_well_as_promised),
+    cmocka_unit_test(the_sign_of_the_margin_tells_whether_all_roots_are_inside),
+    cmocka_unit_test(the_radius_is_the_modulus_of_the_largest_root),
+    cmocka_unit_test(multiple_roots_have_the_stated_accuracy),
     cmocka_unit_test(roots_on_the_circle_are_not_inside),
-    cmocka_unit_test(coefficients_beyond_double_give_an_infinite_radius),
+    cmocka_unit_test(coefficients_that_overflow_give_an_infinite_radius),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,11 +25,11 @@
 
 enum { BODIES = 7 }; /* not a multiple of the vector length */
 
-/* Errors are given in units in the last place of the exact value. This is the limit. */
+/* The largest allowed error, in units in the last place of the exact value. */
 static const double ONE_ULP = 1.0;
 
-/* Skips the test if long double is not longer than double. This is the case on some machines, and
- * in valgrind. */
+/* Skips the test if long double is not longer than double. This is the case on some processors and
+ * under valgrind. */
 static void skip_without_long_double(void)
 {
   volatile long double one = 1.0L;
@@ -38,7 +38,7 @@ static void skip_without_long_double(void)
   }
 }
 
-/* Returns the error in units of the last place of the exact value. */
+/* Returns the error in units in the last place of the exact value. */
 static double ulps(double got, long double exact)
 {
   double near = fabs((double)exact);
@@ -107,7 +107,7 @@ static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
 
 /* Tests the doubles next to odd multiples of pi/4, where the reduction changes to the next multiple
  * of pi/2. */
-static void neighbours_of_odd_eighths_are_right(void **state)
+static void neighbours_of_odd_multiples_of_half_a_right_angle_are_right(void **state)
 {
   (void)state;
   skip_without_long_double();
@@ -146,7 +146,7 @@ static void zero_has_exact_values(void **state)
   assert_true(sine == 0.0 && cosine == 1.0);
 }
 
-static void the_limit_itself_is_right(void **state)
+static void values_at_the_limit_are_right(void **state)
 {
   (void)state;
   skip_without_long_double();
@@ -225,7 +225,7 @@ static void frames_of_both_builds_are_right_to_one_ulp(void **state)
 
 /* For an angle that is too large for sincos.h, the C library is used. The results for the other
  * angles in the same vector must not change. */
-static void frames_of_far_angles_are_those_of_the_library(void **state)
+static void frames_of_large_angles_are_those_of_the_c_library(void **state)
 {
   (void)state;
   static const double far[] = {1000000.5, -1e7, 1e9, -3e15, 1e22, -1.7e308};
@@ -275,12 +275,12 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(random_angles_are_right_to_one_ulp),
     cmocka_unit_test(neighbours_of_all_multiples_of_a_right_angle_are_right),
-    cmocka_unit_test(neighbours_of_odd_eighths_are_right),
+    cmocka_unit_test(neighbours_of_odd_multiples_of_half_a_right_angle_are_right),
     cmocka_unit_test(tiny_angles_are_their_own_sines),
     cmocka_unit_test(zero_has_exact_values),
-    cmocka_unit_test(the_limit_itself_is_right),
+    cmocka_unit_test(values_at_the_limit_are_right),
     cmocka_unit_test(frames_of_both_builds_are_right_to_one_ulp),
-    cmocka_unit_test(frames_of_far_angles_are_those_of_the_library),
+    cmocka_unit_test(frames_of_large_angles_are_those_of_the_c_library),
     cmocka_unit_test(frames_of_angles_that_are_not_finite_are_nan),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the two versions of the solver of space: the plain one, and the one for this processor.
- * The functions are called in the order of an evaluation. Before each call, both versions get the
- * same numbers. tests/physics/test_spatial_accuracy.c compares results with quadruple precision. */
+ * The functions are called in the order of an evaluation. Before each call, both versions receive
+ * the same data. tests/physics/test_spatial_accuracy.c compares results with quadruple
+ * precision. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,7 +21,7 @@
 
 enum { MOST = 400 };
 
-/* One mechanism in two workspaces: the second one uses the plain version. */
+/* One mechanism in two workspaces. The second workspace uses the plain version. */
 typedef struct pair {
   baum_workspace *w[2];
   baum_i_block_path *path[2];
@@ -75,8 +76,8 @@ static double largest(const double *x, int count)
   return most;
 }
 
-/* The tolerance is relative to `size` or to the largest number. */
-static void assert_alike(const double *got, const double *want, int count, double tolerance,
+/* The tolerance is relative to `size` or to the largest number, whichever is larger. */
+static void assert_close(const double *got, const double *want, int count, double tolerance,
                          double size)
 {
   double most = fmax(size, largest(want, count));
@@ -92,7 +93,7 @@ static void copy_motion(const pair *p)
   memcpy(p->space[1]->pull, p->space[0]->pull, motion * sizeof(double));
 }
 
-/* Copies the numbers of sides, nodes and couplings, so that both versions have the same ones. */
+/* Copies the data of sides, nodes and couplings to the second workspace. */
 static void copy_numbers(const pair *p)
 {
   const baum_i_space *from = p->space[0];
@@ -117,31 +118,31 @@ static void compare_geometry(const pair *p)
   for (int k = 0; k < a->node_count; k++) {
     const baum_i_space_node *node = &a->list[k];
     int part = baum_i_space_part(node->rows);
-    double terms = 10.0; /* of J a0 - r */
+    double terms = 10.0; /* the size of the terms of J a0 - r */
     for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
       const baum_i_space_side *side = &a->side_list[s];
       double size = largest(a->bodies[side->body].whiten, 12);
       const double *free = a->free + (ptrdiff_t)BAUM_I_SPACE_MOTION * side->body;
       terms = fmax(terms, fmax(size, 1.0) * largest(free, BAUM_I_SPACE_MOTION));
-      assert_alike(b->sides + side->turn, a->sides + side->turn, part, 1e-13, size);
-      assert_alike(b->sides + side->move, a->sides + side->move, part, 1e-13, 1.0);
+      assert_close(b->sides + side->turn, a->sides + side->turn, part, 1e-13, size);
+      assert_close(b->sides + side->move, a->sides + side->move, part, 1e-13, 1.0);
     }
     int vector = baum_i_space_vector(node->rows);
     const double *x = a->nodes + node->at;
     const double *y = b->nodes + node->at;
-    assert_alike(y, x, vector, 1e-12, terms);
-    assert_alike(y + vector, x + vector, vector, 1e-12, 10.0);
-    assert_alike(y + 2 * vector, x + 2 * vector, 4 * node->rows, 1e-12, 0.0);
+    assert_close(y, x, vector, 1e-12, terms);
+    assert_close(y + vector, x + vector, vector, 1e-12, 10.0);
+    assert_close(y + 2 * vector, x + 2 * vector, 4 * node->rows, 1e-12, 0.0);
   }
   for (int t = 1; t < a->body_count; t++) {
     ptrdiff_t at = (ptrdiff_t)BAUM_I_SPACE_MOTION * t;
     double size = largest(a->bodies[t].whiten, 12);
-    assert_alike(b->free + at, a->free + at, BAUM_I_SPACE_MOTION, 1e-12, size);
-    assert_alike(b->force + at, a->force + at, BAUM_I_SPACE_MOTION, 1e-12, size);
+    assert_close(b->free + at, a->free + at, BAUM_I_SPACE_MOTION, 1e-12, size);
+    assert_close(b->force + at, a->force + at, BAUM_I_SPACE_MOTION, 1e-12, size);
   }
-  assert_alike(p->w[1]->phi, p->w[0]->phi, p->w[0]->mechanism->nc, 1e-13, 1.0);
-  assert_alike(p->w[1]->phi_rate, p->w[0]->phi_rate, p->w[0]->mechanism->nc, 1e-13, 1.0);
-  assert_alike(p->w[1]->gamma, p->w[0]->gamma, p->w[0]->mechanism->nc, 1e-13, 1.0);
+  assert_close(p->w[1]->phi, p->w[0]->phi, p->w[0]->mechanism->nc, 1e-13, 1.0);
+  assert_close(p->w[1]->phi_rate, p->w[0]->phi_rate, p->w[0]->mechanism->nc, 1e-13, 1.0);
+  assert_close(p->w[1]->gamma, p->w[0]->gamma, p->w[0]->mechanism->nc, 1e-13, 1.0);
 }
 
 static void compare_couplings(const pair *p)
@@ -153,7 +154,7 @@ static void compare_couplings(const pair *p)
   for (int e = 0; e < a->coupling_count; e++) {
     int end = e + 1 < a->coupling_count ? a->couplings[e + 1].at : a->numbers_off;
     int at = a->couplings[e].at;
-    assert_alike(p->space[1]->off + at, a->off + at, end - at, 1e-12, 0.0);
+    assert_close(p->space[1]->off + at, a->off + at, end - at, 1e-12, 0.0);
   }
 }
 
@@ -164,9 +165,9 @@ static void compare_nodes(const pair *p, double tolerance)
   for (int k = 0; k < 2; k++) {
     p->path[k]->space_kernel->read_lambda(p->space[k], lambda[k]);
   }
-  assert_alike(lambda[1], lambda[0], p->w[0]->mechanism->nc, tolerance, 0.0);
+  assert_close(lambda[1], lambda[0], p->w[0]->mechanism->nc, tolerance, 0.0);
   int motion = BAUM_I_SPACE_MOTION * a->body_count;
-  assert_alike(p->space[1]->motion, a->motion, motion, tolerance, largest(a->free, motion));
+  assert_close(p->space[1]->motion, a->motion, motion, tolerance, largest(a->free, motion));
 }
 
 static void compare_residuals(const pair *p)
@@ -174,7 +175,7 @@ static void compare_residuals(const pair *p)
   const baum_i_space *a = p->space[0];
   int motion = BAUM_I_SPACE_MOTION * a->body_count;
   chance c = chance_of(6);
-  for (int i = 0; i < motion; i++) { /* residuals that are not small */
+  for (int i = 0; i < motion; i++) { /* makes the residuals large */
     a->motion[i] *= 1.0 + chance_number(&c, -0.1, 0.1);
   }
   for (int k = 0; k < a->node_count; k++) {
@@ -186,14 +187,14 @@ static void compare_residuals(const pair *p)
   for (int k = 0; k < 2; k++) {
     p->path[k]->residual_kernel->find(p->space[k]);
   }
-  assert_alike(p->space[1]->pull, a->pull, motion, 1e-13, 0.0);
-  assert_alike(p->space[1]->rest, a->rest, a->numbers_of_rows, 1e-13, 0.0);
+  assert_close(p->space[1]->pull, a->pull, motion, 1e-13, 0.0);
+  assert_close(p->space[1]->rest, a->rest, a->numbers_of_rows, 1e-13, 0.0);
   for (int k = 0; k < 2; k++) {
     double rest[MOST * 2];
     assert_true(a->numbers_of_rows <= 2 * MOST);
     memcpy(rest, a->rest, (size_t)a->numbers_of_rows * sizeof *rest);
     p->path[k]->space_kernel->find_rest(p->space[k]);
-    assert_alike(p->space[k]->rest, rest, a->numbers_of_rows, 1e-11, 0.0);
+    assert_close(p->space[k]->rest, rest, a->numbers_of_rows, 1e-11, 0.0);
     assert_true(largest(p->space[k]->pull, motion) == 0.0);
     p->path[k]->residual_kernel->find(p->space[k]);
   }
@@ -213,15 +214,15 @@ static void compare_corrections(const pair *p)
     assert_true(kernel->read_motion(p->space[k], a[k]));
   }
   compare_nodes(p, 1e-11);
-  /* the change of the island in which rounding errors grow most may be the largest */
+  /* The largest change may be that of the island in which rounding errors grow most. */
   ASSERT_NEAR(change[1], change[0], fmax(1e-9, 1e-13 * amplification[0]), 0.0);
   ASSERT_NEAR(amplification[1], amplification[0], 1e-9, 0.0);
-  /* rounding errors grow by the amplification */
-  assert_alike(a[1], a[0], p->w[0]->mechanism->nv, fmax(1e-10, 1e-14 * amplification[0]), 0.0);
+  /* The amplification multiplies rounding errors. */
+  assert_close(a[1], a[0], p->w[0]->mechanism->nv, fmax(1e-10, 1e-14 * amplification[0]), 0.0);
 }
 
-/* Returns false if the mechanism does not use the solver, or if its pivots are weak, because
- * rounding errors then grow. */
+/* Returns false if the mechanism does not use the solver of space, or if the pivots are weak.
+ * Rounding errors then grow, so that only a part is compared. */
 static bool compare(const baum_mechanism *m)
 {
   pair p;
@@ -251,7 +252,7 @@ static bool compare(const baum_mechanism *m)
 
 /* ---- tests ---- */
 
-static void scenes_are_the_same_in_both_builds(void **state)
+static void both_versions_agree_for_scenes(void **state)
 {
   (void)state;
   int compared = 0;
@@ -264,8 +265,8 @@ static void scenes_are_the_same_in_both_builds(void **state)
   assert_true(compared >= 5);
 }
 
-/* Joints of all kinds, redundant rows, loops, particles and planar bodies. */
-static void random_mechanisms_are_the_same_in_both_builds(void **state)
+/* The mechanisms have joints of all kinds, redundant rows, loops, particles and planar bodies. */
+static void both_versions_agree_for_random_mechanisms(void **state)
 {
   static random_spatial room;
   (void)state;
@@ -278,8 +279,8 @@ static void random_mechanisms_are_the_same_in_both_builds(void **state)
   assert_true(compared >= 50);
 }
 
-/* A planar four-bar with pins, of which the coupler carries a spatial body. */
-static void planar_pins_are_the_same_in_both_builds(void **state)
+/* The mechanism is a planar four-bar with pins. Its coupler carries a spatial body. */
+static void both_versions_agree_for_planar_pins(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -302,9 +303,9 @@ static void planar_pins_are_the_same_in_both_builds(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(scenes_are_the_same_in_both_builds),
-    cmocka_unit_test(random_mechanisms_are_the_same_in_both_builds),
-    cmocka_unit_test(planar_pins_are_the_same_in_both_builds),
+    cmocka_unit_test(both_versions_agree_for_scenes),
+    cmocka_unit_test(both_versions_agree_for_random_mechanisms),
+    cmocka_unit_test(both_versions_agree_for_planar_pins),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,8 +48,9 @@ static void several_matrices_are_solved_with_the_same_pivots(void **state)
   baum_i_sparse_lu_destroy(lu);
 }
 
-/* The pivots of the first matrix, a and b, become small. Others must then be chosen. */
-static void pivots_that_have_become_small_are_given_up(void **state)
+/* The pivots of the first matrix, a and b, become small. The solver must then choose other
+ * pivots. */
+static void pivots_that_become_small_are_replaced(void **state)
 {
   (void)state;
   baum_i_sparse_lu *lu = NULL;
@@ -79,7 +80,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(several_matrices_are_solved_with_the_same_pivots),
-    cmocka_unit_test(pivots_that_have_become_small_are_given_up),
+    cmocka_unit_test(pivots_that_become_small_are_replaced),
     cmocka_unit_test(a_matrix_without_full_rank_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests sparse QR with random matrices. Residuals must be orthogonal to the columns. The columns
- * that QR finds to be dependent must be those that a Gram-Schmidt process finds. */
+/* Tests sparse QR with random matrices. Residuals must be orthogonal to the columns. QR and a
+ * Gram-Schmidt process must find the same dependent columns. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -43,8 +43,7 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
 }
 
 /* Fills column j with up to three entries in rows near the diagonal, and with one more entry in a
- * random row. If `hub` is set, this entry is in row 0 for every column, which couples all
- * columns. */
+ * random row. If `hub` is set, this entry is always in row 0, which couples all columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {
@@ -81,8 +80,8 @@ static void compress(sample *s)
   s->pattern = (baum_i_sparse_columns){s->m, s->n, s->start, s->row};
 }
 
-/* Draws a random m x n matrix in which a share of the columns is dependent. The other columns are
- * almost always independent, because there are enough rows. */
+/* Draws a random m x n matrix in which a share of the columns is dependent. If there are enough
+ * rows, the other columns are almost always independent. */
 static void draw_sample(int32_t m, int32_t n, double share, uint64_t seed, sample *s)
 {
   bool hub = seed % 4 == 0;
@@ -109,9 +108,9 @@ static double product(const sample *s, int32_t j, const double *x)
   return sum;
 }
 
-/* Goes through the columns in the given order and finds the independent ones, by the Gram-Schmidt
- * process with two passes. Returns the rank. Returns -1 if a column is so close to dependent that
- * the process cannot decide. */
+/* Finds the independent columns in the given order, by the Gram-Schmidt process with two passes.
+ * Returns the rank. Returns -1 if a column is so close to dependent that the process cannot
+ * decide. */
 static int32_t find_independent(const sample *s, const int32_t *order, unsigned char *independent)
 {
   double basis[MOST][MOST];
@@ -228,7 +227,7 @@ static void random_matrices_of_all_shapes_are_solved_and_their_rank_found(void *
   assert_true(deficient > 500);
 }
 
-static void of_dependent_columns_the_later_ones_are_given_up(void **state)
+static void later_columns_depend_on_earlier_columns(void **state)
 {
   (void)state;
   for (uint64_t seed = 1; seed < 200; seed++) {
@@ -278,7 +277,7 @@ static void the_result_does_not_depend_on_earlier_values(void **state)
 /* The matrix belongs to a chain of 20000 links. Both ends of the chain are held, and every column
  * occurs twice. An algorithm whose time or memory grows as the square of the size could not solve
  * this. */
-static void a_long_chain_is_linear(void **state)
+static void a_long_chain_takes_linear_time_and_memory(void **state)
 {
   (void)state;
   enum { LINKS = 20000, COLUMNS = 2 * LINKS };
@@ -304,7 +303,7 @@ static void a_long_chain_is_linear(void **state)
   baum_i_sparse_qr_destroy(qr);
 }
 
-static void columns_without_entries_and_no_columns_are_fine(void **state)
+static void matrices_may_have_empty_columns_or_no_columns(void **state)
 {
   (void)state;
   const int32_t start[] = {0, 0, 0};
@@ -328,10 +327,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(random_matrices_of_all_shapes_are_solved_and_their_rank_found),
-    cmocka_unit_test(of_dependent_columns_the_later_ones_are_given_up),
+    cmocka_unit_test(later_columns_depend_on_earlier_columns),
     cmocka_unit_test(the_result_does_not_depend_on_earlier_values),
-    cmocka_unit_test(a_long_chain_is_linear),
-    cmocka_unit_test(columns_without_entries_and_no_columns_are_fine),
+    cmocka_unit_test(a_long_chain_takes_linear_time_and_memory),
+    cmocka_unit_test(matrices_may_have_empty_columns_or_no_columns),
   };
   return cmocka_run_group_tests_name("sparse_qr", tests, NULL, NULL);
 }

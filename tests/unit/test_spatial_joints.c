@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests all derivatives of every spatial element between bodies of all kinds. They are compared
- * with differences along the configuration manifold. */
+/* Compares all derivatives of every spatial element, between bodies of all kinds, with differences
+ * along the configuration manifold. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,7 +34,7 @@ static void check_bodies(test_point *p)
   for (int k = 1; k <= 2; k++) {
     const baum_i_body *body = p->mechanism->bodies[k];
     for (int j = 0; j < 6; j++) {
-      /* differences are exact for any step, because the moments are quadratic in v */
+      /* Differences are exact for any step, because the moments are quadratic in v. */
       static const double step = 1e-3;
       double f[2][TEST_SIZE_MAX];
       for (int side = 0; side < 2; side++) {
@@ -53,9 +53,9 @@ static void check_bodies(test_point *p)
   }
 }
 
-/* Tells whether differences can be used for the coordinates of a joint. In a random state, a joint
- * may be far off its constraints. Its angle is then the angle of a short vector, which changes too
- * quickly for differences. */
+/* Tells whether differences can be used for the coordinates of a joint. A random state may violate
+ * the constraints of a joint strongly. The angle of the joint is then the angle of a short vector,
+ * which changes too quickly for differences. */
 static bool is_smooth(const test_point *p, int joint)
 {
   const baum_i_joint *j = p->mechanism->joints[joint];
@@ -87,9 +87,9 @@ static void find_smooth(test_point *p, int joints, uint64_t *seed)
 }
 
 /* Tells whether the first force is smooth near this point. A force with axes is not smooth near two
- * relative orientations: in one the angle of a torsion spring is undefined, and in the other the
- * rotation vector of a bushing jumps. */
-static bool is_moderate(const test_point *p)
+ * relative orientations. In one of them, the angle of a torsion spring is undefined. In the other,
+ * the rotation vector of a bushing jumps. */
+static bool is_force_smooth(const test_point *p)
 {
   const baum_i_force *force = p->mechanism->force_count > 0 ? p->mechanism->forces[0] : NULL;
   if (!force || force->element.definition->parameter_count < BAUM_I_SPATIAL_NUMBERS) {
@@ -104,13 +104,13 @@ static bool is_moderate(const test_point *p)
   return cosines[2] > -0.3 && cosines[0] + cosines[1] + cosines[2] > -0.6;
 }
 
-static void find_moderate(test_point *p, uint64_t *seed)
+static void find_smooth_force(test_point *p, uint64_t *seed)
 {
   int tries = 0;
   do {
     test_point_random(p, seed);
-  } while (!is_moderate(p) && tries++ < 200);
-  assert_true(is_moderate(p));
+  } while (!is_force_smooth(p) && tries++ < 200);
+  assert_true(is_force_smooth(p));
 }
 
 /* Adds a spring on every coordinate of the first joint. */
@@ -169,7 +169,7 @@ static void check_pair(const spatial_element *e, int a, int b)
   uint64_t seed = 11;
   for (int i = 0; i < STATES; i++) {
     if (e->force) {
-      find_moderate(&p, &seed);
+      find_smooth_force(&p, &seed);
       check_force_derivatives(&p);
       check_elastic_forces(&p);
     } else {
@@ -183,8 +183,8 @@ static void check_pair(const spatial_element *e, int a, int b)
   }
 }
 
-/* Tells whether an element is tested between two bodies. The element must allow the particles among
- * them, and body 1 (spatial) or body 4 (planar) must be one of them. */
+/* Tells whether an element is tested between two bodies. If a body is a particle, the element must
+ * allow particles. Body 1 (spatial) or body 4 (planar) must be one of the bodies. */
 static bool is_tested(const spatial_element *e, int a, int b)
 {
   bool allowed = (e->particle_a || !spatial_scene_is_particle(a)) &&
@@ -233,8 +233,8 @@ static void couple(const spatial_scene *s, int a, baum_joint_coordinate of_a, in
 
 enum { COUPLED = 4 };
 
-/* Makes couplings of two joints each, which connect two to four bodies in all. The bodies are
- * spatial and planar, and the coordinates are of all kinds. */
+/* Makes couplings between coordinates of one or two joints. Each coupling connects two to four
+ * spatial and planar bodies. The coordinates are of all kinds. */
 static spatial_scene make_coupled(void)
 {
   static const baum_joint_coordinate x = BAUM_COORDINATE_X;
@@ -290,7 +290,7 @@ static void gyroscopic_moments_agree_with_differences(void **state)
 
 /* Checks N v by a central difference of move. Also checks that difference is the inverse of
  * move. */
-static void the_manifold_is_consistent(void **state)
+static void move_agrees_with_rate_and_difference(void **state)
 {
   (void)state;
   spatial_scene s = spatial_scene_make(false);
@@ -326,7 +326,7 @@ int main(void)
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(couplings_agree_with_differences),
     cmocka_unit_test(gyroscopic_moments_agree_with_differences),
-    cmocka_unit_test(the_manifold_is_consistent),
+    cmocka_unit_test(move_agrees_with_rate_and_difference),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

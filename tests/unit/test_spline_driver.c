@@ -29,8 +29,8 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_spline_driver(mechanism, def, NULL);
 }
 
-static baum_spline_driver_def along(const double *times, const double *values, int32_t count,
-                                    bool periodic)
+static baum_spline_driver_def spline_def_of(const double *times, const double *values,
+                                            int32_t count, bool periodic)
 {
   baum_spline_driver_def def = baum_spline_driver_def_default();
   def.name = "cam";
@@ -41,8 +41,8 @@ static baum_spline_driver_def along(const double *times, const double *values, i
   return def;
 }
 
-/* Makes a pin with a spline driver, which is joint 2. Opens a test point at the design
- * configuration. */
+/* Makes a pin with a spline driver, and opens a test point at the design configuration. The driver
+ * is joint 2. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
   planar_scene scene = planar_scene_make();
@@ -68,14 +68,14 @@ static void motion_at(test_point *p, double t, double s[3])
 
 /* ---- derivatives ---- */
 
-/* Tests that use differences are made at times from 0 to 2. There is no knot in this interval or
- * near it, because the third derivative of a spline jumps at knots. */
+/* Tests with differences use times from 0 s to 2 s. No knot is in this interval or near it, because
+ * the third derivative of a spline jumps at knots. */
 static const double FAR_TIMES[4] = {-3.0, -0.5, 2.5, 4.0};
 static const double FAR_VALUES[4] = {0.3, -1.0, 2.0, 0.3};
 
 static void add_driven_pin(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
-  baum_spline_driver_def def = along(FAR_TIMES, FAR_VALUES, 4, false);
+  baum_spline_driver_def def = spline_def_of(FAR_TIMES, FAR_VALUES, 4, false);
   def.joint = pin_between(scene, a, b);
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
   def.periodic = true;
@@ -87,7 +87,7 @@ static void add_driven_slider(planar_scene *scene, baum_body_id a, baum_body_id 
   baum_planar_translational_def slider = baum_planar_translational_def_default();
   PLANAR_BETWEEN(scene, &slider, a, b);
   slider.axis[1] = -0.4;
-  baum_spline_driver_def def = along(FAR_TIMES, FAR_VALUES, 4, false);
+  baum_spline_driver_def def = spline_def_of(FAR_TIMES, FAR_VALUES, 4, false);
   assert_int_equal(baum_mechanism_add_planar_translational(scene->mechanism, &slider, &def.joint),
                    BAUM_OK);
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
@@ -102,10 +102,10 @@ static void derivatives_agree_with_differences(void **state)
 
 /* ---- the curve ---- */
 
-/* This is the closed form of the natural spline through three points. Let d_i be the slopes of the
- * chords over the intervals h_i. The second derivative at the middle point is M = 3
- * (d_1 - d_0) / (h_0 + h_1). */
-static void three_places_are_joined_as_by_hand(void **state)
+/* The natural spline through three points has a closed form. If d_i are the slopes of the chords
+ * over the intervals h_i, its second derivative at the middle point is M = 3 (d_1 - d_0) / (h_0 +
+ * h_1). */
+static void a_natural_spline_through_three_points_has_its_closed_form(void **state)
 {
   (void)state;
   const double times[3] = {1.0, 1.5, 3.5};
@@ -114,7 +114,7 @@ static void three_places_are_joined_as_by_hand(void **state)
   const double d[2] = {2.0, -1.0};
   const double middle = 3.0 * (d[1] - d[0]) / (h[0] + h[1]);
   test_point p;
-  open_cam(&p, along(times, values, 3, false));
+  open_cam(&p, spline_def_of(times, values, 3, false));
   for (int k = 0; k <= 8; k++) {
     double x = k / 8.0;
     double s[3];
@@ -132,13 +132,13 @@ static void three_places_are_joined_as_by_hand(void **state)
   test_point_close(&p);
 }
 
-static void outside_of_its_times_a_natural_spline_is_straight(void **state)
+static void a_natural_spline_is_straight_outside_of_its_times(void **state)
 {
   (void)state;
   const double times[3] = {1.0, 1.5, 3.5};
   const double values[3] = {0.2, 1.2, -0.8};
   test_point p;
-  open_cam(&p, along(times, values, 3, false));
+  open_cam(&p, spline_def_of(times, values, 3, false));
   const double ends[2] = {1.0, 3.5};
   const double away[2] = {-7.0, 11.0};
   for (int k = 0; k < 2; k++) {
@@ -154,14 +154,14 @@ static void outside_of_its_times_a_natural_spline_is_straight(void **state)
   test_point_close(&p);
 }
 
-static const double TURN = 6.283185307179586;
+static const double REVOLUTION = 6.283185307179586;
 
-enum { PLACES = 41 };
+enum { KNOTS = 41 };
 
-static void sample_sine(double times[PLACES], double values[PLACES])
+static void sample_sine(double times[KNOTS], double values[KNOTS])
 {
-  for (int k = 0; k < PLACES; k++) {
-    times[k] = 0.3 + TURN * k / (PLACES - 1);
+  for (int k = 0; k < KNOTS; k++) {
+    times[k] = 0.3 + REVOLUTION * k / (KNOTS - 1);
     values[k] = sin(times[k]);
   }
 }
@@ -169,15 +169,15 @@ static void sample_sine(double times[PLACES], double values[PLACES])
 /* A periodic spline interpolates the sine at intervals h. Its error is at most 5 h^4 / 384. The
  * errors of its derivatives are at most h^3 / 24 and 3 h^2 / 8 (Hall and Meyer 1976). The test also
  * uses times before the first knot and after the last one. */
-static void a_periodic_spline_repeats_and_follows_sine(void **state)
+static void a_periodic_spline_repeats_and_approximates_the_sine(void **state)
 {
   (void)state;
-  double times[PLACES];
-  double values[PLACES];
+  double times[KNOTS];
+  double values[KNOTS];
   sample_sine(times, values);
   test_point p;
-  open_cam(&p, along(times, values, PLACES, true));
-  const double h = TURN / (PLACES - 1);
+  open_cam(&p, spline_def_of(times, values, KNOTS, true));
+  const double h = REVOLUTION / (KNOTS - 1);
   for (int k = -300; k <= 300; k++) {
     double t = 0.1 * k + 0.007;
     double s[3];
@@ -189,14 +189,14 @@ static void a_periodic_spline_repeats_and_follows_sine(void **state)
   test_point_close(&p);
 }
 
-/* Compares values 1e-12 s before and after each knot. One of them is the knot at which a periodic
- * spline repeats. */
+/* Compares values 1e-12 s before and after each knot. At one of the knots, a periodic spline
+ * repeats. */
 static void second_derivatives_are_continuous(void **state)
 {
   (void)state;
   for (int periodic = 0; periodic < 2; periodic++) {
     test_point p;
-    open_cam(&p, along(FAR_TIMES, FAR_VALUES, 4, periodic == 1));
+    open_cam(&p, spline_def_of(FAR_TIMES, FAR_VALUES, 4, periodic == 1));
     for (int k = 0; k < 4; k++) {
       double before[3];
       double after[3];
@@ -211,13 +211,13 @@ static void second_derivatives_are_continuous(void **state)
   }
 }
 
-static void overflow_is_reported_with_the_spline(void **state)
+static void overflow_is_reported_with_the_name_of_the_spline(void **state)
 {
   (void)state;
   const double times[3] = {0.0, 1e-150, 2e-150};
   const double values[3] = {0.0, 1e100, 0.0};
   test_point p;
-  open_cam(&p, along(times, values, 3, false));
+  open_cam(&p, spline_def_of(times, values, 3, false));
   double rows[3];
   p.t = 1e-150;
   test_point_update(&p);
@@ -243,7 +243,7 @@ static void a_run_follows_the_spline_until_its_law_is_replaced(void **state)
   const double times[3] = {0.0, 0.5, 1.5};
   const double values[3] = {-1.1, -0.7, 0.2};
   planar_scene scene = planar_scene_make();
-  baum_spline_driver_def def = along(times, values, 3, false);
+  baum_spline_driver_def def = spline_def_of(times, values, 3, false);
   baum_planar_revolute_def hinge = baum_planar_revolute_def_default();
   baum_joint_id pin;
   baum_joint_id cam;
@@ -279,7 +279,7 @@ static void the_spline_keeps_copies_of_its_arrays(void **state)
   double times[3] = {0.0, 1.0, 2.0};
   double values[3] = {0.0, 0.5, 0.0};
   planar_scene scene = planar_scene_make();
-  baum_spline_driver_def def = along(times, values, 3, false);
+  baum_spline_driver_def def = spline_def_of(times, values, 3, false);
   baum_spline_driver_def got;
   baum_joint_id cam;
   def.joint = pin_between(&scene, scene.link, scene.crank);
@@ -297,7 +297,7 @@ static void the_spline_keeps_copies_of_its_arrays(void **state)
 
   const double other_times[4] = {0.0, 1.0, 2.0, 3.0};
   const double other_values[4] = {-1.5, 0.0, 1.0, -1.5};
-  got = along(other_times, other_values, 4, true);
+  got = spline_def_of(other_times, other_values, 4, true);
   got.joint = def.joint;
   assert_int_equal(baum_mechanism_set_spline_driver(copy, cam, &got), BAUM_OK);
   test_point p;
@@ -322,19 +322,19 @@ static void wrong_curves_are_refused(void **state)
     baum_spline_driver_def def;
     const char *message;
   } wrong[] = {
-    {along(times, values, 2, false), "joint 2 \"cam\": count is 2, must be at least 3"},
-    {along(times, values, -4, false), "joint 2 \"cam\": count is -4, must be at least 3"},
-    {along(NULL, values, 4, false), "joint 2 \"cam\": times is NULL, must be given"},
-    {along(times, NULL, 4, false), "joint 2 \"cam\": values is NULL, must be given"},
-    {along(back, values, 4, false),
+    {spline_def_of(times, values, 2, false), "joint 2 \"cam\": count is 2, must be at least 3"},
+    {spline_def_of(times, values, -4, false), "joint 2 \"cam\": count is -4, must be at least 3"},
+    {spline_def_of(NULL, values, 4, false), "joint 2 \"cam\": times is NULL, must be given"},
+    {spline_def_of(times, NULL, 4, false), "joint 2 \"cam\": values is NULL, must be given"},
+    {spline_def_of(back, values, 4, false),
      "joint 2 \"cam\": times[2] is 1 s, must be later than the time before it, 1 s"},
-    {along(bad, values, 4, false),
+    {spline_def_of(bad, values, 4, false),
      "joint 2 \"cam\": times[1] is nan s and values[1] 0.5, must be finite"},
-    {along(times, bad, 4, false),
+    {spline_def_of(times, bad, 4, false),
      "joint 2 \"cam\": times[1] is 1 s and values[1] nan, must be finite"},
-    {along(times, huge, 4, false),
+    {spline_def_of(times, huge, 4, false),
      "joint 2 \"cam\": the slope between points 0 and 1 is not finite"},
-    {along(times, values, 3, true),
+    {spline_def_of(times, values, 3, true),
      "joint 2 \"cam\": values[2] is -1, must equal values[0], 0, because the spline is periodic"},
   };
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -342,18 +342,19 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  baum_spline_driver_def def = along(times, values, 4, true); /* both ends differ only by 1e-13 */
+  /* The two end values differ only by 1e-13. */
+  baum_spline_driver_def def = spline_def_of(times, values, 4, true);
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void the_joint_must_stay(void **state)
+static void the_joint_of_a_driver_cannot_change(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
-  baum_spline_driver_def def = along(FAR_TIMES, FAR_VALUES, 4, false);
+  baum_spline_driver_def def = spline_def_of(FAR_TIMES, FAR_VALUES, 4, false);
   def.joint = pin_between(&scene, scene.link, scene.crank);
   baum_joint_id cam;
   assert_int_equal(baum_mechanism_add_spline_driver(scene.mechanism, &def, &cam), BAUM_OK);
@@ -367,15 +368,15 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
-    cmocka_unit_test(three_places_are_joined_as_by_hand),
-    cmocka_unit_test(outside_of_its_times_a_natural_spline_is_straight),
-    cmocka_unit_test(a_periodic_spline_repeats_and_follows_sine),
+    cmocka_unit_test(a_natural_spline_through_three_points_has_its_closed_form),
+    cmocka_unit_test(a_natural_spline_is_straight_outside_of_its_times),
+    cmocka_unit_test(a_periodic_spline_repeats_and_approximates_the_sine),
     cmocka_unit_test(second_derivatives_are_continuous),
-    cmocka_unit_test(overflow_is_reported_with_the_spline),
+    cmocka_unit_test(overflow_is_reported_with_the_name_of_the_spline),
     cmocka_unit_test(a_run_follows_the_spline_until_its_law_is_replaced),
     cmocka_unit_test(the_spline_keeps_copies_of_its_arrays),
     cmocka_unit_test(wrong_curves_are_refused),
-    cmocka_unit_test(the_joint_must_stay),
+    cmocka_unit_test(the_joint_of_a_driver_cannot_change),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,7 +18,7 @@ static void limits_are_the_known_ones(void **state)
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
-    /* This and the next number were found in Python, by bisection of |R| - 1. */
+    /* This number and the next one were computed in Python, by bisection of |R| - 1. */
     [RK3] = 2.5127453266183286,
     [RK4] = 2.785293563405282,
   };
@@ -38,7 +38,7 @@ static void limits_are_the_known_ones(void **state)
 /* The damping ratio is zeta = alpha / beta. For explicit Euler, the boundary of the region is B = 2
  * A if zeta < 1, and B = 4 A - 4 if zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together
  * with B = (A / zeta)^2, this gives the limits in closed form. */
-static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
+static void limits_of_both_euler_methods_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
   for (int k = -30; k <= 30; k++) {
@@ -52,7 +52,7 @@ static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
   }
 }
 
-static void limits_exist_for_any_damping_ratio_of_double(void **state)
+static void limits_exist_for_extreme_damping_ratios(void **state)
 {
   (void)state;
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -99,7 +99,9 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    [RK3] = {0.701964181008339, 3.7592297596248}, /* roots of R, found by Durand-Kerner in Python */
+    /* This row and the next one follow from roots of R, found by the Durand-Kerner iteration in
+     * Python. */
+    [RK3] = {0.701964181008339, 3.7592297596248},
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -112,7 +114,7 @@ static void deadbeat_points_are_the_known_ones(void **state)
   }
 }
 
-static void deadbeat_of_both_eulers_is_exact(void **state)
+static void deadbeat_of_both_euler_methods_is_exact(void **state)
 {
   (void)state;
   for (int m = EULER; m <= SEMI_IMPLICIT_EULER; m++) {
@@ -126,7 +128,7 @@ static void deadbeat_of_both_eulers_is_exact(void **state)
 
 /* Each row gives A and the radius of the best point with alpha = beta. The published values have
  * two digits. */
-static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
+static void least_radii_with_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;
   static const double want[ONE_STEP_COUNT][2] = {
@@ -188,7 +190,7 @@ static double triangle_distance(int method, point w)
   return least;
 }
 
-static void a_good_point_is_its_own_nearest(void **state)
+static void a_good_point_is_its_own_nearest_good_point(void **state)
 {
   (void)state;
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -197,7 +199,7 @@ static void a_good_point_is_its_own_nearest(void **state)
   }
 }
 
-static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void **state)
+static void nearest_points_of_both_euler_methods_are_on_their_triangles(void **state)
 {
   (void)state;
   uint64_t seed = 1;
@@ -216,8 +218,8 @@ static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void *
 
 enum { COLUMNS = 300, ROWS = 500 };
 
-/* Points with |z| <= 0.9 are called good here. All of them are in a box that has one corner at the
- * origin. Returns the opposite corner of this box. */
+/* Points with |z| <= 0.9 are called good in this test. A box with one corner at the origin contains
+ * all of them. Returns the opposite corner of this box. */
 static point box(int method)
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -240,7 +242,7 @@ static double grid_distance(int method, point w)
   return least;
 }
 
-static void no_grid_point_is_good_and_much_nearer(void **state)
+static void no_good_grid_point_is_much_nearer(void **state)
 {
   (void)state;
   uint64_t seed = 2;
@@ -260,7 +262,7 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
   }
 }
 
-static void a_point_however_far_has_a_nearest_good_one(void **state)
+static void far_points_have_a_nearest_good_point(void **state)
 {
   (void)state;
   for (int m = 0; m < METHOD_COUNT; m++) {
@@ -271,7 +273,7 @@ static void a_point_however_far_has_a_nearest_good_one(void **state)
   }
 }
 
-static void the_search_ends_also_for_a_method_without_limit(void **state)
+static void the_search_also_ends_for_methods_without_a_limit(void **state)
 {
   (void)state;
   static const baum_i_method weak = {
@@ -289,18 +291,18 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(limits_are_the_known_ones),
-    cmocka_unit_test(limits_of_both_eulers_are_exact_for_any_damping_ratio),
-    cmocka_unit_test(limits_exist_for_any_damping_ratio_of_double),
+    cmocka_unit_test(limits_of_both_euler_methods_are_exact_for_any_damping_ratio),
+    cmocka_unit_test(limits_exist_for_extreme_damping_ratios),
     cmocka_unit_test(everything_below_a_limit_is_stable_and_just_above_is_not),
     cmocka_unit_test(a_method_may_have_no_limit_or_no_stable_point),
     cmocka_unit_test(deadbeat_points_are_the_known_ones),
-    cmocka_unit_test(deadbeat_of_both_eulers_is_exact),
-    cmocka_unit_test(least_radii_of_critical_damping_are_those_of_the_table),
-    cmocka_unit_test(a_good_point_is_its_own_nearest),
-    cmocka_unit_test(nearest_points_of_both_eulers_are_the_feet_on_their_triangles),
-    cmocka_unit_test(no_grid_point_is_good_and_much_nearer),
-    cmocka_unit_test(a_point_however_far_has_a_nearest_good_one),
-    cmocka_unit_test(the_search_ends_also_for_a_method_without_limit),
+    cmocka_unit_test(deadbeat_of_both_euler_methods_is_exact),
+    cmocka_unit_test(least_radii_with_critical_damping_are_the_published_ones),
+    cmocka_unit_test(a_good_point_is_its_own_nearest_good_point),
+    cmocka_unit_test(nearest_points_of_both_euler_methods_are_on_their_triangles),
+    cmocka_unit_test(no_good_grid_point_is_much_nearer),
+    cmocka_unit_test(far_points_have_a_nearest_good_point),
+    cmocka_unit_test(the_search_also_ends_for_methods_without_a_limit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the public functions for stability: their results, and arguments that they refuse. */
+/* Tests the public functions for stability: their results, and the arguments that they refuse. */
 #include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,8 @@ static const fact FACTS[] = {
   {baum_euler, 2.0},
   {baum_semi_implicit_euler, 0.8284271247461903}, /* 2 sqrt 2 - 2 */
   {baum_rk2, 2.0},
-  {baum_rk3, 2.5127453266183286}, /* this and the next number: by bisection of |R| - 1 in Python */
+  /* This limit and the next one were computed in Python, by bisection of |R| - 1. */
+  {baum_rk3, 2.5127453266183286},
   {baum_rk4, 2.785293563405282},
   {baum_ab2, 1.0},
   {baum_ab3, 6.0 / 11.0},
@@ -65,7 +66,7 @@ static double radius_at(const baum_integrator *integrator, double alpha_h, doubl
   return out.spectral_radius;
 }
 
-static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
+static void best_points_are_at_least_as_good_as_best_points_of_a_ray(void **state)
 {
   (void)state;
   for (int k = 0; k < FACT_COUNT; k++) {
@@ -82,8 +83,8 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
-/* The library stores the best points of its methods. They must be the points that a search
- * finds. */
+/* The library stores the best points of Adams-Bashforth methods. A search must find the same
+ * points. */
 static void the_search_finds_the_stored_best_points(void **state)
 {
   (void)state;
@@ -140,7 +141,8 @@ static void extreme_numbers_have_an_answer(void **state)
     double alpha_h = 7.0;
     int32_t count = 0;
     assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
-    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* it is proportional to the damping ratio */
+    /* The limit is proportional to the damping ratio. */
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300);
     assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
                      BAUM_OK);
     assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
@@ -150,7 +152,7 @@ static void extreme_numbers_have_an_answer(void **state)
   }
 }
 
-static void outlines_are_counted_and_cut(void **state)
+static void outlines_are_counted_and_closed(void **state)
 {
   (void)state;
   enum { CAPACITY = 2000 };
@@ -172,7 +174,7 @@ static void outlines_are_counted_and_cut(void **state)
         baum_stability_outline(integrator, levels[r], CAPACITY, alpha_h, beta2_h2, &count),
         BAUM_OK);
       assert_int_equal(count, all);
-      int32_t last = 0; /* last point of the first curve, which is closed */
+      int32_t last = 0; /* the last point of the first curve, which is closed */
       while (last + 1 < count && !isnan(alpha_h[last + 1])) {
         last++;
       }
@@ -294,11 +296,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(limits_are_the_published_ones),
-    cmocka_unit_test(the_best_points_are_at_least_as_good_as_those_of_a_ray),
+    cmocka_unit_test(best_points_are_at_least_as_good_as_best_points_of_a_ray),
     cmocka_unit_test(the_search_finds_the_stored_best_points),
     cmocka_unit_test(a_grid_has_the_radii_of_its_points),
     cmocka_unit_test(extreme_numbers_have_an_answer),
-    cmocka_unit_test(outlines_are_counted_and_cut),
+    cmocka_unit_test(outlines_are_counted_and_closed),
     cmocka_unit_test(every_integrator_has_a_statement),
     cmocka_unit_test(methods_without_a_region_are_refused),
     cmocka_unit_test(wrong_arguments_of_rays_are_refused),

@@ -20,9 +20,8 @@ typedef struct point {
   double dy[SIZE];
 } point;
 
-/* Fills y and y' with irregular numbers that are about 1. Positions are near the design
- * configuration. */
-static void choose(baum_workspace *w, point *p)
+/* Fills y and y' with irregular numbers of about 1. Positions are near the design configuration. */
+static void fill_point(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);
   assert_int_equal(baum_workspace_design(w, p->y, NULL), BAUM_OK);
@@ -35,8 +34,8 @@ static void choose(baum_workspace *w, point *p)
 
 /* Changes q and lambda along the direction d. Also changes v and v', in the ratios that r
  * prescribes. */
-static void move(baum_workspace *w, const point *from, const double *d, double by,
-                 const baum_i_step_ratios *r, point *to)
+static void move_point(baum_workspace *w, const point *from, const double *d, double by,
+                       const baum_i_step_ratios *r, point *to)
 {
   double dx[EVERY_NV];
   *to = *from;
@@ -61,7 +60,7 @@ static void residual_at(baum_workspace *w, const point *p, double scale, double 
   }
 }
 
-static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
+static void solving_for_a_change_of_the_residual_gives_the_displacement(void **state)
 {
   (void)state;
   const baum_i_step_ratios ratios = {.by_v = 20.0, .by_a = 300.0, .scale = 1.0 / 250.0};
@@ -74,12 +73,12 @@ static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
   double change[2][N];
   assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);
   assert_int_equal(baum_i_step_matrix_create(w, &matrix), BAUM_OK);
-  choose(w, &p);
+  fill_point(w, &p);
   for (int i = 0; i < N; i++) {
     d[i] = cos(5.7 * i);
   }
   for (int k = 0; k < 2; k++) {
-    move(w, &p, d, k == 0 ? 1e-5 : -1e-5, &ratios, &ends[k]);
+    move_point(w, &p, d, k == 0 ? 1e-5 : -1e-5, &ratios, &ends[k]);
     residual_at(w, &ends[k], ratios.scale, change[k]);
   }
   for (int i = 0; i < N; i++) {
@@ -98,7 +97,7 @@ static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_change_of_the_residual_is_answered_by_what_made_it),
+    cmocka_unit_test(solving_for_a_change_of_the_residual_gives_the_displacement),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

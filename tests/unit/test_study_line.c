@@ -33,7 +33,7 @@ static baum_study_entry entry_with(double error)
   };
 }
 
-static void numbers_of_all_kinds_come_back(void **state)
+static void numbers_of_all_kinds_are_read_back(void **state)
 {
   (void)state;
   const double numbers[] = {0.0,     -0.0,    0.1 + 0.2,   1e-6,         1e22,
@@ -59,7 +59,7 @@ static void lines_that_no_study_writes_are_refused(void **state)
   (void)state;
   const baum_i_field fields[] = {
     {"steps", "", "", BAUM_I_COUNT, true, true, offsetof(baum_study_entry, steps)},
-    /* The state of an entry is not saved in files. */
+    /* In this list, the state is marked as not contained in files. */
     {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)},
     {"repeats", "", "", BAUM_I_INDEX, true, true, offsetof(baum_study_entry, repeats)},
     {"cpu", "", "", BAUM_I_NUMBER, true, true, offsetof(baum_study_entry, cpu)},
@@ -74,9 +74,9 @@ static void lines_that_no_study_writes_are_refused(void **state)
   }
 }
 
-/* The first three fields of an entry are its state, its status and a flag. Only values that exist
- * may be read. The fourth number of each row tells whether the three values exist. */
-static void states_and_statuses_are_those_that_there_are(void **state)
+/* The first three fields of an entry are its state, its status and a flag. The reader must refuse
+ * values that do not exist. The fourth number of each row tells whether the three values exist. */
+static void states_and_statuses_that_do_not_exist_are_refused(void **state)
 {
   (void)state;
   const int tries[][4] = {{1, 0, 1, true},    {4, 1, 0, true},    {3, -3, 0, true},
@@ -95,7 +95,7 @@ static void states_and_statuses_are_those_that_there_are(void **state)
   }
 }
 
-static void a_line_is_of_one_study_and_as_it_was_written(void **state)
+static void changed_lines_and_lines_of_other_studies_are_refused(void **state)
 {
   (void)state;
   char line[LINE] = "entry 0 # 1";
@@ -118,10 +118,10 @@ static void a_line_is_of_one_study_and_as_it_was_written(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(numbers_of_all_kinds_come_back),
+    cmocka_unit_test(numbers_of_all_kinds_are_read_back),
     cmocka_unit_test(lines_that_no_study_writes_are_refused),
-    cmocka_unit_test(states_and_statuses_are_those_that_there_are),
-    cmocka_unit_test(a_line_is_of_one_study_and_as_it_was_written),
+    cmocka_unit_test(states_and_statuses_that_do_not_exist_are_refused),
+    cmocka_unit_test(changed_lines_and_lines_of_other_studies_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

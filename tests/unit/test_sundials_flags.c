@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the messages for failures of CVODE and IDA, first for every flag, and then in runs that
- * provoke failures. */
+/* Tests the messages for failures of CVODE and IDA: for every flag, and in runs with provoked
+ * failures. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -73,7 +73,7 @@ static int give_flag(baum_i_sundials *run, double target, double *tau)
   return answer;
 }
 
-/* Takes a step of 0.001 s from t = 0. SUNDIALS is replaced by a function that returns `flag`. */
+/* Takes a step of 0.001 s from t = 0. A function that returns `flag` replaces SUNDIALS. */
 static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
 {
   const baum_i_sundials_package package = {
@@ -166,7 +166,7 @@ static const struct {
   fault fault;
   baum_status status;
   const char *words; /* parts of the message */
-} BROUGHT[] = {
+} PROVOKED[] = {
   {FAULT_JUMPS, BAUM_ERR_STEP, "error stays above the tolerance|(step |last good step, t = |take "},
   {FAULT_NOISE, BAUM_ERR_CONVERGENCE, "does not converge|(step |last good step, t = |take "},
   {FAULT_NAN, BAUM_ERR_NOT_FINITE, "\"gust\"|in a step of |from t = | long)|check functions"},
@@ -174,9 +174,9 @@ static const struct {
   {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
 };
 
-/* Starts the fault between two calls, so that the next steps fail. After the fault has ended, the
- * run continues from the last good state. */
-static void bring_about(const baum_integrator *integrator, int k)
+/* Starts the fault between two calls, so that the next steps fail. When the fault has ended, the
+ * run must continue from the last good state. */
+static void provoke(const baum_integrator *integrator, int k)
 {
   fault now = FAULT_NONE;
   baum_mechanism *m = make_thrown(&now);
@@ -187,14 +187,14 @@ static void bring_about(const baum_integrator *integrator, int k)
   o.max_step = 0.01;
   assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
-  now = BROUGHT[k].fault;
-  ASSERT_SAYS(baum_simulation_advance_to(run, 1.0), BROUGHT[k].status, BROUGHT[k].words);
+  now = PROVOKED[k].fault;
+  ASSERT_SAYS(baum_simulation_advance_to(run, 1.0), PROVOKED[k].status, PROVOKED[k].words);
   assert_non_null(strstr(baum_simulation_message(run), baum_integrator_name(integrator)));
   double t = baum_simulation_time(run);
   assert_true(t >= 0.1 && t < 1.0);
   now = FAULT_NONE;
   assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
-  if (BROUGHT[k].fault >= FAULT_NAN) { /* the other faults may have changed v in a good step */
+  if (PROVOKED[k].fault >= FAULT_NAN) { /* the other faults may have changed v in a good step */
     assert_true(fabs(baum_simulation_q(run)[0] - 1.5) <= 1e-5); /* ten times rtol */
   }
   baum_simulation_destroy(run);
@@ -206,8 +206,8 @@ static void failures_that_can_be_provoked_have_their_messages(void **state)
   (void)state;
   const baum_integrator *const all[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
   for (int i = 0; i < 3; i++) {
-    for (size_t k = 0; k < sizeof BROUGHT / sizeof *BROUGHT; k++) {
-      bring_about(all[i], (int)k);
+    for (size_t k = 0; k < sizeof PROVOKED / sizeof *PROVOKED; k++) {
+      provoke(all[i], (int)k);
     }
   }
 }

@@ -2,8 +2,8 @@
 /* Several threads use one mechanism and make variants of it. This test also runs under the thread
  * sanitizer.
  *
- * Only the main thread may use the checks of cmocka. The other threads return their results to
- * it.
+ * Only the main thread may use the assertions of cmocka. The other threads return their results to
+ * the main thread.
  */
 #include <pthread.h>
 #include <setjmp.h>
@@ -30,13 +30,13 @@ static const double END = 0.2;
 typedef struct job {
   const baum_mechanism *mechanism;
   const baum_integrator *integrator;
-  bool variable; /* use variable steps if the method has both kinds of steps */
+  bool variable; /* use variable steps even if the method supports fixed steps */
   baum_status status;
   double q[EVERY_NQ];
   double v[EVERY_NV];
   double max_phi;
   const every_element *parts; /* for threads that make a variant of the mechanism */
-  double mass;                /* for these threads, too */
+  double mass;                /* the mass in the variant */
 } job;
 
 static baum_simulation_options options_for(const baum_integrator *integrator, bool variable)
@@ -85,8 +85,9 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Returns integrator number k if it can run the mechanism in this build. Otherwise returns rk4. */
-static const baum_integrator *choose(int k)
+/* Returns integrator number k (modulo their count) if it can run the mechanism in this build.
+ * Otherwise returns rk4. */
+static const baum_integrator *choose_integrator(int k)
 {
   int count = 0;
   while (baum_integrator_at(count) != NULL) {
@@ -109,14 +110,14 @@ static void check_same(const job *got, const job *want)
 
 /* ---- one mechanism ---- */
 
-static void runs_that_share_a_mechanism_are_those_of_one_thread(void **state)
+static void runs_that_share_a_mechanism_equal_runs_in_one_thread(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
   static job alone[THREADS];
   static job together[THREADS];
   for (int k = 0; k < THREADS; k++) {
-    alone[k] = (job){.mechanism = parts.mechanism, .integrator = choose(k)};
+    alone[k] = (job){.mechanism = parts.mechanism, .integrator = choose_integrator(k)};
     together[k] = alone[k];
     simulate(&alone[k]);
   }
@@ -152,8 +153,8 @@ static void runs_of_one_method_do_not_disturb_each_other(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* Makes a run with a copy of the mechanism and destroys the copy, while other threads do the same
- * with theirs. */
+/* Makes a run with a copy of the mechanism and destroys the copy. Other threads do the same with
+ * their copies. */
 static void *share_and_destroy(void *argument)
 {
   job *j = argument;
@@ -163,7 +164,7 @@ static void *share_and_destroy(void *argument)
   return NULL;
 }
 
-static void each_thread_may_give_up_its_own_mechanism(void **state)
+static void each_thread_may_destroy_its_own_mechanism(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -237,7 +238,7 @@ static void variants_of_one_mechanism_are_made_in_threads(void **state)
 
 /* ---- messages ---- */
 
-static void *fail_by_number(void *argument)
+static void *fail_repeatedly(void *argument)
 {
   job *j = argument;
   baum_planar_body_def def = baum_planar_body_def_default();
@@ -250,7 +251,7 @@ static void *fail_by_number(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* the message is not that of this thread */
+      j->status = BAUM_ERR_INTEGRATOR; /* the message is of another thread */
     }
   }
   return NULL;
@@ -263,7 +264,7 @@ static void each_thread_has_its_own_message(void **state)
   for (int k = 0; k < THREADS; k++) {
     jobs[k] = (job){.mass = -1.0 - k};
   }
-  in_threads(fail_by_number, jobs);
+  in_threads(fail_repeatedly, jobs);
   for (int k = 0; k < THREADS; k++) {
     assert_int_equal(jobs[k].status, BAUM_ERR_ARGUMENT);
   }
@@ -279,7 +280,7 @@ typedef struct endless {
   double t;
 } endless;
 
-static int tell(const baum_simulation *run, double t, void *user)
+static int report_begin(const baum_simulation *run, double t, void *user)
 {
   (void)run;
   (void)t;
@@ -300,7 +301,7 @@ static void check_cancel(const baum_mechanism *mechanism, const baum_integrator 
 {
   endless e = {.status = BAUM_OK};
   baum_simulation_options o = options_for(integrator, false);
-  o.progress = tell;
+  o.progress = report_begin;
   o.progress_interval = 0.0;
   o.user = &e;
   atomic_init(&e.begun, false);
@@ -333,9 +334,9 @@ static void a_run_is_cancelled_from_another_thread(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(runs_that_share_a_mechanism_are_those_of_one_thread),
+    cmocka_unit_test(runs_that_share_a_mechanism_equal_runs_in_one_thread),
     cmocka_unit_test(runs_of_one_method_do_not_disturb_each_other),
-    cmocka_unit_test(each_thread_may_give_up_its_own_mechanism),
+    cmocka_unit_test(each_thread_may_destroy_its_own_mechanism),
     cmocka_unit_test(variants_of_one_mechanism_are_made_in_threads),
     cmocka_unit_test(each_thread_has_its_own_message),
     cmocka_unit_test(a_run_is_cancelled_from_another_thread),

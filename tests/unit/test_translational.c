@@ -63,7 +63,7 @@ static void coordinate_derivatives_agree_with_differences(void **state)
   for_each_planar_pair(add_slider, false, check_coordinate_derivatives);
 }
 
-static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(void **state)
+static void with_a_design_point_the_axis_is_in_ground_axes(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -88,7 +88,7 @@ static void an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design(voi
   test_point_close(&p);
 }
 
-static void an_axis_beside_points_is_of_body_a(void **state)
+static void with_body_points_the_axis_is_in_the_axes_of_body_a(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -115,13 +115,13 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   /* In body axes the points are (0.3, -0.2) and (-0.45, 0.15). In the axes of the link, the centre
    * of the crank is at (5, 7). */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
-  /* Distance across the axis, with k x axis = (-1, 0). */
+  /* The distance across the axis is measured along k x axis = (-1, 0). */
   ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0);
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   test_point_close(&p);
 }
 
-static void the_kept_angle_follows_from_the_design_unless_given(void **state)
+static void the_relative_angle_follows_from_the_design_unless_given(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -206,9 +206,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(coordinate_derivatives_agree_with_differences),
-    cmocka_unit_test(an_axis_given_by_a_point_is_in_ground_axes_and_met_by_the_design),
-    cmocka_unit_test(an_axis_beside_points_is_of_body_a),
-    cmocka_unit_test(the_kept_angle_follows_from_the_design_unless_given),
+    cmocka_unit_test(with_a_design_point_the_axis_is_in_ground_axes),
+    cmocka_unit_test(with_body_points_the_axis_is_in_the_axes_of_body_a),
+    cmocka_unit_test(the_relative_angle_follows_from_the_design_unless_given),
     cmocka_unit_test(an_axis_of_any_length_is_a_direction),
     cmocka_unit_test(wrong_fields_are_refused),
     cmocka_unit_test(definitions_come_back),

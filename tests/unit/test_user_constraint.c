@@ -31,7 +31,7 @@ static int weights_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void coordinates_come_in_the_order_in_which_bodies_are_named(void **state)
+static void coordinates_are_in_the_order_of_the_listed_bodies(void **state)
 {
   (void)state;
   baum_mechanism *mechanism;
@@ -144,7 +144,7 @@ static void a_positive_return_value_requests_a_smaller_step(void **state)
   test_point_close(&p);
 }
 
-static void an_answer_below_zero_stops(void **state)
+static void a_negative_return_value_stops_the_run(void **state)
 {
   (void)state;
   failure f = {.answer = -1};
@@ -181,7 +181,7 @@ static void values_that_are_not_finite_are_named(void **state)
   test_point_close(&p);
 }
 
-static void every_difference_passes_a_failure_on(void **state)
+static void every_difference_reports_a_failure(void **state)
 {
   (void)state;
   const int answers[] = {1, -1};
@@ -195,7 +195,7 @@ static void every_difference_passes_a_failure_on(void **state)
     assert_int_equal(baum_i_mechanism_jacobian(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_nu(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
-    p.v[0] = 0.1; /* if v is small, gamma first tests whether Phi depends on t alone */
+    p.v[0] = 0.1; /* if v is small, gamma first tests whether Phi changes with t at constant q */
     test_point_update(&p);
     f.calls = 0;
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
@@ -277,7 +277,7 @@ static void a_bad_definition_is_refused_by_name(void **state)
   baum_mechanism_destroy(f.mechanism);
 }
 
-static void bad_bodies_are_refused_by_place(void **state)
+static void bad_bodies_are_refused_with_their_index(void **state)
 {
   (void)state;
   fixture f;
@@ -308,7 +308,7 @@ static void check_same(const baum_user_constraint_def *got, const baum_user_cons
               got->gamma == want->gamma && got->user == want->user);
 }
 
-static void a_definition_comes_back_as_it_was_given(void **state)
+static void a_definition_is_returned_as_it_was_given(void **state)
 {
   (void)state;
   fixture f;
@@ -333,7 +333,7 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   baum_mechanism_destroy(f.mechanism);
 }
 
-static void rows_and_bodies_must_stay(void **state)
+static void rows_and_bodies_cannot_change(void **state)
 {
   (void)state;
   fixture f;
@@ -353,16 +353,16 @@ static void rows_and_bodies_must_stay(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(coordinates_come_in_the_order_in_which_bodies_are_named),
+    cmocka_unit_test(coordinates_are_in_the_order_of_the_listed_bodies),
     cmocka_unit_test(a_positive_return_value_requests_a_smaller_step),
-    cmocka_unit_test(an_answer_below_zero_stops),
+    cmocka_unit_test(a_negative_return_value_stops_the_run),
     cmocka_unit_test(values_that_are_not_finite_are_named),
-    cmocka_unit_test(every_difference_passes_a_failure_on),
+    cmocka_unit_test(every_difference_reports_a_failure),
     cmocka_unit_test(defaults_are_those_documented),
     cmocka_unit_test(a_bad_definition_is_refused_by_name),
-    cmocka_unit_test(bad_bodies_are_refused_by_place),
-    cmocka_unit_test(a_definition_comes_back_as_it_was_given),
-    cmocka_unit_test(rows_and_bodies_must_stay),
+    cmocka_unit_test(bad_bodies_are_refused_with_their_index),
+    cmocka_unit_test(a_definition_is_returned_as_it_was_given),
+    cmocka_unit_test(rows_and_bodies_cannot_change),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

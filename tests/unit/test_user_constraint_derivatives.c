@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the derivatives of user constraints. Those that the user gives are used, and missing ones
- * are computed by differences.
+/* Tests the derivatives of user constraints. The library uses the derivatives that the user gives,
+ * and computes the others by differences.
  *
- * Tolerances are relative to the change of a quantity when the state changes by one scale.
+ * Tolerances are relative to the change of a quantity when the coordinates change by their scale.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -23,8 +23,8 @@ enum { KIND_COUNT = 3 };
 
 /* ---- derivatives ---- */
 
-/* Two copies of the same constraint. In `got` some derivatives are missing, and in `want` all are
- * given. */
+/* Two copies of the same constraint. Some derivatives are missing in `got`. All derivatives are
+ * given in `want`. */
 typedef struct pair {
   user_model model;
   const user_kind *kind;
@@ -46,8 +46,8 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Chooses a random state for both copies. Positions are up to two scales, and velocities up to
- * three scales times the rate. */
+/* Chooses a random state for both copies. Positions are up to two times their scale. Velocities are
+ * up to three times their scale times the rate. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
@@ -136,19 +136,19 @@ static void given_derivatives_are_used_as_they_are(void **state)
 
 /* The second difference uses seven points with a step of 1/64. Its error was measured to be
  * 3e-11. */
-static void from_phi_alone_gamma_is_good_to_1e_10(void **state)
+static void gamma_from_phi_alone_is_good_to_1e_10(void **state)
 {
   (void)state;
   for_each_pair(GIVE_NOTHING, 1e-11, 1e-11, 1e-10);
 }
 
-static void with_a_jacobian_and_nu_gamma_is_good_to_1e_11(void **state)
+static void gamma_from_a_jacobian_and_nu_is_good_to_1e_11(void **state)
 {
   (void)state;
   for_each_pair(GIVE_JACOBIAN | GIVE_NU, 0.0, 0.0, 1e-11);
 }
 
-static void with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11(void **state)
+static void scleronomic_gamma_from_a_jacobian_is_good_to_1e_11(void **state)
 {
   (void)state;
   uint64_t seed = 8;
@@ -171,7 +171,7 @@ static void given_derivatives_are_used_for_missing_ones(void **state)
   for_each_pair(GIVE_GAMMA, 1e-11, 1e-11, 0.0);
 }
 
-static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **state)
+static void scleronomic_gamma_at_rest_is_exactly_zero(void **state)
 {
   (void)state;
   const int given[] = {GIVE_NOTHING, GIVE_JACOBIAN, GIVE_NU};
@@ -188,9 +188,9 @@ static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **stat
 }
 
 /* Normally, v shows the time scale of a motion. If the mechanism is at rest, the search for the
- * step of the difference has to find the rate of 300 1/s. It may end too early, if the differences
- * of two orders agree by chance. This causes errors of up to 1e-8. */
-static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
+ * step of the difference has to find the rate of 300 1/s. The search may end too early if the
+ * differences of two orders agree by chance. This causes errors of up to 1e-8. */
+static void a_fast_drive_is_also_differenced_at_rest(void **state)
 {
   (void)state;
   uint64_t seed = 9;
@@ -206,7 +206,7 @@ static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
 }
 
 /* The time scales of these motions are 1e-8 s and years. In both cases v shows the time scale. */
-static void slow_and_fast_motion_is_differenced_alike(void **state)
+static void slow_and_fast_motions_are_differenced_equally_well(void **state)
 {
   (void)state;
   const double rates[] = {1e-8, 1e8};
@@ -224,7 +224,7 @@ static void slow_and_fast_motion_is_differenced_alike(void **state)
 
 /* ---- second derivatives ---- */
 
-static void blocks_of_what_is_given_agree_with_differences(void **state)
+static void blocks_from_given_derivatives_agree_with_differences(void **state)
 {
   (void)state;
   uint64_t seed = 11;
@@ -272,25 +272,25 @@ static void for_each_block(int given, double tolerance)
   }
 }
 
-static void blocks_from_phi_alone_are_good_to_eight_digits(void **state)
+static void blocks_from_phi_alone_are_good_to_1e_9(void **state)
 {
   (void)state;
   for_each_block(GIVE_NOTHING, 1e-9);
 }
 
-static void blocks_from_a_jacobian_are_good_to_nine_digits(void **state)
+static void blocks_from_a_jacobian_and_nu_are_good_to_1e_10(void **state)
 {
   (void)state;
   for_each_block(GIVE_JACOBIAN | GIVE_NU, 1e-10);
 }
 
-static void blocks_from_everything_given_are_good_to_eleven_digits(void **state)
+static void blocks_from_all_derivatives_are_good_to_1e_11(void **state)
 {
   (void)state;
   for_each_block(GIVE_ALL, 1e-11);
 }
 
-static void a_block_that_is_not_wanted_is_not_written(void **state)
+static void blocks_that_are_not_requested_are_not_written(void **state)
 {
   (void)state;
   pair s;
@@ -362,18 +362,18 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(given_derivatives_are_used_as_they_are),
-    cmocka_unit_test(from_phi_alone_gamma_is_good_to_1e_10),
-    cmocka_unit_test(with_a_jacobian_and_nu_gamma_is_good_to_1e_11),
-    cmocka_unit_test(with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11),
+    cmocka_unit_test(gamma_from_phi_alone_is_good_to_1e_10),
+    cmocka_unit_test(gamma_from_a_jacobian_and_nu_is_good_to_1e_11),
+    cmocka_unit_test(scleronomic_gamma_from_a_jacobian_is_good_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_for_missing_ones),
-    cmocka_unit_test(at_rest_gamma_of_what_time_does_not_move_is_exactly_zero),
-    cmocka_unit_test(at_rest_a_fast_drive_is_differenced_as_well),
-    cmocka_unit_test(slow_and_fast_motion_is_differenced_alike),
-    cmocka_unit_test(blocks_of_what_is_given_agree_with_differences),
-    cmocka_unit_test(blocks_from_phi_alone_are_good_to_eight_digits),
-    cmocka_unit_test(blocks_from_a_jacobian_are_good_to_nine_digits),
-    cmocka_unit_test(blocks_from_everything_given_are_good_to_eleven_digits),
-    cmocka_unit_test(a_block_that_is_not_wanted_is_not_written),
+    cmocka_unit_test(scleronomic_gamma_at_rest_is_exactly_zero),
+    cmocka_unit_test(a_fast_drive_is_also_differenced_at_rest),
+    cmocka_unit_test(slow_and_fast_motions_are_differenced_equally_well),
+    cmocka_unit_test(blocks_from_given_derivatives_agree_with_differences),
+    cmocka_unit_test(blocks_from_phi_alone_are_good_to_1e_9),
+    cmocka_unit_test(blocks_from_a_jacobian_and_nu_are_good_to_1e_10),
+    cmocka_unit_test(blocks_from_all_derivatives_are_good_to_1e_11),
+    cmocka_unit_test(blocks_that_are_not_requested_are_not_written),
     cmocka_unit_test(scratch_memory_is_enough_for_wide_and_for_tall_constraints),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests user forces. The force of the example acts on two bodies with user coordinates, which are
- * (x, y) and (b, th, ga). Its definition lists these bodies in the opposite order. The function
- * therefore receives (b, th, ga, x, y). The force consists of a spring f = k (y - sin b) between y
+/* Tests user forces. The tested force acts on two bodies with user coordinates, which are (x, y)
+ * and (b, th, ga). The definition of the force lists these bodies in the opposite order, so its
+ * function receives (b, th, ga, x, y). The force consists of a spring f = k (y - sin b) between y
  * and b, and of a cubic damper on x. */
 #include <math.h>
 #include <setjmp.h>
@@ -136,7 +136,7 @@ static void a_force_is_added_to_its_bodies(void **state)
   test_point_close(&p);
 }
 
-static void the_potential_is_that_of_the_force(void **state)
+static void the_potential_agrees_with_the_force(void **state)
 {
   (void)state;
   fixture f;
@@ -196,8 +196,8 @@ static void check_blocks(bool given, double tolerance)
   test_point_close(&p);
 }
 
-/* Derivatives that are not given are replaced by differences of order 6. Their error was measured
- * to be 2e-12 for values of up to 20. */
+/* Differences of order 6 replace derivatives that are not given. The error of these differences was
+ * measured to be 2e-12 for values of up to 20. */
 static void missing_derivatives_are_differenced_to_1e_11(void **state)
 {
   (void)state;
@@ -298,7 +298,7 @@ static void check_same(const baum_user_force_def *got, const baum_user_force_def
               got->user == want->user);
 }
 
-static void a_definition_comes_back_as_it_was_given(void **state)
+static void a_definition_is_returned_as_it_was_given(void **state)
 {
   (void)state;
   fixture f;
@@ -327,14 +327,14 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_force_is_added_to_its_bodies),
-    cmocka_unit_test(the_potential_is_that_of_the_force),
+    cmocka_unit_test(the_potential_agrees_with_the_force),
     cmocka_unit_test(a_force_without_a_potential_has_potential_zero),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),
     cmocka_unit_test(failing_functions_are_named),
     cmocka_unit_test(defaults_are_those_documented),
     cmocka_unit_test(a_bad_definition_is_refused_by_name),
-    cmocka_unit_test(a_definition_comes_back_as_it_was_given),
+    cmocka_unit_test(a_definition_is_returned_as_it_was_given),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
