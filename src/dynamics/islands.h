@@ -13,8 +13,8 @@ typedef struct baum_i_island {
   int rows;
 } baum_i_island;
 
-/* Count the islands, and describe the island with most bodies in *largest. If there are no islands,
- * all numbers in *largest are 0. Returns BAUM_OK or BAUM_ERR_MEMORY. */
+/* Count the islands, and describe the island with the most bodies in *largest. If there are no
+ * islands, all numbers in *largest are 0. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
@@ -24,7 +24,7 @@ baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
 baum_status baum_i_number_islands(const baum_mechanism *mechanism, int **island);
 
 /* Return the number of the island that a joint belongs to. If the joint connects only fixed bodies,
- * the number is 0, that of the ground. */
+ * return 0, the number of the ground. */
 int baum_i_island_of_joint(const baum_mechanism *mechanism, const int *island,
                            const baum_i_joint *joint);
 

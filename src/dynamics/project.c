@@ -132,7 +132,7 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
  * larger. */
 static const double NEGLIGIBLE = 1e-7;
 
-static baum_status fail_left_out(const baum_workspace *w, int row)
+static baum_status fail_omitted_row(const baum_workspace *w, int row)
 {
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
@@ -143,7 +143,7 @@ static baum_status fail_left_out(const baum_workspace *w, int row)
 }
 
 /* Set size[] (body_count + 1) to the scaled sizes of the velocities of all islands. The size of the
- * ground, to which joints between fixed bodies belong, is the largest. */
+ * ground, to which joints between fixed bodies belong, is the largest size of all islands. */
 static void find_speeds(const baum_workspace *w, const double *v, double *size)
 {
   const baum_mechanism *m = w->mechanism;
@@ -157,8 +157,8 @@ static void find_speeds(const baum_workspace *w, const double *v, double *size)
   }
 }
 
-baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,
-                                  const double *before)
+baum_status baum_i_check_projection(baum_workspace *w, double t, const double *q, const double *v,
+                                    const double *before)
 {
   const baum_mechanism *m = w->mechanism;
   double *speed = w->work_q;
@@ -173,7 +173,7 @@ baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, 
     int island = baum_i_island_of_joint(m, w->island, m->joints[baum_i_row_joint(m, i)]);
     double most = NEGLIGIBLE * (speed[island] * distance + fabs(w->nu[i]));
     bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance || fabs(w->phi_rate[i]) > most;
-    BAUM_I_TRY(w->rows.omitted[i] && is_off ? fail_left_out(w, i) : BAUM_OK);
+    BAUM_I_TRY(w->rows.omitted[i] && is_off ? fail_omitted_row(w, i) : BAUM_OK);
   }
   return BAUM_OK;
 }

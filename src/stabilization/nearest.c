@@ -11,7 +11,7 @@
 
 static const double GOOD_GROWTH = -0.1; /* a spectral radius of 0.9 */
 static const double FARTHEST = 1e3;     /* how far the lattice extends if the region is unbounded */
-/* Half the extent of the next lattice, as a number of cells of the last one. */
+/* Half the extent of the next lattice, in cells of the present lattice. */
 static const double AROUND = 2.0;
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
