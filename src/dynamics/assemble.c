@@ -57,8 +57,8 @@ static bool is_held(const bool *held, int i)
 
 /* ---- the matrix ---- */
 
-/* Clear the columns of held coordinates in a row. The remaining entries are cleared, too, if they
- * are only rounding errors, as in the row of a driver if the angular velocity of its body about the
+/* Clear the columns of held coordinates in a row. If the remaining entries are only rounding
+ * errors, clear them, too. This occurs in the row of a driver if the rotation of its body about the
  * axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
@@ -89,7 +89,7 @@ static void clear_held_columns(baum_workspace *w, const bool *held)
   }
 }
 
-/* Clear rows of velocity level, which do not restrict positions. */
+/* Clear the rows of velocity level in J, because they do not restrict positions. */
 static void clear_velocity_rows(const baum_workspace *w)
 {
   const baum_mechanism *m = w->mechanism;
@@ -147,7 +147,7 @@ static baum_status factor(const assembly *s)
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
-/* Set w->a to the least change of the coordinates that changes the rows by rhs. */
+/* Set w->a to the least change a of the coordinates with J a = rhs. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -406,7 +406,7 @@ static baum_status assemble_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* Replace the NaN in v (nv), which stand for free velocities, by velocities that fulfil the
+/* Replace the NaN entries of v (nv), which stand for free velocities, by velocities that fulfil the
  * constraints. */
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {

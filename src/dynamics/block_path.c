@@ -16,8 +16,8 @@ enum { MOST_REFINEMENTS = 3 };
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 /* In space, the accelerations also contribute to the change. Each refinement gains at least four
- * digits, so no other refinement is necessary after a change this small. If a refinement gains
- * fewer digits, the change of the next one is large. */
+ * digits, so no other refinement is necessary after a change this small. If refinements gain fewer
+ * digits, their changes stay large. */
 static const double SETTLED_IN_SPACE = 1e-9;
 /* A refinement with a residual in working precision leaves an error of up to the size of its
  * change. */
@@ -178,8 +178,8 @@ static bool check(const baum_workspace *w, const baum_i_block_path *path, double
 
 /* Refine the solution. Unless pivots are bad, every refinement gains at least six digits. Close to
  * a singular configuration the multipliers may be wrong although the residual of J a is small.
- * Therefore solutions with weak pivots are always refined, and those with good pivots only if the
- * residual is large. */
+ * Therefore solutions with weak pivots are always refined, and solutions with good pivots only if
+ * the residual is large. */
 static baum_status refine(const baum_workspace *w, baum_i_block_path *path, baum_i_pivots pivots,
                           double beside)
 {

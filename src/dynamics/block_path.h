@@ -24,8 +24,8 @@ typedef struct baum_i_omitted_row {
   const int *columns; /* (count) */
 } baum_i_omitted_row;
 
-/* The block solver is `space` if the mechanism has bodies in space and none with user coordinates,
- * otherwise `block`; the other is NULL. */
+/* The block solver is `space` if the mechanism has bodies in space and no bodies with user
+ * coordinates. Otherwise it is `block`. The other pointer is NULL. */
 struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
@@ -40,8 +40,8 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;  /* (4 x pin_count, rounded up to an even count of pins) points of the pins */
-  int group_count; /* groups of joints that no hot file evaluates */
+  double *points;              /* (even pin_count x 4) points of the pins */
+  int group_count;             /* groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
@@ -82,12 +82,12 @@ baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
-/* slender.c: if necessary, raise the moments of inertia of those slender bodies in the solver for
- * which refinement converges. */
+/* slender.c: if the solver needs it, raise the moments of inertia of the slender bodies for which
+ * refinement converges. */
 baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
- * They are the same path if no body is fixed. *verdict describes the first. */
+ * They are the same path if no body is fixed. *verdict describes the first path. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -98,7 +98,7 @@ baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict 
 void baum_i_paths_destroy(const baum_i_paths *paths);
 
 /* Right-hand side of the system. The right-hand side of the rows is bending gamma - damping Phi' -
- * stiffness Phi. The right-hand side of the bodies is g if `force`, otherwise zero. */
+ * stiffness Phi. The right-hand side of the bodies is g if `force` is true, otherwise zero. */
 typedef struct baum_i_right_side {
   double bending;
   double damping;
@@ -131,9 +131,9 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
-/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by the path of the
- * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
- * BAUM_ERR_MEMORY. */
+/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by
+ * workspace->motion or, if that fails, by the solver of the whole system. May also return
+ * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 

@@ -146,7 +146,7 @@ baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status);
  * factorizations. */
 void baum_i_workspace_forget(baum_workspace *workspace);
 
-/* Return the sums of the counters of all solvers: for accelerations, projection and assembly. */
+/* Return the sums of the counters of the solvers for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
 
 /* Return the flags of the omitted rows (nc) for solvers, or NULL if no row is omitted. */
@@ -187,8 +187,8 @@ baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, 
                           double alpha, double beta);
 /* Evaluate the blocks of J at the last point, if the last evaluation skipped them. */
 baum_status baum_i_need_jacobian(baum_workspace *workspace);
-/* Find the solution of (5) that users receive. Its multipliers have the least norm if they are not
- * unique. Sets J. */
+/* Find the solution of equation (5) that users receive. Its multipliers have the least norm if they
+ * are not unique. Sets J. */
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
@@ -239,8 +239,8 @@ int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
-/* Return v - W^-1 J^T mu with the last J. The result is valid until workspace->work_v is used
- * again. */
+/* Return v - W^-1 J^T mu with J of the last evaluation. The result is valid until workspace->work_v
+ * is used again. */
 const double *baum_i_corrected_velocities(baum_workspace *workspace, const double *v,
                                           const double *mu);
 

@@ -23,7 +23,7 @@
  *
  * If the constraints are violated, the omitted rows need not depend on the other rows, and N z may
  * disturb the balance of the forces. Then only a fraction of N z is added, namely the largest
- * fraction that keeps the forces balanced. This fraction is mostly close to 1 or close to 0.
+ * fraction that keeps the forces balanced. Usually this fraction is close to 1 or close to 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -54,7 +54,7 @@ static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
-/* Factor the matrix of the system for N z, which is written at the head of this file. `shift` (nc)
+/* Factor the matrix of the system for N z. The head of this file states the system. `shift` (nc)
  * makes the matrix regular; it may be NULL. */
 static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
 {

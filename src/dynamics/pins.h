@@ -9,8 +9,8 @@
 
 /* Input and output of the kernel. */
 typedef struct baum_i_pins {
-  const double *points; /* (pin_count, made even, x 4) point on body a, then point on body b;
-                          order of block->pins */
+  /* (even pin_count x 4) point on body a, then point on body b; order of block->pins */
+  const double *points;
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;

@@ -2,10 +2,10 @@
 /* Permanent redundancy: rows that depend on others at the initial configuration and around it.
  *
  * The rank of J M^-1/2, with rows of unit length, is determined at the assembled initial
- * configuration and at neighbours on the constraint manifold. The largest rank found is the rank of
- * the mechanism. The rows outside one largest independent set are redundant, and every solver omits
- * them. The choice of rows may change during a run (row_set.c). An initial configuration of lower
- * rank is singular.
+ * configuration and at neighbours on the constraint manifold. The largest of these ranks counts as
+ * the rank of the mechanism. The rows outside one largest independent set are redundant, and every
+ * solver omits them. The choice of rows may change during a run (row_set.c). An initial
+ * configuration of lower rank is singular.
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
  * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
@@ -18,7 +18,8 @@
  * long members rotate only little between the neighbours.
  *
  * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
- * independent set of all rows of positions. Their number gives the degrees of freedom of position.
+ * independent set of all rows of positions. The number of chosen rows of positions gives the
+ * degrees of freedom of position.
  *
  * To find a neighbour, the configuration is moved along x, a solution of J x = nu in which all
  * degrees of freedom take part, and is then assembled.

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A row set divides the rows of J into rows that are kept and rows that are omitted. Omitted rows
  * depend on the kept rows in every configuration. The number of omitted rows is determined only
- * once (redundancy.c), in the assembled initial configuration and in configurations near it. Which
- * rows are omitted may change during a run (row_set.c). */
+ * once (redundancy.c), in the assembled initial configuration and in configurations near it. The
+ * choice of these rows may change during a run (row_set.c). */
 #ifndef BAUM_I_DYNAMICS_ROW_SET_H
 #define BAUM_I_DYNAMICS_ROW_SET_H
 
@@ -35,7 +35,7 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
  * the rows of welds that fix bodies. May return BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* Look for the set of rows that is separated best in this configuration. If one is found, keep it
+/* Look for the set of rows that is separated best in this configuration. If a set is found, keep it
  * instead of the present set. The number of rows stays the same. This must be called before the
  * block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of bodies in space and geometry of joints between them. A point s of a body has the arm d
- * = A s and the position x = r + d. With e = x_b - x_a for the points of a joint, and the upper
- * sign for k = a and the lower for k = b, the rows and sides are
+/* Computes the frames of bodies in space and the geometry of joints between them. A point s of a
+ * body has the arm d = A s and the position x = r + d. Let e = x_b - x_a for the points of a joint.
+ * With the upper sign for k = a and the lower sign for k = b, the rows and sides are
  *
  *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
  *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
@@ -141,8 +141,8 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
-/* Makes the frame in space of a planar body. Only the last column of L^-T is not zero, where L L^T
- * is the inertia tensor of the body. */
+/* Computes the spatial frame of a planar body. Only the last column of L^-T is not zero, where L
+ * L^T is the inertia tensor of the body. */
 BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];

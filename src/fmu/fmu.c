@@ -99,7 +99,7 @@ static baum_status start_mechanism(instance *fmu, const baum_mechanism *mechanis
   return set_inputs(fmu);
 }
 
-/* Create the run with the present parameters and inputs, unless there is one. */
+/* Create the run with the present parameters and inputs, unless there is already a run. */
 static fmi3Status start_run(instance *fmu)
 {
   if (fmu->run) {

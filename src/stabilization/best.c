@@ -21,7 +21,7 @@
  * searched on a lattice in the chart (chart.h). The lattice is refined around the best point found
  * so far, which at first is the best point with critical damping. The largest of several |z| is, as
  * a function of the point, a surface with sharp valleys. A descent method would stop in such a
- * valley. A search on a lattice does not. */
+ * valley. A search on a lattice does not stop there. */
 #include <math.h>
 #include <stdbool.h>
 

@@ -2,7 +2,7 @@
 /* Finds the nearest good point. A point is good if its spectral radius is at most 0.9. The search
  * finds the points at which the lines of a lattice cross the edge of the good region. It is
  * repeated with finer lattices around the crossing that is nearest in the plane (A, B). The
- * lattices are in the chart (chart.h). Regions have no sharp tips there that could lie between
+ * lattices are in the chart (chart.h), where regions have no sharp tips that could lie between
  * lines. The region may have any shape and consist of any number of parts. */
 #include <math.h>
 #include <stdbool.h>
