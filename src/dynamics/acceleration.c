@@ -10,8 +10,8 @@
  * right-hand sides.
  *
  * Rows that always depend on other rows are omitted from the system. The multipliers of omitted
- * rows are set to zero. This gives one of many possible solutions. Users receive another one, the
- * solution of least norm (least_multipliers.c).
+ * rows are set to zero. This gives one of many possible solutions. If alpha = beta = 0, users
+ * receive another one, the solution of least norm (least_multipliers.c).
  */
 #include <string.h>
 
@@ -73,7 +73,7 @@ static void set_right_side(const baum_workspace *w, baum_i_right_side right)
   }
 }
 
-/* Solve the whole system with the terms that the last call of evaluate_stage() has evaluated. */
+/* Solve the whole system with the terms that have been evaluated last. */
 static baum_status solve_whole(baum_workspace *w, const baum_i_right_side *right)
 {
   const baum_i_kkt_values values = baum_i_kkt_values_of(w);

@@ -7,11 +7,11 @@
  *
  * The columns of held coordinates in J, and their coupling in M, are cleared, so these coordinates
  * do not move. The small S (Levenberg, Marquardt) permits redundant rows. If rows contradict each
- * other, the system with S is a least-squares problem. The violation that it leaves is in the
- * conflicting rows only, and so identifies them. Steps are limited, and halved until the violation
- * decreases. Rows of velocity level take part only in the assembly of velocities. Violations are
- * compared as displacements |Phi_i| / d_i, where d_i is the norm of row i
- * of J after each column has been multiplied by the scale of its coordinate.
+ * other, the system with S is a least-squares problem. The remaining violation is in the
+ * conflicting rows only, and therefore identifies them. Steps are limited, and halved until the
+ * violation decreases. Rows of velocity level take part only in the assembly of velocities.
+ * Violations are compared as displacements |Phi_i| / d_i, where d_i is the norm of row i of J after
+ * each column has been multiplied by the scale of its coordinate.
  */
 #include <math.h>
 #include <string.h>
@@ -22,18 +22,18 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-/* Relative size of S. No step reduces the violation by more than this factor. */
+/* Relative size of S. A step leaves at least about this fraction of the violation. */
 static const double MU = 1e-10;
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
-static const double ROUNDING = 1e-13;  /* displacement below which a violation is zero */
+static const double ROUNDING = 1e-13;  /* a violation up to this displacement counts as zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
 /* Corrections of velocities end when they have reduced the violation by this factor. The violation
  * that remains is then far below rounding errors. */
 static const double CORRECTED = 1e-20;
-/* Violations of velocities below either limit are rounding errors. NO_RATE is in 1/s; NO_SWING is
- * relative to the rate at which gravity swings the mechanism. */
+/* Violations of velocities below the sum of both limits are rounding errors. NO_RATE is in 1/s;
+ * NO_SWING is relative to baum_i_swing_rate(). */
 static const double NO_RATE = 1e-14;
 static const double NO_SWING = 1e-12;
 
@@ -57,8 +57,8 @@ static bool is_held(const bool *held, int i)
 
 /* ---- the matrix ---- */
 
-/* Clear the columns of held coordinates in a row. The remaining entries are cleared, too, if they
- * are only rounding errors, as in the row of a driver if the angular velocity of its body about the
+/* Clear the columns of held coordinates in a row. If the remaining entries are only rounding
+ * errors, clear them, too. This occurs in the row of a driver if the rotation of its body about the
  * axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
@@ -89,7 +89,7 @@ static void clear_held_columns(baum_workspace *w, const bool *held)
   }
 }
 
-/* Clear rows of velocity level, which do not restrict positions. */
+/* Clear the rows of velocity level in J, because they do not restrict positions. */
 static void clear_velocity_rows(const baum_workspace *w)
 {
   const baum_mechanism *m = w->mechanism;
@@ -141,13 +141,13 @@ static baum_status factor(const assembly *s)
 {
   baum_workspace *w = s->w;
   const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
-  w->mass_ready = false; /* held coordinates may have changed M */
+  w->mass_ready = false; /* the next line may change M */
   decouple_held_masses(w, s->held);
   find_shift(w);
   return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
-/* Set w->a to the least change of the coordinates that changes the rows by rhs. */
+/* Set w->a to the least change a of the coordinates with J a = rhs. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -189,7 +189,7 @@ static void keep_open_row(assembly *s)
 static void name_contradicting(const assembly *s, const double *rows, const char *unit,
                                char text[BAUM_I_MESSAGE_SIZE])
 {
-  enum { ROOM = BAUM_I_MESSAGE_SIZE - 512 }; /* for the rest */
+  enum { ROOM = BAUM_I_MESSAGE_SIZE - 512 }; /* leaves room for the rest of the message */
   const baum_mechanism *m = s->w->mechanism;
   double worst = worst_displacement(s, rows);
   size_t used = 0;
@@ -239,9 +239,9 @@ static baum_status fail_velocities(const assembly *s)
 
 /* ---- positions ---- */
 
-/* Subtract from w->phi the violations that shall stay, so that it contains only what must
+/* Subtract the violations that stay from w->phi, which then contains only violations that must
  * vanish. */
-static void leave(const assembly *s)
+static void subtract_left(const assembly *s)
 {
   for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {
     s->w->phi[i] -= s->left[i];
@@ -258,7 +258,8 @@ static double merit(const assembly *s, const double *phi)
   return sum;
 }
 
-/* Shorten the step in w->a to STEP_LIMIT. Returns its scaled size before that. */
+/* Shorten the step in w->a if it exceeds STEP_LIMIT. Returns the scaled size of the original
+ * step. */
 static double limit_step(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
@@ -283,7 +284,7 @@ static baum_status search_along_step(assembly *s, double before, bool *fell)
     if (status != BAUM_OK && !w->point.retry) {
       return status;
     }
-    leave(s);
+    subtract_left(s);
     *fell = status == BAUM_OK && merit(s, w->phi) < before;
     fraction *= 0.5;
   }
@@ -297,7 +298,7 @@ static baum_status newton_step(assembly *s, double *size, bool *fell, bool first
 {
   baum_workspace *w = s->w;
   BAUM_I_TRY(baum_i_position_stage(w, s->t, s->q));
-  leave(s);
+  subtract_left(s);
   clear_held_columns(w, s->held);
   clear_velocity_rows(w);
   baum_i_row_displacements(w, s->distance);
@@ -329,7 +330,7 @@ static baum_status assemble_positions(assembly *s)
     }
   }
   BAUM_I_TRY(baum_i_position_stage(s->w, s->t, s->q));
-  leave(s);
+  subtract_left(s);
   return worst_displacement(s, s->w->phi) <= CONSISTENT ? BAUM_OK : fail_positions(s);
 }
 
@@ -405,7 +406,7 @@ static baum_status assemble_velocities(const assembly *s, double *v)
   return BAUM_OK;
 }
 
-/* Replace the NaN in v (nv), which stand for free velocities, by velocities that fulfil the
+/* Replace the NaN entries of v (nv), which stand for free velocities, by velocities that fulfil the
  * constraints. */
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {
@@ -431,7 +432,7 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
 
 /* ---- assembly ---- */
 
-/* If `closest`, q is also set if the rows contradict each other. */
+/* If `closest` is true, q is set even if the rows contradict each other. */
 static baum_status assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held, const double *left, bool closest)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations by blocks; see block_path.h. */
+/* Computes accelerations by the block solver; see block_path.h. */
 #include "dynamics/block_path.h"
 
 #include <math.h>
@@ -11,13 +11,13 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* Relative change of the multipliers by a refinement. Below SETTLED it has converged; up to
- * SETTLING the result is still acceptable. */
+/* Limits of the relative change of the multipliers in a refinement. Below SETTLED the refinement
+ * has converged; up to SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
-/* In space, the change includes that of the accelerations. Each refinement gains at least four
- * digits, so a change this small needs no other refinement. If a refinement gains fewer digits, the
- * change of the next one is large. */
+/* In space, the accelerations also contribute to the change. Each refinement gains at least four
+ * digits, so no other refinement is necessary after a change this small. If refinements gain fewer
+ * digits, their changes stay large. */
 static const double SETTLED_IN_SPACE = 1e-9;
 /* A refinement with a residual in working precision leaves an error of up to the size of its
  * change. */
@@ -38,7 +38,7 @@ static const double MOST_LOST = 1e5;
  * a0: accelerations without constraint forces). */
 static const double CANCELLED = 2048.0;
 
-/* If `bending` is 0, set gamma to zero, because its old values may be infinite. */
+/* If `bending` is false, set gamma to zero, because its old values may be infinite. */
 BAUM_I_INLINE baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path,
                                           bool bending)
 {
@@ -75,7 +75,7 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Phi' = J v - nu (3) of the omitted rows. */
+/* Set Phi' = J v - nu, equation (3), of the omitted rows that no hot file evaluates. */
 BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path,
                                      const double *v)
 {
@@ -155,11 +155,11 @@ BAUM_I_INLINE void set_nodes(baum_workspace *w, const baum_i_block_path *path, c
   set_omitted_rates(w, path, v);
 }
 
-/* Tell whether the residual is at rounding level. In a projection, the motion a corrects a
+/* Tell whether the residual is at rounding level. In a projection, the solution a corrects a
  * violation that has rounding errors itself, so a residual below these errors is also accepted.
- * They are proportional to the terms of J x with x = beside * scale, where `beside` is the scaled
- * size of the state. MARGIN makes the limit smaller than this estimate. For accelerations, `beside`
- * is 0. */
+ * These errors are proportional to the terms of J x with x = beside * scale, where `beside` is the
+ * scaled size of the state. MARGIN makes the limit smaller than this estimate. For accelerations,
+ * `beside` is 0. */
 static const double MARGIN = 0.125;
 
 static bool check(const baum_workspace *w, const baum_i_block_path *path, double beside)
@@ -178,8 +178,8 @@ static bool check(const baum_workspace *w, const baum_i_block_path *path, double
 
 /* Refine the solution. Unless pivots are bad, every refinement gains at least six digits. Close to
  * a singular configuration the multipliers may be wrong although the residual of J a is small.
- * Therefore solutions with weak pivots are always refined, and those with good pivots only if the
- * residual is large. */
+ * Therefore solutions with weak pivots are always refined, and solutions with good pivots only if
+ * the residual is large. */
 static baum_status refine(const baum_workspace *w, baum_i_block_path *path, baum_i_pivots pivots,
                           double beside)
 {
@@ -216,15 +216,15 @@ static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
   return path->kernel->eliminate(path->block);
 }
 
-/* Return the scaled size of what a projection corrects: v, or q if v is NULL. */
+/* Return the scaled size of the state that a projection corrects: of v, or of q if v is NULL. */
 static double size_of_state(const baum_workspace *w, const double *q, const double *v)
 {
   return v ? baum_i_scaled_size(w->mechanism, v) : fmax(1.0, baum_i_position_size(w->mechanism, q));
 }
 
-/* The relative error of a solution with good pivots, and of one in space that judge() trusts, is
- * far below 1e-8. If a projection changes the velocities by less than this fraction, its solution
- * need not be better than that of an acceleration. */
+/* Solutions with good pivots, and solutions in space that judge() trusts, have relative errors far
+ * below 1e-8. If a projection changes the velocities by less than this fraction, its solution need
+ * not be more accurate than an acceleration. */
 static const double SMALL_CHANGE = 1e-8;
 
 static bool is_small_change(const baum_workspace *w, const baum_i_block_path *path, const double *v)
@@ -258,7 +258,7 @@ BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool
   return status;
 }
 
-/* Evaluate joints, masses and forces at a state, and write them to the block. */
+/* Evaluate joints, masses and forces at a state, and write them to the block solver. */
 BAUM_I_INLINE baum_status set_state(baum_workspace *w, const baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right)
@@ -380,7 +380,7 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 }
 
 /* If `simple` is true, the first refinement needs no residual in twice the working precision.
- * Slender bodies need two refinements, because the second tells whether they converge. */
+ * Slender bodies need two refinements, because the second tells whether refinement converges. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
@@ -470,8 +470,8 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
                                     const double *q, const double *v,
                                     const baum_i_right_side *right)
 {
-  /* The projection of velocities solves once; the projection of positions repeats the solution and
-   * so corrects it. */
+  /* The projection of velocities solves only once. The projection of positions iterates, so later
+   * solutions correct earlier ones. */
   bool last = v && !right->force;
   bool finite;
   w->solved_by = path;
@@ -492,7 +492,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 
 /* ---- other right-hand sides ---- */
 
-/* Set out to `factor` times the solution for the right-hand side in the solver. */
+/* Set out (nv) to `factor` times the solution for the right-hand side in the solver. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
   bool finite;

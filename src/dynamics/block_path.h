@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations by the block solver, which most evaluations use.
  *
- * A *block path* is a block solver together with what is needed to fill it: the joints, the omitted
- * rows, and the constant forces. Revolute joints are written directly from frames (pins.h); other
- * joints are written as blocks of J. Constant masses and forces are set once. If the path cannot
- * solve a system reliably, it gives up without a message, and kkt.h factors the whole system.
+ * A *block path* is a block solver together with the data that fill it: the joints, the omitted
+ * rows, and the constant forces. Planar revolute joints (pins.h) and most joints in space
+ * (space_joints.h) are written directly from frames; other joints are written as blocks of J.
+ * Constant masses and forces are set once. If the path cannot solve a system reliably, it gives up
+ * without a message, and the solver of kkt.h factors the whole system.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -15,7 +16,7 @@
 #include "linear/block.h"
 #include "linear/space_block.h"
 
-/* An omitted row. No node of the block sets its Phi' and its multiplier. */
+/* An omitted row, whose multiplier is always 0. */
 typedef struct baum_i_omitted_row {
   int row;
   int value;          /* index of its first value in J */
@@ -23,8 +24,8 @@ typedef struct baum_i_omitted_row {
   const int *columns; /* (count) */
 } baum_i_omitted_row;
 
-/* The block solver is `space` if the mechanism has bodies in space and none with user coordinates,
- * otherwise `block`; the other is NULL. */
+/* The block solver is `space` if the mechanism has bodies in space and no bodies with user
+ * coordinates. Otherwise it is `block`. The other pointer is NULL. */
 struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
@@ -39,8 +40,8 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;  /* (4 x pin_count, rounded up to an even count of pins) points of the pins */
-  int group_count; /* groups of joints that no hot file evaluates */
+  double *points;              /* (even pin_count x 4) points of the pins */
+  int group_count;             /* groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
@@ -49,14 +50,14 @@ struct baum_i_block_path {
   double *constant_force;      /* (nv) force on bodies with a constant force */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* plane, many nodes: check the residual of every solution */
+  bool always_check; /* not in space, many nodes: check the residual of every solution */
   bool uneven;       /* masses are uneven: check whether digits have cancelled */
-  int fixed_count;   /* number of fixed bodies that are not solved for */
+  int fixed_count;   /* number of fixed bodies that the path excludes */
   int64_t factorizations;
   int64_t refinements;
 };
 
-/* The size of the system of a path. */
+/* The size of the system that a path solves. */
 typedef struct baum_i_block_size {
   int nodes;
   int couplings;
@@ -64,28 +65,29 @@ typedef struct baum_i_block_size {
   int most_couplings; /* of one node */
 } baum_i_block_size;
 
-/* Create a path for the rows that are omitted now. for_motion: exclude fixed bodies and the rows
- * between them. If blocks do not suit the mechanism, returns BAUM_OK with *out = NULL and the
- * reason in *verdict. Otherwise returns BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK or
- * BAUM_ERR_NOT_FINITE. */
+/* Create a path for the present set of omitted rows. If `for_motion` is true, the path also
+ * excludes fixed bodies and the rows between them. If blocks do not suit the mechanism, returns
+ * BAUM_OK with *out = NULL and the reason in *verdict. Otherwise returns BAUM_OK, BAUM_ERR_MEMORY,
+ * BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
 
-/* space_joints.c: find the joints that space_joints_hot.c evaluates and mark them; later set their
- * constants. BAUM_OK or BAUM_ERR_MEMORY. */
+/* space_joints.c: the first function finds the joints that space_joints_hot.c evaluates, and marks
+ * them in `is_done`. The second one sets their constants. Both return BAUM_OK or
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_space_joints_find(const baum_workspace *workspace, baum_i_space *space,
                                      unsigned char *is_done, baum_i_space_joints *out);
 baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_i_space *space,
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
-/* slender.c: raise the moments of slender bodies in the solver if this is necessary, and where
+/* slender.c: if the solver needs it, raise the moments of inertia of the slender bodies for which
  * refinement converges. */
 baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
- * They are the same path if no body is fixed. *verdict describes the first. */
+ * They are the same path if no body is fixed. *verdict describes the first path. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -96,14 +98,14 @@ baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict 
 void baum_i_paths_destroy(const baum_i_paths *paths);
 
 /* Right-hand side of the system. The right-hand side of the rows is bending gamma - damping Phi' -
- * stiffness Phi. The right-hand side of the bodies is g if `force`, otherwise zero. */
+ * stiffness Phi. The right-hand side of the bodies is g if `force` is true, otherwise zero. */
 typedef struct baum_i_right_side {
   double bending;
   double damping;
   double stiffness;
   bool force;
-  /* (nc) factors f of single rows, which make the terms damping f Phi' and stiffness f^2 Phi; NULL:
-   * 1 */
+  /* (nc) factor f of each row, whose terms become damping f Phi' and stiffness f^2 Phi; NULL: all
+   * factors are 1 */
   const double *row_gains;
 } baum_i_right_side;
 
@@ -118,9 +120,9 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
 
-/* Two solutions with the factors of the last solution. The first function sets out (nv) to the
- * vector with J out = r (nc) that is smallest in the metric of M. The second sets out to x (nv)
- * minus the part of x in the null space of J. Both may return BAUM_ERR_NOT_FINITE, without a
+/* Two functions that solve with the factors of the last solution. The first function sets out (nv)
+ * to the vector with J out = r (nc) that is smallest in the metric of M. The second sets out to x
+ * (nv) minus the part of x in the null space of J. Both may return BAUM_ERR_NOT_FINITE, without a
  * message. */
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
                                         double *out);
@@ -129,13 +131,13 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
-/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by the path of the
- * motion or, if that fails, by the solver of the whole system. May also return BAUM_ERR_SINGULAR or
- * BAUM_ERR_MEMORY. */
+/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by
+ * workspace->motion or, if that fails, by the solver of the whole system. May also return
+ * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 
-/* The forces (nv) of the last acceleration. */
+/* Return the forces (nv) of the last acceleration. */
 static inline const double *baum_i_solved_force(const baum_workspace *w)
 {
   const baum_i_block_path *path = w->solved_by;

@@ -28,8 +28,8 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* Tell whether the solver of space can be used: at least one body is spatial, and no body consists
- * of user coordinates. */
+/* Tell whether the solver for space (space_block.h) can be used: at least one body is spatial, and
+ * no body consists of user coordinates. */
 static bool is_in_space(const baum_mechanism *m)
 {
   bool found = false;
@@ -56,8 +56,8 @@ static baum_i_space_kind kind_of(const baum_i_body *body)
 }
 
 /* Tell whether the omitted rows of a joint become rows of zeros, so that space_joints_hot.c can
- * evaluate the joint. This is not possible if a row is omitted that makes points coincide, or if
- * all rows are omitted. */
+ * evaluate the joint. This is not possible if the joint has no shape of space_joints.h, if an
+ * omitted row makes points coincide, or if all rows are omitted. */
 static bool stays_whole(const baum_i_joint *joint, const unsigned char *omitted)
 {
   baum_i_space_shape shape = baum_i_shape_of(joint);
@@ -71,8 +71,9 @@ static bool stays_whole(const baum_i_joint *joint, const unsigned char *omitted)
   return shape != BAUM_I_SHAPES && left > 0 && met;
 }
 
-/* Return the number of the body whose E is -I if the first three rows, or the rows of a planar pin,
- * make points coincide and the others compare directions; otherwise -1. */
+/* If the first three rows of a joint, or the rows of a planar pin, make points coincide and all
+ * other rows compare directions, return the number of the body whose E (space_block.h) is -I.
+ * Otherwise return -1. */
 static int pinned_body(const baum_i_joint *joint)
 {
   if (joint->type->is_pin) {
@@ -197,7 +198,7 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   return status;
 }
 
-/* Copy the points of pins in the solver's order, and mark their joints as done. */
+/* Mark the joints that hot files evaluate, and store their data in the solver's order. */
 static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
                                 unsigned char *is_done)
 {
@@ -243,7 +244,7 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
   return BAUM_OK;
 }
 
-/* List the omitted rows, first those of joints in the path's groups. */
+/* List the omitted rows, first those of joints that no hot file evaluates. */
 static baum_status list_omitted_rows(const baum_workspace *w, const unsigned char *is_done,
                                      baum_i_block_path *path)
 {
@@ -304,7 +305,8 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   return BAUM_OK;
 }
 
-/* Find the number, from 1, of the first body whose M has no factorization L L^T, or 0. */
+/* Return the number (from 1) of the first body whose M has no factorization L L^T, or 0 if there is
+ * none. */
 static int find_massless(const baum_workspace *w, const baum_i_block *block)
 {
   for (int i = 0; i < block->dense_count; i++) {
@@ -352,8 +354,8 @@ static void include(range *r, double x)
   r->most = x > r->most ? x : r->most;
 }
 
-/* Do the same as is_uneven() for the solver of space. This function compares the inverse masses and
- * inertias of all bodies, whichever bodies the joints connect. */
+/* Do what is_uneven() does, for the solver for space. This function compares the inverse masses and
+ * inertias of all bodies, even if no joint connects them. */
 static bool is_uneven_in_space(const baum_i_space *b)
 {
   range moves = {.least = (double)INFINITY};
@@ -368,8 +370,8 @@ static bool is_uneven_in_space(const baum_i_space *b)
 }
 
 /* Tell whether joints may connect a light body to a heavy one. The function compares the inverse
- * masses w_0 + w_2 |p|^2 at both sides of all pins, and the inverse inertias of all bodies that
- * other joints connect. It returns true for every mechanism with dense bodies. */
+ * masses w_0 + w_2 |p|^2 at both sides of all pins, and the inverse masses and inertias of all
+ * bodies that other joints connect. It returns true for every mechanism with dense bodies. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;

@@ -4,7 +4,7 @@
  *   [ M   J^T ] [ dq     ]   [  0      ]
  *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M, J: of a configuration other than q
  *
- * The velocity step of length 1/rate that ends with J v = nu solves
+ * After a step of length 1/rate, the velocities satisfy J v = nu if a solves
  *
  *   [ M   J^T ] [ a      ]   [ g         ]
  *   [ J   0   ] [ lambda ] = [ -rate Phi' ]

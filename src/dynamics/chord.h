@@ -22,9 +22,9 @@ baum_status baum_i_chord_begin(baum_workspace *workspace, double t, const double
 baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *chord, double t,
                                 const double *q);
 
-/* Set a and lambda of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v). moments (nv)
- * replace the gyroscopic moments of rigid bodies, unless NULL. May also return BAUM_ERR_SINGULAR or
- * BAUM_ERR_MEMORY. */
+/* Set a and lambda to the solution of M a + J^T lambda = g with J a = -rate Phi', at (t, q, v).
+ * Unless NULL, `moments` (nv) replaces the gyroscopic moments of rigid bodies. May also return
+ * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_hold_velocities(baum_workspace *workspace, double t, const double *q,
                                    const double *v, const double *moments, double rate);
 

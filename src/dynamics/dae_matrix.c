@@ -11,7 +11,8 @@
  *          index 2: (J v)_q - nu_q                       J                       0
  *          index 3: J                                    0                       0
  *
- * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, these rows differ or are added:
+ * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, the following rows differ or are
+ * added:
  *
  *          q                                             v                       lambda  mu
  *   q      c I - N^+ (N u)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
@@ -20,11 +21,11 @@
  * If row i has its own gains alpha_i and beta_i, (J w)_q is still computed with w = v' + 2 alpha v.
  * A second linearization adds the missing part 2 (alpha_i - alpha) (J v)_q.
  *
- * A row of velocity level has no Phi: at index 1 there is no beta^2 J, at index 3 it has the
- * entries of index 2, and in GGL 1 on the diagonal of mu.
+ * A row of velocity level has no Phi. At index 1 it has no term beta^2 J. At index 3 it has the
+ * entries of index 2. For GGL its row of mu has only a 1 on the diagonal.
  *
- * A function called a walk visits all blocks and emits their entries in a fixed order. The first
- * walk finds the pattern of the matrix and the slot in which each entry is stored. Later walks add
+ * The function walk() visits all blocks and emits their entries in a fixed order. The first walk
+ * finds the pattern of the matrix and the slot in which each entry is stored. Later walks add
  * values to these slots. An omitted row has a 1 on its diagonal and no other values.
  */
 #include <string.h>
@@ -39,7 +40,7 @@ struct baum_i_residual_matrix {
 
 /* The place to which a walk emits its entries. */
 typedef struct sink {
-  /* Where the positions of entries are collected while the pattern is found; otherwise NULL. */
+  /* Collects the positions of entries while the pattern is found; otherwise NULL. */
   baum_i_places *places;
   const int32_t *slot; /* the slot of the next entry while values are added */
   double *values;
@@ -179,7 +180,8 @@ static void emit_position(const factors *f, int row, int column, int at, double 
 typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
 
 /* Emit all entries of row r of a joint. The rows of all joints begin at `first`, and the rows of
- * this joint at `first` + joint->row. A row without equation has 1 on its diagonal. */
+ * this joint at `first` + joint->row. An omitted row, and any row if `equation` is false, has only
+ * a 1 on its diagonal. */
 static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, bool equation,
                      emit_fn *entry, sink *s)
 {
@@ -281,8 +283,8 @@ static void choose_direction(const baum_dae *dae, int nv, const double *v, const
   }
 }
 
-/* Compute (J v)_q alone. This call also sets other blocks, but the main linearization afterwards
- * overwrites them. */
+/* Compute (J v)_q. The call also sets other blocks, which the main linearization then
+ * overwrites. */
 static baum_status linearize_rates(baum_workspace *w, const double *v, const double *lambda)
 {
   const baum_i_joint_blocks blocks = {w->jv_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};

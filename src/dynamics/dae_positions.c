@@ -33,7 +33,7 @@ typedef struct widening {
   double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q in the columns of its body */
   double *unit;    /* (nq) scratch memory for one vector */
   double *room;    /* (4 nq) scratch memory for results */
-  /* Where the positions of entries are collected while the pattern is found; otherwise NULL. */
+  /* Collects the positions of entries while the pattern is found; otherwise NULL. */
   baum_i_places *places;
   const int32_t *slot; /* the slot of the next entry while values are added */
   double *values;

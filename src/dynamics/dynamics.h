@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Internal interface of dynamics. A workspace combines the functions of a mechanism with a solver
- * of the saddle-point system.
+/* Internal interface of the dynamics module. A workspace combines the functions of a mechanism with
+ * a solver of the saddle-point system.
  *
  * Stages, with their arguments and results:
  *   position   (t, q):     frames, Phi, J, nu, M
  *   velocity   (t, q, v):  Phi' = J v - nu, gamma, g
- *   solution:              a, lambda of (5) or (7)
+ *   solution:              a, lambda of equation (5) or (7), see acceleration.c
  * A later stage includes the earlier ones. Results stay in the workspace until the next evaluation.
- * Only create functions, assembly and the search for redundancy allocate memory.
+ * The stages allocate no memory. A solution allocates memory only if its solver is used for the
+ * first time or chooses new pivots.
  *
- * All functions return BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, and the statuses named
- * beside them. After BAUM_ERR_CALLBACK and BAUM_ERR_NOT_FINITE, workspace->point.retry tells
- * whether a smaller step may help.
+ * All functions with a status may return BAUM_OK, BAUM_ERR_CALLBACK and BAUM_ERR_NOT_FINITE. Their
+ * comments name other statuses. After BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE,
+ * workspace->point.retry tells whether a smaller step may help.
  */
 #ifndef BAUM_I_DYNAMICS_DYNAMICS_H
 #define BAUM_I_DYNAMICS_DYNAMICS_H
@@ -36,7 +37,7 @@ typedef struct baum_i_sharing {
 
 typedef struct baum_i_block_path baum_i_block_path;
 
-/* Tells whether the block solver finds accelerations, and if not, why. */
+/* Tells whether the block solver computes accelerations, or why it does not. */
 typedef enum baum_i_blocks {
   BAUM_I_BLOCKS_SUIT,
   BAUM_I_BLOCKS_UNWANTED, /* another solver was chosen */
@@ -48,7 +49,7 @@ typedef enum baum_i_blocks {
 
 typedef struct baum_i_block_verdict {
   baum_i_blocks blocks;
-  int body; /* number of the body that the verdict concerns, from 1; 0: none */
+  int body; /* number (from 1) of the body that causes the verdict; 0: none */
 } baum_i_block_verdict;
 
 struct baum_workspace {
@@ -58,7 +59,7 @@ struct baum_workspace {
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
   baum_i_block_path *path;      /* NULL: kkt solves */
-  baum_i_block_path *motion;    /* for all but fixed bodies; = path if there are none */
+  baum_i_block_path *motion;    /* excludes fixed bodies; equals `path` if no body is fixed */
   baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
   bool blocks_only;             /* no other solver is allowed */
   baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
@@ -70,7 +71,7 @@ struct baum_workspace {
   baum_i_sharing sharing;
   bool mass_ready;      /* a constant M has been evaluated */
   bool jacobian_ready;  /* the last evaluation has set all blocks of J */
-  int32_t metric_ready; /* W has been chosen */
+  int32_t metric_ready; /* W of metric.c has been chosen */
 
   double *mass;     /* block values */
   double *jacobian; /* block values */
@@ -79,19 +80,19 @@ struct baum_workspace {
   double *nu;       /* (nc) */
   double *gamma;    /* (nc) */
   double *force;    /* (nv) */
-  double *rhs;      /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
+  double *rhs;      /* (nc) right-hand side of the constraint rows */
   double *a;        /* (nv) last solution */
   double *lambda;   /* (nc) last solution */
   double *work_v;   /* (2 nv) */
   double *work_c;   /* (2 nc) */
-  double *shift;    /* (nc) regularization of assembly */
+  double *shift;    /* (nc) S of kkt.h */
   double *inputs;   /* (input_count) present values */
   /* (nc) factor by which the gains of each row are multiplied: 1/2 for rows of velocity level,
    * otherwise 1, times the row_gains of the run; NULL: all factors are 1 */
   const double *row_gains;
   double *metric; /* (nv) diagonal of W, once metric_ready */
 
-  double *work_q; /* (9 nq) for rates of q */
+  double *work_q; /* (9 nq) */
   double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
@@ -129,9 +130,9 @@ baum_i_text baum_i_blocks_reason(const baum_workspace *workspace);
  * the object in the message. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
-/* Encloses evaluations of other states with the workspace of a run. Near-singular solutions between
- * begin and end are not counted. A message that these evaluations set is kept only if the status
- * passed to end is an error. */
+/* A probe evaluates other states with the workspace of a run. Near-singular solutions between begin
+ * and end are not counted. A message that is set between them is kept only if the status passed to
+ * end is an error. */
 typedef struct baum_i_probe {
   baum_workspace *workspace;
   int64_t near_singular;
@@ -145,16 +146,16 @@ baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status);
  * factorizations. */
 void baum_i_workspace_forget(baum_workspace *workspace);
 
-/* Return the sums of the counters of all solvers: for accelerations, projection and assembly. */
+/* Return the sums of the counters of the solvers for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
 
-/* The omitted rows (nc) for solvers; NULL: none. */
+/* Return the flags of the omitted rows (nc) for solvers, or NULL if no row is omitted. */
 static inline const unsigned char *baum_i_omitted_rows(const baum_workspace *workspace)
 {
   return workspace->rows.count > 0 ? workspace->rows.omitted : NULL;
 }
 
-/* M, J and the omitted rows of the workspace, for its solver. */
+/* Return M, J and the omitted rows of the workspace for its solver. */
 static inline baum_i_kkt_values baum_i_kkt_values_of(const baum_workspace *w)
 {
   return (baum_i_kkt_values){
@@ -174,9 +175,10 @@ void baum_i_clear_fixed_rows(baum_workspace *workspace);
 /* Evaluate only Phi and Phi', which is cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
-/* Set workspace->a and ->lambda to a and lambda of (7); alpha = beta = 0 gives (5). alpha is
- * negative for motion backward in time. J is set only after baum_i_need_jacobian(). May also return
- * BAUM_ERR_SINGULAR (the message names a joint), BAUM_ERR_MEMORY. */
+/* Set workspace->a and ->lambda to the solution of equation (7) in acceleration.c, which becomes
+ * equation (5) if alpha = beta = 0. alpha is negative for motion backward in time. J is set only
+ * after baum_i_need_jacobian(). May also return BAUM_ERR_SINGULAR (the message names a joint),
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
 /* Find only a. It is 0 for fixed bodies, which must have the poses that baum_i_place_fixed_bodies()
@@ -185,8 +187,8 @@ baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, 
                           double alpha, double beta);
 /* Evaluate the blocks of J at the last point, if the last evaluation skipped them. */
 baum_status baum_i_need_jacobian(baum_workspace *workspace);
-/* Find the solution of (5) that users receive. Its multipliers have the least norm if they are not
- * unique. Sets J. */
+/* Find the solution of equation (5) that users receive. Its multipliers have the least norm if they
+ * are not unique. Sets J. */
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
@@ -197,17 +199,17 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 #define BAUM_I_NEAR_PIVOT 0.02
 
 /* Return the smallest pivot of the last solution, which measures the distance from a singular
- * configuration: 1 if the mechanism has no rows, 0 if it is singular. The pivot falls with the
- * square of the distance.
- * Its size depends on mechanism and solver, so it must be compared with the usual pivot of the same
- * mechanism and solver. *joint, unless NULL, is the joint of the smallest pivot, or -1. */
+ * configuration: 1 if the mechanism has no rows, 0 if the configuration is singular. The pivot
+ * falls with the square of the distance. Its size depends on mechanism and solver, so it must be
+ * compared with the usual pivot of the same mechanism and solver. *joint receives the joint of the
+ * smallest pivot, or -1; `joint` may be NULL. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 /* Tell whether baum_i_smallest_pivot() uses the last elimination by blocks. */
 bool baum_i_blocks_tell(const baum_workspace *workspace);
-/* acceleration.c: find the pivot at a state without computing a solution if possible. a, lambda and
- * evaluated terms are undefined afterwards. If blocks are used, the pivot is always that of the
- * blocks, so it does not jump when another solver gives the solution. Returns the statuses of
- * baum_i_motion(). */
+/* acceleration.c: find the pivot at a state, if possible without computing a solution. a, lambda
+ * and evaluated terms are undefined afterwards. If baum_i_blocks_tell() then returns true, the
+ * pivot is that of the block solver, even if another solver gave the solution. Returns the statuses
+ * of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
 
@@ -220,7 +222,7 @@ baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, 
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
-/* ---- metric.c: W of GGL, constant once chosen ---- */
+/* ---- metric.c: W of the form GGL, constant once chosen ---- */
 
 /* Choose W from the present M of the workspace. */
 void baum_i_choose_metric(baum_workspace *workspace);
@@ -237,8 +239,8 @@ int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
-/* Return v - W^-1 J^T mu with the last J. The result is valid until workspace->work_v is used
- * again. */
+/* Return v - W^-1 J^T mu with J of the last evaluation. The result is valid until workspace->work_v
+ * is used again. */
 const double *baum_i_corrected_velocities(baum_workspace *workspace, const double *v,
                                           const double *mu);
 
@@ -285,7 +287,7 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
  * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q and v are
  * undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
-/* Change only v, including that of fixed bodies. */
+/* Change only v. The velocities of fixed bodies become 0. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
@@ -294,43 +296,45 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);
 
-/* Check that a projected state fulfils the omitted rows; fails with BAUM_ERR_INCONSISTENT.
- * baum_i_project() does not check them, and runs observe them (simulate/monitor.c). before: the
- * velocities before the projection. */
-baum_status baum_i_check_omitted_violation(baum_workspace *workspace, double t, const double *q,
-                                           const double *v, const double *before);
+/* Check that a projected state fulfils the omitted rows, and fail with BAUM_ERR_INCONSISTENT if it
+ * does not. baum_i_project() does not check them; during a run, simulate/monitor.c observes them.
+ * `before` contains the velocities before the projection. */
+baum_status baum_i_check_projection(baum_workspace *workspace, double t, const double *q,
+                                    const double *v, const double *before);
 
-/* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P is that of
- * the last acceleration, motion or projection, which must have succeeded. May return
- * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE; sets no message. */
+/* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P belongs to
+ * the configuration of the last acceleration, motion or projection, which must have succeeded. May
+ * return BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE; sets no message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
-/* The same for a displacement x: the part that the projection of positions removes. It is P x
+/* Set out to the part of a displacement x that the projection of positions removes. It equals P x
  * unless there are rows of velocity level. */
 baum_status baum_i_displaced_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out (nv) to the smallest vector, in the metric of M, with J out = rows (nc). rows may be
  * workspace->work_c. Returns the same statuses. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
-/* Do the same as baum_workspace_assemble(). v may be NULL. held (nv) marks the velocities that are
- * held, or is NULL. */
+/* Do the same as baum_workspace_assemble(). v may be NULL. held (nv) marks the coordinates that do
+ * not move, or is NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held);
-/* Assemble positions until Phi has the values left (nc) instead of 0. */
+/* Assemble positions so that Phi has the values `left` (nc) instead of 0. */
 baum_status baum_i_assemble_in_part(baum_workspace *workspace, double t, double *q,
                                     const bool *held, const double *left);
-/* Assemble positions. On BAUM_ERR_INCONSISTENT q is where assembly gave up. */
+/* Assemble positions. After BAUM_ERR_INCONSISTENT, q is the configuration at which assembly gave
+ * up. */
 baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double *q,
                                     const bool *held);
 
-/* Refuse axes that have become opposite instead of parallel at the point of the workspace. The
- * constraint equations cannot distinguish the two cases. `action` is the subject of the message. */
+/* Fail with BAUM_ERR_INCONSISTENT if the axes of a joint point in opposite directions instead of
+ * the same direction at the point of the workspace. The constraint equations cannot distinguish the
+ * two cases. `action` is the subject of the message. */
 baum_status baum_i_check_sides(const baum_workspace *workspace, double t, const char *action);
 
 /* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
 
-/* Replace workspace->lambda by multipliers that give the same forces and have the least norm, where
- * rows are scaled by M. Returns BAUM_ERR_SINGULAR if these multipliers do not balance the forces.
- * May also return BAUM_ERR_MEMORY. */
+/* Replace workspace->lambda by multipliers that give the same forces and have the least norm. The
+ * norm weights multiplier i by the length of row i of J M^-1/2. Returns BAUM_ERR_SINGULAR if the
+ * multipliers of the last solution do not balance the forces. May also return BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
 /* Write the names of joints whose multipliers are not unique. Returns the same statuses; after a
@@ -353,7 +357,8 @@ static inline double baum_i_row_gain(const baum_workspace *workspace, int row)
  * empty rows. |Phi_i| / size_i is the violation as a displacement. */
 void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 
-/* Set inverse (nv) to 1 / M_ii, or to 0 for coordinates without mass. */
+/* Set inverse (nv) to 1 / M_ii, or to 0 for coordinates without mass. Very small moments of inertia
+ * are first raised (row_sizes.c). */
 void baum_i_inverse_masses(const baum_workspace *workspace, double *inverse);
 
 /* Set mobility (nc) to the diagonal of J D^-1 J^T, where D is the diagonal of M; 0 for empty
@@ -364,21 +369,21 @@ void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
  * fixed bodies. */
 void baum_i_column_scales(const baum_workspace *workspace, double *scale);
 
-/* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /
+/* Return the fastest rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /
  * scale_i). */
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
 
-/* [1/s] The angular frequency with which a free mechanism of this size swings under gravity; 0
+/* Return the angular frequency [1/s] of a pendulum that is as long as the characteristic length; 0
  * without gravity. */
 double baum_i_swing_rate(const baum_mechanism *mechanism);
 
-/* Largest |x_i| / scale_i of a vector over v. */
+/* Return the largest |x_i| / scale_i of a vector x (nv). */
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
-/* The same for positions (nq). */
+/* Do the same for positions (nq). */
 double baum_i_position_size(const baum_mechanism *mechanism, const double *q);
 
-/* Return the index of the value of largest magnitude, or -1. `largest` receives the magnitude and
- * may be NULL. */
+/* Return the index of the value of largest magnitude, or -1 if there are no values. `largest`
+ * receives the magnitude and may be NULL. */
 int baum_i_largest(const double *values, int count, double *largest);
 
 #endif

@@ -59,7 +59,7 @@ static void give(const double *values, double *out, int count)
   }
 }
 
-/* ---- life ---- */
+/* ---- creation ---- */
 
 /* Find the redundant rows in the design configuration at t = 0. If the design configuration cannot
  * be assembled or evaluated, all rows are kept. Later evaluations then report the error. */
@@ -407,7 +407,7 @@ static baum_status project_and_check(baum_workspace *w, double t, const double *
   BAUM_I_TRY(baum_i_check_velocities(w, "projected velocity", v_copy));
   baum_i_point_set(&w->point, t, copy, v_copy);
   BAUM_I_TRY(baum_i_check_sides(w, t, "projection"));
-  return baum_i_check_omitted_violation(w, t, copy, v_copy, v);
+  return baum_i_check_projection(w, t, copy, v_copy, v);
 }
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)

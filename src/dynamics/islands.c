@@ -5,7 +5,7 @@
 #include "base/message.h"
 #include "base/sets.h"
 
-/* Return the first body of a joint that is not fixed, or -1. */
+/* Return the first body that a joint connects and that is not fixed, or -1. */
 static int first_free(const baum_mechanism *m, const baum_i_joint *joint)
 {
   for (int i = 0; i < joint->span.body_count; i++) {

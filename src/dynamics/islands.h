@@ -13,23 +13,23 @@ typedef struct baum_i_island {
   int rows;
 } baum_i_island;
 
-/* Count the islands, and describe the island with most bodies in *largest. If there are no islands,
- * all numbers in *largest are 0. Returns BAUM_OK or BAUM_ERR_MEMORY. */
+/* Count the islands, and describe the island with the most bodies in *largest. If there are no
+ * islands, all numbers in *largest are 0. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* Number the islands. The numbers of all bodies, from the ground on, are in a new array of
- * body_count + 1 numbers, which the caller frees. The ground and every fixed body have numbers of
+/* Number the islands. *island receives a new array (body_count + 1) with the number of the ground
+ * and of each body. The caller frees the array. The ground and every fixed body have numbers of
  * their own. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_number_islands(const baum_mechanism *mechanism, int **island);
 
 /* Return the number of the island that a joint belongs to. If the joint connects only fixed bodies,
- * the number is 0, that of the ground. */
+ * return 0, the number of the ground. */
 int baum_i_island_of_joint(const baum_mechanism *mechanism, const int *island,
                            const baum_i_joint *joint);
 
-/* Count the joints of each body. The counts are in a new array of body_count + 1 numbers, which the
- * caller frees. Returns BAUM_OK or BAUM_ERR_MEMORY. */
+/* Count the joints of each body. *joints receives a new array (body_count + 1), which the caller
+ * frees. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
 
 #endif

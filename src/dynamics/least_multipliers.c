@@ -23,7 +23,7 @@
  *
  * If the constraints are violated, the omitted rows need not depend on the other rows, and N z may
  * disturb the balance of the forces. Then only a fraction of N z is added, namely the largest
- * fraction that keeps the forces balanced. This fraction is mostly close to 1 or close to 0.
+ * fraction that keeps the forces balanced. Usually this fraction is close to 1 or close to 0.
  */
 #include <math.h>
 #include <stdio.h>
@@ -54,7 +54,7 @@ static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
-/* Factor the matrix of the system for N z, which is written at the head of this file. `shift` (nc)
+/* Factor the matrix of the system for N z. The head of this file states the system. `shift` (nc)
  * makes the matrix regular; it may be NULL. */
 static baum_status factor_null_matrix(baum_workspace *w, const double *shift)
 {
@@ -123,7 +123,7 @@ static search search_memory(const baum_workspace *w)
     .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
 }
 
-/* Find the gradient at lambda + part, and the square of its length in *size. */
+/* Find the gradient at lambda + part, and set *size to the square of its length. */
 static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -165,7 +165,7 @@ static baum_status refine_part(baum_workspace *w)
   return BAUM_OK;
 }
 
-/* Find the z of least norm, and set `part` to N z. */
+/* Find the z that minimizes |S (lambda + N z)|, and set `part` to N z. */
 static baum_status find_part(baum_workspace *w)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -358,12 +358,12 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
  * omitted rows the components are about 1. Rounding errors are far smaller than SHARED. */
 static const double SHARED = 1e-6;
 
-/* Relative size of the shift that makes the matrix regular in every case. The error that the shift
- * causes is removed by iterative refinement. */
+/* Relative size of the shift that makes the matrix regular in every case. Iterative refinement
+ * removes the error that the shift causes. */
 static const double SHIFT = 1e-12;
 
 /* Set `part` to a generic null vector whose rows are scaled to displacements. Set *least to the
- * size from which a component of it counts as non-zero. If the constraints are violated, components
+ * size above which its components count as non-zero. If the constraints are violated, components
  * that should be zero are about as large as the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {

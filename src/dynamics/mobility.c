@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reports the mobility of a mechanism in its assembled initial configuration: the number of degrees
- * of freedom, and the names of redundant and of conflicting rows. */
+ * of freedom, and the joints with redundant or conflicting rows. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

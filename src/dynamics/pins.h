@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the geometry of all revolute joints in one pass and writes it directly to the block
- * solver. */
+/* Computes the geometry of all planar revolute joints in one pass and writes it directly to the
+ * block solver. */
 #ifndef BAUM_I_DYNAMICS_PINS_H
 #define BAUM_I_DYNAMICS_PINS_H
 
@@ -9,8 +9,8 @@
 
 /* Input and output of the kernel. */
 typedef struct baum_i_pins {
-  const double *points; /* (pin_count, made even, x 4) point on body a, then point on body b;
-                          order of block->pins */
+  /* (even pin_count x 4) point on body a, then point on body b; order of block->pins */
+  const double *points;
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the geometry of all revolute joints together. The equations are those of
+/* Computes the geometry of all planar revolute joints together. The equations are those of
  * mechanism/planar/lower_pairs.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
@@ -31,7 +31,7 @@ typedef struct two_pins {
   double *arm;
 } two_pins;
 
-/* What is computed for the point p of a body: k x p, the position, the velocity, and p w^2. */
+/* Quantities of the point p of a body: k x p, the position, the velocity, and p w^2. */
 typedef struct markers {
   baum_i_four turned;
   baum_i_four place;
@@ -59,7 +59,7 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
 /* Compute the markers on one body of both pins; `body` is 0 for body a and 1 for body b. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* All bodies are planar here. Their body blocks have the same numbers as the bodies. */
+  /* Pins connect planar bodies, whose body blocks have the same numbers as the bodies. */
   return markers_on(
     &frames[(ptrdiff_t)two->pin[0].body_block[body]],
     &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],

@@ -143,7 +143,7 @@ static baum_status fail_omitted_row(const baum_workspace *w, int row)
 }
 
 /* Set size[] (body_count + 1) to the scaled sizes of the velocities of all islands. The size of the
- * ground, to which joints between fixed bodies belong, is the largest. */
+ * ground, to which joints between fixed bodies belong, is the largest size of all islands. */
 static void find_speeds(const baum_workspace *w, const double *v, double *size)
 {
   const baum_mechanism *m = w->mechanism;
@@ -157,8 +157,8 @@ static void find_speeds(const baum_workspace *w, const double *v, double *size)
   }
 }
 
-baum_status baum_i_check_omitted_violation(baum_workspace *w, double t, const double *q,
-                                           const double *v, const double *before)
+baum_status baum_i_check_projection(baum_workspace *w, double t, const double *q, const double *v,
+                                    const double *before)
 {
   const baum_mechanism *m = w->mechanism;
   double *speed = w->work_q;

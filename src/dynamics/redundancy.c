@@ -2,10 +2,10 @@
 /* Permanent redundancy: rows that depend on others at the initial configuration and around it.
  *
  * The rank of J M^-1/2, with rows of unit length, is determined at the assembled initial
- * configuration and at neighbours on the constraint manifold. The largest rank is that of the
- * mechanism. The rows outside one largest independent set are redundant, and every solver omits
- * them. The choice of rows may change during a run (row_set.c). An initial configuration of lower
- * rank is singular.
+ * configuration and at neighbours on the constraint manifold. The largest of these ranks counts as
+ * the rank of the mechanism. The rows outside one largest independent set are redundant, and every
+ * solver omits them. The choice of rows may change during a run (row_set.c). An initial
+ * configuration of lower rank is singular.
  *
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
  * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
@@ -18,7 +18,8 @@
  * long members rotate only little between the neighbours.
  *
  * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
- * independent set of these rows, and their number gives the degrees of freedom of position.
+ * independent set of all rows of positions. The number of chosen rows of positions gives the
+ * degrees of freedom of position.
  *
  * To find a neighbour, the configuration is moved along x, a solution of J x = nu in which all
  * degrees of freedom take part, and is then assembled.
@@ -74,15 +75,16 @@ static baum_status find_rank(const search *s, double t, const double *q, rank_fo
   return BAUM_OK;
 }
 
-/* The certain rank: the clear rows and the first nearly dependent row, which rounding does not yet
- * affect. */
+/* Return the certain rank. It counts the clearly independent rows and the first nearly dependent
+ * row, which rounding does not yet affect. */
 static int least_rank(const rank_found *rank)
 {
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Tell whether a rank replaces another: its certain rank is larger or, if they are equal, it has
- * more clearly independent rows or, if these are equal, more independent rows. */
+/* Tell whether `rank` replaces `other`. The comparison uses the certain ranks; if they are equal,
+ * the numbers of clearly independent rows; if these are equal, too, the numbers of independent
+ * rows. */
 static bool is_better(const rank_found *rank, const rank_found *other)
 {
   int more = least_rank(rank) - least_rank(other);
@@ -128,7 +130,7 @@ static void small_shift(baum_workspace *w)
 }
 
 /* Set s->x to a direction of motion at the configuration in the workspace, and *size to its scaled
- * size, 0 if nothing moves. */
+ * size, or to 0 if nothing moves. */
 static baum_status find_direction(const search *s, double *size)
 {
   baum_workspace *w = s->w;
@@ -182,7 +184,7 @@ static baum_status try_neighbours(search *s, double t, const double *q)
   return BAUM_OK;
 }
 
-/* Omit no row. Contradicting constraints have no redundant rows: omitting one would hide the
+/* Omit no row. Contradicting constraints have no redundant rows: omitting a row would hide the
  * contradiction. */
 static void keep_all(baum_i_row_set *r, int nc)
 {

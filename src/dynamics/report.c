@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Report of the cost of an evaluation and of the work it skips, in numbers and in words. */
+/* Reports the cost of an evaluation, and the work that the evaluation skips, as numbers and as
+ * text. */
 #include <string.h>
 
 #include "base/alloc.h"
@@ -9,7 +10,7 @@
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
-/* Append to the report's text, truncated to its size. */
+/* Append to the report's text. A text that becomes too long is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static const char *plural(int count)
@@ -69,7 +70,7 @@ static baum_status report_islands(const baum_mechanism *m, baum_report *report)
 
 /* ---- the solver ---- */
 
-/* Find the body with most joints among the bodies that are not fixed. */
+/* Find the body with the most joints among the bodies that are not fixed. */
 static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
 {
   const baum_mechanism *m = w->mechanism;

@@ -62,8 +62,8 @@ baum_status baum_i_select_rows(baum_workspace *w, double distance, int *rank)
 }
 
 /* Select rows one after another, beginning with the kept rows, if their distance from the span of
- * the rows before them is at least `distance`. *found tells whether as many rows are selected as
- * the rank. */
+ * the rows before them is at least `distance`. *found tells whether the number of selected rows
+ * equals the rank. */
 static baum_status select_at(baum_workspace *w, double distance, bool *found)
 {
   int rank = 0;
@@ -88,8 +88,8 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select a well-separated set of rows. Here the columns of J are scaled by the scales of the
- * coordinates and not by the masses. */
+/* Select a well-separated set of rows. This function scales the columns of J by the scales of the
+ * coordinates instead of the masses. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {
@@ -245,20 +245,19 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
 
 /* ---- contradictions ---- */
 
-/* The error of an omitted row is J a - gamma. In 50 000 random mechanisms, rounding caused errors
- * of up to 4e-12 of the accelerations. If the constraints are violated, the error may be larger, as
- * simulate/monitor.c explains. Next to a configuration where the kept rows alone are singular, it
- * may be as large as the square root of the violation. */
+/* The error of an omitted row is J a - r, see find_missed(). In 50 000 random mechanisms, rounding
+ * caused errors of up to 4e-12 of the accelerations. If the constraints are violated, the error may
+ * be larger, as simulate/monitor.c explains. Next to a configuration where the kept rows alone are
+ * singular, it may be as large as the square root of the violation. */
 static const double CONTRADICTION = 1e-9;
 static const double TIMES = 10.0;
 /* Rows shorter than this fraction of the longest row contain nothing but rounding errors. */
 static const double EMPTY = 1e-6;
 
-/* Find the sizes (body_count + 1) with which errors of accelerations of each island are compared
- * [1/s^2]. A size is the squared rate of the motion plus the squared gains. If the largest scaled
- * acceleration that the forces would cause without constraints is larger, it is this acceleration.
- * The size of the ground is that of all islands; joints between fixed bodies are compared with
- * it. */
+/* Find a size [1/s^2] for each island (body_count + 1), with which errors of accelerations are
+ * compared. The size is the squared rate of the motion plus the squared gains or, if that is
+ * larger, the largest scaled acceleration that the forces would cause without constraints. The size
+ * of the ground is the largest size of all islands. It is used for joints between fixed bodies. */
 static void find_acceleration_sizes(const baum_workspace *w, const double *v, double alpha,
                                     double beta, double *size)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A row set divides the rows of J into rows that are kept and rows that are omitted. Omitted rows
  * depend on the kept rows in every configuration. The number of omitted rows is determined only
- * once (redundancy.c), in the assembled initial configuration and in configurations near it. Which
- * rows are omitted may change during a run (row_set.c). */
+ * once (redundancy.c), in the assembled initial configuration and in configurations near it. The
+ * choice of these rows may change during a run (row_set.c). */
 #ifndef BAUM_I_DYNAMICS_ROW_SET_H
 #define BAUM_I_DYNAMICS_ROW_SET_H
 
@@ -19,8 +19,8 @@ typedef struct baum_i_row_set {
   int count;               /* number of omitted rows */
   unsigned char *omitted;  /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected; /* (nc) scratch: 1 if the row is in a new set */
-  /* Relative pivot at the last search for other rows; 0 if that search changed the rows, or if
-   * there was no search. */
+  /* The pivot at which baum_i_choose_rows() last searched for other rows; 0 if that search changed
+   * the rows, or if there was no search. */
   double pivot_at_last_selection;
 } baum_i_row_set;
 
@@ -35,7 +35,7 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
  * the rows of welds that fix bodies. May return BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* Look for the set of rows that is separated best in this configuration. If one is found, keep it
+/* Look for the set of rows that is separated best in this configuration. If a set is found, keep it
  * instead of the present set. The number of rows stays the same. This must be called before the
  * block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
@@ -50,11 +50,12 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
  * functions. After a failure, nothing has changed. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
-/* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is relative to
- * its usual value. If `well_separated` is true, only a well-separated set is accepted. Without this
- * demand, a run next to a singular configuration would restart again and again. Returns true if the
- * rows have changed. The accelerations and multipliers computed last are then no longer available.
- * This function allocates memory, but only rarely. */
+/* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest
+ * pivot; a run divides it by the largest pivot of the run so far. If `well_separated` is true, only
+ * a well-separated set is accepted. Without this demand, a run next to a singular configuration
+ * would restart again and again. Returns true if the rows have changed. The accelerations and
+ * multipliers computed last are then no longer available. This function allocates memory, but only
+ * rarely. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
                         bool well_separated);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sizes of constraint rows and of states, so that quantities of different units can be compared. */
+/* Computes sizes of constraint rows and of states, with which quantities of different units can be
+ * compared. */
 #include <math.h>
 #include <string.h>
 
@@ -35,8 +36,9 @@ void baum_i_row_displacements(const baum_workspace *workspace, double *size)
 }
 
 /* A moment of inertia below NEGLIGIBLE times the trace of the tensor counts as RAISED times the
- * trace. Otherwise rows that rotate a slender rod about its axis would be so large, compared with
- * others, that assembly would need hundreds of steps, and rows would look dependent. */
+ * trace. Otherwise rows that restrict the rotation of a slender rod about its axis would be so
+ * large, compared with others, that assembly would need hundreds of steps, and other rows would
+ * look dependent. */
 static double moment_of(const double *tensor, int i)
 {
   static const double NEGLIGIBLE = 1e-8;

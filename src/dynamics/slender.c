@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slender bodies in the block solver of space; see space_block.h. */
+/* Raises moments of inertia of slender bodies in the block solver for space; see space_block.h. */
 #include <math.h>
 #include <string.h>
 
@@ -7,16 +7,16 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* If the weakest pivot of slender bodies is smaller than this in the design configuration, their
- * moments of inertia are raised. */
+/* If the weakest pivot in the design configuration is smaller than this, the moments of inertia of
+ * slender bodies are raised. */
 static const double USELESS = 1e-6;
-/* Each refinement must reduce the error of the spin of a slender body to this fraction, unless it
- * is already below NOISE times the error before the first one. */
+/* Each refinement must reduce the error of the spin of a slender body to this fraction, unless the
+ * error is already below NOISE times the error before the first refinement. */
 static const double FAST = 1e-2;
 static const double NOISE = 1e-10;
 enum { TRIALS = 3 };
 
-/* Set sizes[] (body_count) to |u . y|. */
+/* Set sizes[] (body_count) to |u . y|, with u and y of space_block.h. */
 static void measure_twists(const baum_i_space *space, double *sizes)
 {
   for (int t = 1; t < space->body_count; t++) {
@@ -26,10 +26,10 @@ static void measure_twists(const baum_i_space *space, double *sizes)
   }
 }
 
-/* The error of a solution becomes P W K times itself in each refinement, where K is the change of M
- * and P the projection on the null space of J. Apply this product to a vector with different
- * rotations of all slender bodies. sizes[] receives |u . y| of the vector at the beginning, before
- * the last product, and at the end. */
+/* Each refinement multiplies the error of a solution by P W K, where K is the change of M and P the
+ * projection on the null space of J. Apply this product to a vector with different rotations of all
+ * slender bodies. sizes[] receives |u . y| of the vector at the beginning, before the last product,
+ * and at the end. */
 static void apply_refinements(const baum_i_block_path *path, double *sizes[3])
 {
   const baum_i_space *space = path->space;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the joints whose geometry space_joints_hot.c computes, and their constants. */
+/* Finds the joints whose geometry space_joints_hot.c computes, and sets their constants. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,7 +44,7 @@ baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint)
   return (baum_i_space_shape)shape;
 }
 
-/* Computes the columns of sign * [s]x L^-T, with a point s of the body, and I = L L^T. */
+/* Computes the columns of sign * [s]x L^-T, where s is a point of the body and I = L L^T. */
 static void set_arms(const baum_i_space_body *body, const double s[3], double sign, double out[12])
 {
   for (int c = 0; c < 3; c++) {
@@ -61,7 +61,7 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   const baum_i_joint *of = w->mechanism->joints[node->row_block];
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(of);
   const double *numbers = w->point.parameters + of->element.parameter;
-  bool pin = of->type->is_pin; /* a planar pin has two numbers for each point, body_b's first */
+  bool pin = of->type->is_pin; /* its points have two numbers, body_b comes first */
   double *axes = out + BAUM_I_JOINT_AXES;
   for (int k = 0; k < 2; k++) {
     double *s = out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k;
@@ -104,7 +104,7 @@ static int32_t side_on(const baum_i_space *space, const baum_i_space_node *node,
   return -1;
 }
 
-/* By shape, then in the order of elimination. */
+/* Compares joints by shape, then by the order of elimination. */
 static int by_shape(const void *a, const void *b)
 {
   const baum_i_space_joint *x = a;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the frames of bodies in space and the geometry of joints between them in two passes, and
- * writes it directly to the solver of space. The joints are those of
+ * writes them directly to the solver for space. The joints are those of
  * mechanism/spatial/lower_pairs.c, whose rows make points coincide, compare directions or keep a
  * point on a line or plane.
  */
@@ -57,7 +57,7 @@ typedef struct baum_i_space_joint {
   int32_t numbers; /* start of its constants */
 } baum_i_space_joint;
 
-/* The joints of a path, with a frame for each body. */
+/* The joints of a block path, and a frame for each body. */
 typedef struct baum_i_space_joints {
   int count;
   baum_i_space_joint *list; /* sorted by shapes */
@@ -69,7 +69,7 @@ typedef struct baum_i_space_joints {
  * because it has other kinds of rows. */
 baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint);
 
-/* Input and output. */
+/* Input and output of the kernel. */
 typedef struct baum_i_space_pass {
   baum_i_space_joints joints;
   const baum_i_body_place *places; /* (body_count) */
@@ -90,7 +90,7 @@ typedef struct baum_i_space_pass {
 } baum_i_space_pass;
 
 typedef struct baum_i_space_joints_kernel {
-  /* Sets the frames of all bodies, and the forces and a0 of those in space. */
+  /* Sets the frames of all bodies, and the forces and a0 of bodies in space. */
   void (*set_bodies)(baum_i_space *space, const baum_i_space_pass *pass);
   /* Sets sides, r, D and J a0 - r of the joints' nodes, and their rows of Phi, Phi' and gamma. */
   void (*set_joints)(baum_i_space *space, const baum_i_space_pass *pass);

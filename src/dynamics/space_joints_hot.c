@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of bodies in space and geometry of joints between them. A point s of a body has the arm d
- * = A s and the position x = r + d. With e = x_b - x_a for the points of a joint, and the upper
- * sign for k = a and the lower for k = b, the rows and sides are
+/* Computes the frames of bodies in space and the geometry of joints between them. A point s of a
+ * body has the arm d = A s and the position x = r + d. Let e = x_b - x_a for the points of a joint.
+ * With the upper sign for k = a and the lower sign for k = b, the rows and sides are
  *
  *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
  *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
  *   row e    a row d with the same y as the row before
  *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
  *
- * gamma is -Phi'' without the accelerations. For a row d, let y' = W_b x y and z = y' - W_a x y.
- * Then Phi' = z . x and gamma = -(W_b x y' + (y' + z) x W_a) . x.
+ * gamma is -Phi'' without the terms of accelerations. For a row d, let W_a and W_b be the angular
+ * velocities, y' = W_b x y and z = y' - W_a x y. Then Phi' = z . x and gamma = -(W_b x y' + (y' +
+ * z) x W_a) . x.
  */
 #include <float.h>
 #include <math.h>
@@ -130,7 +131,7 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   baum_i_four_store(to->r, r);
   baum_i_four_store(to->v, velocity);
   baum_i_four_store(to->w, w);
-  /* each of these stores is partly overwritten by the next */
+  /* each store writes one number too many, which the next store overwrites */
   baum_i_four_store(other->r, r);
   baum_i_four_store(other->v, velocity);
   baum_i_store(other->w, baum_i_four_low(w));
@@ -140,8 +141,8 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
-/* Makes the frame in space of a planar body. Only the last column of L^-T is not zero, where L L^T
- * is the inertia tensor of the body. */
+/* Computes the spatial frame of a planar body. Only the last column of L^-T is not zero, where L
+ * L^T is the inertia tensor of the body. */
 BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];
@@ -178,7 +179,7 @@ static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
 
 /* ---- joints ---- */
 
-/* What the body of one side contributes. */
+/* Quantities of a joint's point on one body. */
 typedef struct marker {
   four arm;   /* d */
   four place; /* r + d */
@@ -198,7 +199,7 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
   return m;
 }
 
-/* All rows of a joint: columns of R and E of both sides, and right-hand sides. */
+/* All rows of a joint: columns of R and E of both sides, and Phi, Phi' and gamma. */
 typedef struct rows {
   column turn[2][3];
   column move[3]; /* E_b = -E_a, only rows s */
@@ -263,7 +264,7 @@ BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame
   put(&out->gamma, i, baum_i_four_all(-baum_i_four_sum(terms[2])), 0);
 }
 
-/* Row i of kind d: x . y */
+/* Sets row i, of kind d: x . y */
 BAUM_I_INLINE void set_direction_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                                      const direction *d, const double *axis, double keep, int i,
                                      rows *out)
@@ -276,7 +277,7 @@ BAUM_I_INLINE void set_direction_row(const baum_i_space_frame *f, const baum_i_s
   put_row(f, g, both, terms, i, out);
 }
 
-/* Row i of kind s: x . e */
+/* Sets row i, of kind s: x . e */
 BAUM_I_INLINE void set_slide_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                                  const marker m[2], const double *axis, double keep, int i,
                                  rows *out)
@@ -376,7 +377,7 @@ BAUM_I_INLINE void store_sides(const baum_i_space *b, const baum_i_space_joint *
   }
 }
 
-/* Sets D to E E^T / m of both sides, and 1 for omitted rows. */
+/* Sets D to the sum of E E^T / m over both sides. Omitted rows get the pivot 1. */
 BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                                bool points, bool slides, const rows *row, const double *keep,
                                column d[BAUM_I_SPACE_ROWS])

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes Newton's matrix of a step from the matrix of the residual (dae_matrix.c) with y = (q, v,
  * lambda) and c = by_a / by_v. In that matrix, the columns of v contain c M - g_v. They are
- * multiplied by by_v and added to the columns of q. The matrix has no rows for q' - v. The place to
- * which each entry is added is found only once, when the matrix is created.
+ * multiplied by by_v and added to the columns of q. Newton's matrix has no rows for q' - v. The
+ * place to which each entry is added is found only once, when the matrix is created.
  */
 #include "dynamics/step_matrix.h"
 

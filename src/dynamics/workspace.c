@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory for evaluating a mechanism. It is allocated once; evaluations allocate nothing. */
+/* Creates and destroys workspaces, which contain the memory for evaluations of a mechanism. */
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 /* The binary that all exported FMUs contain. It reads a mechanism from the folder `resources` of
  * its FMU, and implements co-simulation by FMI 3.0. docs/fmu.md describes the FMUs.
  *
- * The value references are numbers from 0 in this order: the time, the inputs, the numbers of the
+ * The value references count from 0 in this order: the time, the inputs, the numbers of the
  * parameters, and the columns of the outputs. */
 #include "fmu/fmi3.h"
 
@@ -25,7 +25,8 @@ typedef struct baum_i_fmu_instance {
   void *environment;
 } instance;
 
-/* The saved state of an FMU, one block of memory with this struct, the numbers and the run. */
+/* The saved state of an FMU. One block of memory contains this struct, the numbers and the saved
+ * run. */
 typedef struct baum_i_fmu_state {
   size_t size;    /* of the whole block */
   size_t run;     /* size of the saved run, or 0 if there is no run */
@@ -98,7 +99,7 @@ static baum_status start_mechanism(instance *fmu, const baum_mechanism *mechanis
   return set_inputs(fmu);
 }
 
-/* Create the run with the present parameters and inputs, unless there is one. */
+/* Create the run with the present parameters and inputs, unless there is already a run. */
 static fmi3Status start_run(instance *fmu)
 {
   if (fmu->run) {
@@ -362,7 +363,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance fmu, fmi3FMUState *place)
   return FMI3_OK;
 }
 
-/* Tell whether a state is one of this FMU. */
+/* Tell whether a state was saved by an FMU with the same token. */
 static bool is_own(const instance *fmu, const state *saved)
 {
   return strncmp(saved->token, fmu->resources.token, sizeof saved->token) == 0;
@@ -401,8 +402,9 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
                       : FMI3_OK;
 }
 
-/* Tell whether the saved state needs a new run, with other parameters or options. Inputs are not
- * compared, because restoring a run sets them. */
+/* Tell whether the present run must end before the saved state is restored: the state has no run,
+ * or its parameters or options differ. Inputs are not compared, because restoring a run sets
+ * them. */
 static bool needs_other_run(const instance *fmu, const state *saved)
 {
   const size_t inputs = (size_t)fmu->resources.input_count;

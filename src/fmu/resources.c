@@ -89,8 +89,8 @@ static const baum_i_def_field *find_field(const baum_i_definition *definition, c
   return NULL;
 }
 
-/* Find a parameter by the name of its element and of its field, and append its numbers to `start`,
- * which has room for the largest field. */
+/* Find a parameter by the names of its element and its field, and append its numbers to `start`,
+ * which has room for a field of the largest size. */
 static baum_status read_parameter(const baum_i_scene_reader *r, const baum_i_json_node *object,
                                   baum_i_fmu_resources *out)
 {

@@ -8,7 +8,7 @@
 
 #include "mechanism/identify.h"
 
-/* A field of numbers in the definition of an element. */
+/* A parameter of the FMU: a field of numbers in the definition of an element. */
 typedef struct baum_i_fmu_parameter {
   const baum_i_family *family;
   const baum_i_definition *definition;
@@ -19,7 +19,7 @@ typedef struct baum_i_fmu_parameter {
 typedef struct baum_i_fmu_resources {
   baum_mechanism *mechanism; /* not frozen */
   baum_simulation_options options;
-  char *token; /* instantiation token; must equal that of the model description */
+  char *token; /* instantiation token, as in the model description */
   int input_count;
   baum_input_id *inputs;
   int parameter_count;
@@ -38,7 +38,7 @@ void baum_i_fmu_release(baum_i_fmu_resources *resources);
 int baum_i_fmu_size(const baum_i_fmu_parameter *parameter);
 
 /* Copy the mechanism, set the parameters of the copy, and freeze it. `numbers` (number_count) is
- * ordered like `start`. Its inputs are not used here. */
+ * ordered like `start`. The function does not use the inputs in it. */
 baum_status baum_i_fmu_build(const baum_i_fmu_resources *resources, const double *numbers,
                              baum_mechanism **out);
 

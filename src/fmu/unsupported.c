@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The functions of FMI 3.0 that these FMUs do not support. They must exist, because some simulators
- * load all functions of the interface. They read only their first argument. This is possible
- * because the calling conventions of the supported systems permit a caller to pass more arguments
- * than the function declares. */
+ * load all functions of the interface. The functions below read only their first argument. This is
+ * possible because the calling conventions of the supported systems permit a caller to pass more
+ * arguments than the function declares. */
 #include "fmu/fmi3.h"
 
 #define REFUSE(NAME)                           \
@@ -22,7 +22,7 @@
   REFUSE(fmi3Set##QUANTITY##Decimal)  \
   REFUSE(fmi3Set##QUANTITY##Fraction)
 
-/* The function that would create an FMU of a kind that is not supported. It returns NULL. */
+/* Defines the function that would create an FMU of an unsupported kind. It returns NULL. */
 #define REFUSE_KIND(NAME)                               \
   FMI3_EXPORT fmi3Instance fmi3Instantiate##NAME(void); \
   fmi3Instance fmi3Instantiate##NAME(void)              \

@@ -44,8 +44,8 @@ static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
 
-/* Tolerance by which a root may be off a circle. The radius of a double root is accurate only to
- * about 1e-16^(1/3), see schur_cohn.h. */
+/* A root counts as lying on a circle if its distance from the circle is below this fraction of the
+ * radius. The radius of a double root is accurate only to about 1e-16^(1/3), see schur_cohn.h. */
 static const double ROOT_TOLERANCE = 1e-4;
 
 /* If the test of Schur and Cohn gives a margin below this, its result is not used. */
@@ -182,9 +182,10 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
   return w;
 }
 
-/* Finds w for the root with the largest |z|. The circle on which this root lies is known. Newton's
- * method starts at those points of the circle where |p| is smallest. Of the roots that it finds,
- * the one on the circle is returned. Other roots may be close to the circle, but inside of it. */
+/* Finds w for the root with the largest |z|. The test of Schur and Cohn gives the circle on which
+ * this root lies. Newton's method starts at those points of the circle where |p| is smallest. The
+ * function returns the root found on the circle. Other roots may be close to the circle, but inside
+ * of it. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);

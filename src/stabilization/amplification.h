@@ -57,7 +57,7 @@ void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
 double baum_i_velocity_limit(const baum_i_method *method);
 
 /* Returns the spectral radius minus 1. The result is accurate even for small gains. This function
- * and all functions below are only for methods with fixed steps. */
+ * and all functions below require a method of kind ONE_STEP, SEMI_IMPLICIT or ADAMS_BASHFORTH. */
 double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, double beta2_h2);
 
 /* Tells whether the spectral radius minus 1 is at most `growth`. For Adams-Bashforth methods this
@@ -67,8 +67,8 @@ bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, do
 
 /* ---- Along a ray alpha = damping_ratio * beta; damping_ratio is > 0 and finite ---- */
 
-/* Returns alpha h at the point where the ray becomes unstable. The result is 0 if no point of the
- * ray is stable, and infinity if all points are stable. */
+/* Returns alpha h at the point where the ray becomes unstable. The result is 0 if the ray is
+ * unstable for small alpha h, and infinity if all points are stable. */
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
 /* Finds all stable intervals of alpha h, in ascending order. Only the first `capacity` intervals
@@ -83,9 +83,9 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 
 /* ---- In the plane --------------------------------------------------------- */
 
-/* Finds the point with the smallest spectral radius for which alpha h > 0. If there is a dead-beat
- * point, this is that point. If there are several such points, the one with the smallest gains is
- * found. */
+/* Finds the point with alpha h > 0 that has the smallest spectral radius. If there is a dead-beat
+ * point, this is that point. If there are several, points with two different mu are preferred, and
+ * among them the one with the smallest gains. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* Finds the dead-beat point, which is the point where all z are 0. If there is none, returns false

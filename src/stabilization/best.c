@@ -8,10 +8,10 @@
  *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
  *   semi-implicit Euler: explicit Euler's point, transformed back: (1 - 1/2, 1)
- * If both zeros differ, one step removes the whole violation. If they are a double zero, two steps
- * are needed. For RK3, the pair of complex zeros is therefore chosen, and not the real zero at
- * (1.596, 2.547). If there are several pairs, the one with the smallest |mu| is chosen, because its
- * gains are the smallest. Only zeros with negative Re mu are possible, because alpha must be
+ * If the two zeros differ, one step removes the whole violation. If they are a double zero, two
+ * steps are needed. For RK3, the pair of complex zeros is therefore chosen, and not the real zero
+ * at (1.596, 2.547). If there are several pairs, the one with the smallest |mu| is chosen, because
+ * its gains are the smallest. Only zeros with negative Re mu are possible, because alpha must be
  * positive.
  *
  * Adams-Bashforth methods use past steps. They therefore have no dead-beat point. Their spectral
@@ -21,7 +21,7 @@
  * searched on a lattice in the chart (chart.h). The lattice is refined around the best point found
  * so far, which at first is the best point with critical damping. The largest of several |z| is, as
  * a function of the point, a surface with sharp valleys. A descent method would stop in such a
- * valley. A search on a lattice does not. */
+ * valley. A search on a lattice does not stop there. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -71,8 +71,8 @@ static bool is_better_zero(const double mu[2], const double best[2])
 }
 
 /* Finds the best zero of R that has Re mu < 0. Returns false if there is none. Newton's method
- * starts from many points around 0, at distances up to the degree of R. No zero is farther away for
- * any of our methods, so every zero is found. */
+ * starts from many points at distances from 1 to (degree + 1) / 2 from 0. For all our methods, the
+ * best zero is not farther from 0 than the last of these points. */
 static bool find_zero(const baum_i_method *method, double best[2])
 {
   bool found = false;
@@ -104,8 +104,8 @@ typedef struct search {
   double point[2];
 } search;
 
-/* Stores a point if it is better than the best one so far. A test that costs little rejects most
- * points before their radius is computed. */
+/* Stores a point if it is better than the best one so far. A cheap test rejects most points before
+ * their radius is computed. */
 static void try_point(search *best, double s, double m)
 {
   double point[2];
@@ -137,7 +137,7 @@ static void search_window(search *best, const baum_i_chart_window *w, int cells)
   }
 }
 
-/* Searches a window, and then LEVELS times a smaller window around the best point. */
+/* Searches a window, and then LEVELS smaller and smaller windows around the best point. */
 static void close_in(search *best, baum_i_chart_window window)
 {
   search_window(best, &window, LATTICE);

@@ -97,7 +97,7 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      /* Adds a few rows, because a maximum may be between two columns. */
+      /* The result includes a few more rows, because a maximum may be between two columns. */
       return most * (k + 3) / ROWS;
     }
   }

@@ -2,10 +2,10 @@
 /* Messages about gains.
  *
  * A message contains a warning if the gains are near the edge of the region of stability. In the
- * exact solution of (6), the slower mode decays by the factor exp(-p) per step, with
- * p = Re(A - sqrt(A^2 - B)). The damping of a method differs from p only by terms of order p^2, so
- * small gains never cause this warning. A point is considered near the edge if its spectral radius
- * is above 0.95 and its damping is less than a quarter of p. */
+ * exact solution of equation (6) in amplification.c, the slower mode decays by the factor exp(-p)
+ * per step, with p = Re(A - sqrt(A^2 - B)). The damping of a method differs from p only by terms of
+ * order p^2, so small gains never cause this warning. A point is considered near the edge if its
+ * spectral radius is above 0.95 and its damping is less than a quarter of p. */
 #include "stabilization/gain_text.h"
 
 #include <math.h>
@@ -127,7 +127,7 @@ static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_d
   return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
 }
 
-/* A part of the message that is about stability. */
+/* A part of a message, which describes stability. */
 typedef struct clause {
   baum_i_text text;
   bool warns;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes gains by a rule. The table `rules` below has one row for each rule.
+/* Computes gains by a rule. The table `rules` below has one entry for each rule.
  *
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               A and B as given
@@ -34,10 +34,11 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* The factors c of the rule `auto`. FIXED is for fixed steps of Runge-Kutta methods, which have
- * another factor for order 2. OTHERS is for fixed steps of other methods. MULTISTEP is for CVODE
- * and IDA. EXPLICIT is for explicit methods with variable steps. DRIVEN is for mechanisms in which
- * drivers prescribe all degrees of freedom. */
+/* The factors c of the rule `auto`. In their names, FIXED stands for fixed steps of Runge-Kutta
+ * methods, which have another factor for order 2. OTHERS stands for fixed steps of other methods,
+ * MULTISTEP for CVODE and IDA, and EXPLICIT for explicit methods with variable steps. DRIVEN stands
+ * for mechanisms in which drivers prescribe all degrees of freedom; then FIXED stands for fixed
+ * steps of all methods. */
 static const double AUTO_FIXED = 0.35;
 static const double AUTO_FIXED_ORDER_2 = 0.05;
 static const double AUTO_OTHERS = 0.2;
@@ -161,8 +162,8 @@ static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *contex
                context->driven ? "; no degree of freedom is left" : "");
 }
 
-/* Sets alpha h to the wanted value. The value is limited by AUTO_CAP, and by half of the stability
- * limit. */
+/* Returns the wanted alpha, reduced so that alpha h is at most AUTO_CAP and at most half of the
+ * stability limit. If nothing moves, alpha h is AUTO_AT_REST. */
 static double auto_with_step(const baum_i_gain_context *context, double wanted,
                              baum_i_gain_draft *out)
 {
@@ -288,7 +289,8 @@ static bool is_without_step(const baum_i_gain_context *context)
   return context->method->kind == BAUM_I_METHOD_ONE_STEP && !has_step(context);
 }
 
-/* Returns the largest step with which an explicit method that chooses its steps is stable. */
+/* Returns the limit of the step of an explicit method with variable steps, and infinity for other
+ * methods. */
 static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
 {
   if (!is_without_step(context) || !(gains->alpha > 0.0)) {

@@ -30,8 +30,8 @@ typedef struct baum_i_gain_choice {
   /* The amplification at the point (alpha h, beta^2 h^2). If there are rows of positions and of
    * velocity level, it is that of the rows whose violations decay more slowly. */
   baum_amplification amplification;
-  /* [s] The largest stable step of an explicit method with variable steps. It is infinite for other
-   * methods. */
+  /* [s] The limit of the step of an explicit method with variable steps: 0.9 of its largest stable
+   * step. It is infinite for other methods. */
   double max_step;
   char why[400]; /* message that gives the rule, the numbers and the stability */
   bool doubtful; /* whether `why` is a warning that violations may stay or grow */

@@ -2,7 +2,7 @@
 /* Finds the nearest good point. A point is good if its spectral radius is at most 0.9. The search
  * finds the points at which the lines of a lattice cross the edge of the good region. It is
  * repeated with finer lattices around the crossing that is nearest in the plane (A, B). The
- * lattices are in the chart (chart.h). Regions have no sharp tips there that could lie between
+ * lattices are in the chart (chart.h), where regions have no sharp tips that could lie between
  * lines. The region may have any shape and consist of any number of parts. */
 #include <math.h>
 #include <stdbool.h>
@@ -11,7 +11,7 @@
 
 static const double GOOD_GROWTH = -0.1; /* a spectral radius of 0.9 */
 static const double FARTHEST = 1e3;     /* how far the lattice extends if the region is unbounded */
-/* Half the extent of the next lattice, as a number of cells of the last one. */
+/* Half the extent of the next lattice, in cells of the present lattice. */
 static const double AROUND = 2.0;
 enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 

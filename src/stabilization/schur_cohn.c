@@ -87,7 +87,7 @@ double baum_i_schur_cohn_radius(const baum_i_polynomial *p)
   for (int k = 0; k < p->degree; k++) {
     outside += hypot(p->c[k][0], p->c[k][1]);
   }
-  if (!(pow(outside, p->degree) < HUGE_VAL)) { /* also true if the power is not a number */
+  if (!(pow(outside, p->degree) < HUGE_VAL)) { /* the condition also holds if the power is NaN */
     return HUGE_VAL;
   }
   for (int k = 0; k < MOST_BISECTIONS && outside - inside > RADIUS_TOLERANCE * outside; k++) {

@@ -13,9 +13,9 @@ typedef struct baum_i_polynomial {
   double c[BAUM_I_SCHUR_COHN_DEGREE + 1][2];
 } baum_i_polynomial;
 
-/* Returns a positive margin if all roots have |z| < radius. Otherwise returns a margin that is zero
- * or negative. A small margin means that a root is close to the circle. If the margin is below
- * about 1e-12, rounding determines its sign. `radius` must be > 0. */
+/* Returns a positive margin if all roots have |z| < radius. Otherwise returns zero or a negative
+ * margin. A small margin means that a root is close to the circle. If the margin is below about
+ * 1e-12, rounding determines its sign. `radius` must be > 0. */
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
 /* Returns the largest |z| of all roots, or infinity on overflow. The relative error is below 1e-9

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds where a method is stable if the damping ratio zeta = alpha / beta is fixed. Stability is
- * then a function of b = |beta h|. In the plane (A, B) = (|alpha h|, (beta h)^2), this function is
- * taken along the points A = zeta b, B = b^2, which are called a ray.
+ * then a function of b = |beta h|. In the plane (A, B) = (|alpha h|, (beta h)^2), the points A =
+ * zeta b, B = b^2 are called a ray.
  *
  * Along a ray, mu is proportional to b. The search steps through b in equal ratios until the
  * stability changes, and locates the change by bisection. The smallest limits occur on weakly
@@ -141,8 +141,8 @@ typedef struct lowest {
   double b;
 } lowest;
 
-/* Stores a point if it is better than the best one so far. A test that costs little rejects most
- * points before their radius is computed. */
+/* Stores a point if it is better than the best one so far. A cheap test rejects most points before
+ * their radius is computed. */
 static void try_point(const baum_i_method *method, double damping_ratio, double b, lowest *best)
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {
