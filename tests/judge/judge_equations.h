@@ -36,7 +36,7 @@ void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const 
 void judge_forces(const judge_scene *s, const double *q, const double *v, double *g);
 double judge_mass(const judge_scene *s, int column);
 
-/* * Factors J~ if `weighted` is set, and J otherwise. Returns false if the rows are dependent up to
+/** Factors J~ if `weighted` is set, and J otherwise. Returns false if the rows are dependent up to
  * rounding errors. */
 bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
 
@@ -51,7 +51,7 @@ void judge_null_vector(const judge_factors *f, int k, double *out);
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/* * Replaces q and v by the nearest values that satisfy the constraints, in the same metric as
+/** Replaces q and v by the nearest values that satisfy the constraints, in the same metric as
  * judge_nearest(). */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 

@@ -50,7 +50,7 @@ typedef struct judge_case {
 bool judge_open(judge_case *c, uint64_t seed);
 void judge_close(judge_case *c);
 
-/* * Makes a run with a setting, and compares its positions with those of the reference. */
+/** Makes a run with a setting, and compares its positions with those of the reference. */
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 

@@ -77,7 +77,7 @@ typedef struct judge_scene {
   double end;        /* [s] */
 } judge_scene;
 
-/* * Generates the scene of a seed. Returns false if no attempt has a consistent start. */
+/** Generates the scene of a seed. Returns false if no attempt has a consistent start. */
 bool judge_scene_draw(judge_scene *s, uint64_t seed);
 
 /** Evaluates the law of a driver. s receives its value, rate and acceleration. */
