@@ -112,8 +112,8 @@ static bool connects(const baum_i_shape *shape)
   return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
-/* Tells whether all points of a shape are positions on its body. In other forms, only the first
- * point is one. */
+/* Tells whether all points of a shape are positions. In other forms, only the first point is a
+ * position on the body. */
 static bool has_places(const baum_i_shape *shape)
 {
   return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||

@@ -116,8 +116,7 @@ void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *sh
   }
   baum_i_cross(a, b, normal);
   const double size = sqrt(baum_i_dot3(normal, normal));
-  if (fabs(normal[2]) <=
-      1e-6 * size) { /* the triangle is seen from the side, or its area is zero */
+  if (fabs(normal[2]) <= 1e-6 * size) { /* the triangle is edge-on, or its area is zero */
     return;
   }
   const double cosine = baum_i_dot3(normal, LIGHT) / size * (normal[2] < 0.0 ? -1.0 : 1.0);

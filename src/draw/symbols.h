@@ -11,7 +11,7 @@ typedef struct baum_i_symbol {
   baum_i_drawing *drawing;
   int number;
   const baum_i_element *element;
-  const baum_i_place *place; /* its `element` is NULL if the element has no place */
+  const baum_i_place *place; /* place->element is NULL if the element has no place */
 } baum_i_symbol;
 
 /* ---- symbols.c ---- */

@@ -260,8 +260,8 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* Finds the coarsest setting of a method whose expected error, and that of the next finer entry,
- * are at most the given error divided by the margin.
+/* Finds the coarsest setting of a method at which two expected errors are at most the given error
+ * divided by the margin: the error of the setting, and the error of the next finer entry.
  */
 static bool find_setting(const baum_i_entry *const *entries, int count, double error,
                          bool with_margin, setting *out)

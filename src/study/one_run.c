@@ -34,7 +34,7 @@ static int check_deadline(const baum_simulation *simulation, double t, void *use
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* Returns the options of a run: the options of the task with those that the study determines. */
+/* Returns the options of the task, completed by the options that the study determines. */
 static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
@@ -85,8 +85,8 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-/* Copies the first warning that doubts the motion. If there is none, copies the first of all
- * warnings. */
+/* Copies the first warning that says that the motion may be wrong. If there is none, copies the
+ * first of all warnings. */
 static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
                          size_t size)
 {

@@ -46,8 +46,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Sets two errors from the differences over the whole span and at its end. An error is never below
- * the uncertainty of the reference. */
+/* Sets two errors from two differences. An error is NaN if the difference is unknown, and never
+ * below the uncertainty of the reference. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
@@ -416,7 +416,7 @@ static void time_entries(workers *c)
 
 /* ---- the whole study ---- */
 
-/* Counts the entries that have no result, or no time. */
+/* Counts the entries that must still be measured or timed. */
 static int waiting(const baum_study *study)
 {
   int count = 0;

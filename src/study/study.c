@@ -81,8 +81,8 @@ static void truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
-/* Tells whether this build contains an integrator. The list always contains the integrators of
- * SUNDIALS, even in a build without SUNDIALS. */
+/* Tells whether this build contains an integrator. The list of integrators always contains the
+ * integrators of SUNDIALS, even in a build without SUNDIALS. */
 static bool is_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;

@@ -60,7 +60,7 @@ typedef struct baum_i_entry {
   baum_i_stage filed; /* the stage of the entry in the study file when the file was opened */
 } baum_i_entry;
 
-/* Samples of a motion. */
+/* Samples of a motion, and its start. */
 typedef struct baum_i_samples {
   int n;
   double *times;  /* (n) */
@@ -75,16 +75,15 @@ typedef struct baum_i_study_method {
   /* Index of the first entry. Its options, except step and rtol, are the options of the method. */
   int first;
   baum_i_text name; /* name without the step or the tolerance */
-  double too_fine;  /* the step or rtol at which an entry reached its time limit; 0 if none has */
+  double too_fine;  /* largest step or rtol at which an entry reached its time limit, or 0 */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
-  baum_i_samples samples; /* `values` is NULL if there is no reference */
-  baum_simulation_options
-    options;  /* options of the reference run; `integrator` is NULL if there is none */
-  bool known; /* whether the uncertainties are known */
+  baum_i_samples samples;          /* `values` is NULL if there is no reference */
+  baum_simulation_options options; /* of the run; `integrator` is NULL if there is no run */
+  bool known;                      /* whether the uncertainties are known */
 
   double *given[3]; /* the given samples of q, v and lambda; each may be NULL */
   double digits;    /* the number of correct digits that the user has stated */
