@@ -48,8 +48,8 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shapes[drawing->shape_count++] = shape;
 }
 
-/* Shapes of one style stay in the order in which they were added. This is the order of their points
- * in memory. */
+/* Sorts shapes by style. Shapes of one style keep the order in which they were added, which is the
+ * order of their points in memory. */
 static int compare(const void *a, const void *b)
 {
   const baum_i_shape *x = a, *y = b;
@@ -62,7 +62,7 @@ static int compare(const void *a, const void *b)
   return x->first - y->first;
 }
 
-/* ---- the whole ---- */
+/* ---- the whole drawing ---- */
 
 baum_i_spatial_frame baum_i_drawing_frame(const baum_i_body *body, const double *q)
 {
@@ -142,7 +142,7 @@ static double find_unit(const baum_i_drawing *drawing)
     }
   }
   double extent = largest_edge(&box);
-  if (extent <= 0.0) { /* all in one point: extend the box to the origin */
+  if (extent <= 0.0) { /* all elements are at one point: extend the box to the origin */
     include(drawing, 0, origin, &box);
     extent = largest_edge(&box);
   }

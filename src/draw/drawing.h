@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A drawing shows what a mechanism looks like. It is a list of shapes, which are given in the axes
- * of the bodies. Pictures and pages are made only from these shapes and the frames of the bodies.
+/* A drawing is a list of shapes that show a mechanism. The points of a shape are given in the axes
+ * of bodies. Pictures and pages depend only on these shapes and on the frames of the bodies.
  * docs/drawings.md lists the forms and styles of shapes.
  */
 #ifndef BAUM_I_DRAW_DRAWING_H
@@ -31,9 +31,9 @@ typedef enum baum_i_form {
   BAUM_I_TO_SPHERE /* a sphere, given by its centre and the vector (radius, 0, 0) */
 } baum_i_form;
 
-/* Lists all styles, each as STYLE(name). The argument is a macro, which is expanded for every
- * style. Pictures of planar mechanisms draw the styles in this order. Larger wheels come before
- * smaller ones. */
+/* Expands the macro STYLE(CODE, name) for every style. CODE is the suffix of the enumerator, and
+ * `name` is the text in JSON. Pictures of planar mechanisms draw the styles in this order, and
+ * larger wheels before smaller ones. */
 #define BAUM_I_STYLES(STYLE) \
   STYLE(BASE, base)          \
   STYLE(GUIDE, guide)        \
@@ -87,8 +87,8 @@ static inline baum_i_shape baum_i_shape_of(baum_i_style style, baum_i_form form,
                         .radius = radius};
 }
 
-/* Where a joint or force is between two bodies. The place has one point and one axis for each body,
- * in the axes of this body. For a load, both bodies are the body on which it acts. */
+/* The points and axes at which a joint or force acts on its two bodies. Each point and each axis is
+ * given in the axes of its body. For a load, both bodies are the body on which it acts. */
 typedef struct baum_i_place {
   const baum_i_element *element; /* NULL if the element has no place */
   int body[2];
@@ -102,16 +102,16 @@ typedef struct baum_i_place_end {
   int side;
 } baum_i_place_end;
 
-/* Samples of the positions of a motion. count is 0 if there are none. */
+/* Samples of the positions of a motion. */
 typedef struct baum_i_samples {
   const double *q; /* (count x stride); each row begins with the positions q (nq) */
-  int64_t count;
+  int64_t count;   /* 0 if there are no samples */
   int64_t stride;
 } baum_i_samples;
 
 typedef struct baum_i_drawing {
   const baum_mechanism *mechanism;
-  baum_i_samples motion;        /* the samples of the motion determine how long guides are */
+  baum_i_samples motion;        /* its samples determine the lengths of guides */
   baum_i_spatial_frame *design; /* (body_count + 1) frames in the design configuration */
   baum_i_place *places;         /* (joint_count + force_count), with the joints first */
   int place_count;
@@ -120,7 +120,7 @@ typedef struct baum_i_drawing {
   int *first_end; /* (body_count + 2) */
   int *gears;     /* (gear_count) the numbers of the joints that are gears */
   int gear_count;
-  double unit; /* [m] the unit of length of symbols, which is half the width of a link */
+  double unit; /* [m] unit of length of all symbols; half the width of a link */
   bool spatial;
   baum_i_shape *shapes; /* (shape_count) */
   int shape_count;
@@ -129,8 +129,8 @@ typedef struct baum_i_drawing {
   bool failed; /* set when memory has run out */
 } baum_i_drawing;
 
-/* Make the shapes of all elements of a mechanism. If there are no samples, the mechanism need not
- * be frozen. Returns BAUM_OK or BAUM_ERR_MEMORY. The caller must release the drawing even after a
+/* Make the shapes of all elements of a mechanism. The mechanism must be frozen if there are
+ * samples. Returns BAUM_OK or BAUM_ERR_MEMORY. The caller must release the drawing even after a
  * failure. */
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
                                   baum_i_drawing *out);
@@ -160,7 +160,7 @@ bool baum_i_has_field(const baum_i_element *element, const char *name);
  * set. */
 void baum_i_find_places(baum_i_drawing *drawing);
 
-/* Return the ends of places that are on a body, in the order of joints and forces. */
+/* Return the ends of places that are on a body, joints first. *count is set to their number. */
 const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count);
 
 /* Transform a point from the axes of a body to ground axes. */
@@ -182,8 +182,8 @@ void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const dou
 
 /* ---- outlines.c, user_outlines.c, symbols.c ---- */
 
-/* Draw the body with this index. The body is shown by the outlines that the user has given, or else
- * by an outline that its joints determine. */
+/* Draw the body with this index. If the user has given outlines for the body, they are drawn.
+ * Otherwise the outline follows from the joints and the inertia of the body. */
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
 void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 
@@ -197,28 +197,27 @@ void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
  * page. */
 baum_status baum_i_page_check(const baum_mechanism *m, const baum_page *given, const char *call,
                               baum_page *page, int *width);
-/* Return which column in the rows of a page is the first one of q. The page has been checked. */
+/* Return the column of q[0] in the rows of a page that baum_i_page_check() has accepted. */
 int baum_i_page_positions(const baum_mechanism *m, const baum_page *page);
-/* Tell whether a channel is a joint reaction, which pages show as an arrow. */
+/* Tell whether a channel is a joint reaction. Pages show joint reactions as arrows. */
 bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c);
 /* ---- gaps.c ---- */
 
-/* Draw the lines that show where the constraints of a joint are violated. docs/drawings.md
- * describes these lines. */
+/* Draw the lines that show the constraint violation of a joint. docs/drawings.md describes them. */
 void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place);
 
-/* Draw the gap between the point on body_b and a line whose corners are points on body_a. */
+/* Draw the gap between the point on body_b and a polygonal line that is fixed on body_a. */
 void baum_i_draw_gap_to_line(baum_i_drawing *drawing, const baum_i_place *place, int count,
                              const double (*line)[3]);
 
-/* Find the two ends of a shape that connects bodies, in ground axes. Frames give the present poses
- * of the bodies. An arrow is 8 units long. */
+/* Find the two ends of a shape that connects bodies, in ground axes. `frames` gives the present
+ * poses of the bodies. Arrows are 8 units long. */
 void baum_i_find_ends(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
                       const baum_i_shape *shape, double from[3], double to[3]);
 
 /* ---- svg.c ---- */
 
-/* Write a drawing as a picture. Frames give the present poses of the bodies. */
+/* Write a drawing as an SVG picture. `frames` gives the present poses of the bodies. */
 baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spatial_frame *frames,
                                baum_i_buffer *out);
 

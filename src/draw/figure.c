@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Draws one sample of a motion as an SVG picture. The picture contains the shapes, the paths of
- * points up to this sample, and reactions as arrows. The view shows the space that the whole motion
- * needs, so that pictures of several samples can be laid on top of each other. */
+ * points up to this sample, and reactions as arrows. The view covers the whole motion, sampled at
+ * about a hundred instants, so that pictures of several samples of a motion usually have the same
+ * view. */
 #include <string.h>
 
 #include <baum/draw.h>
@@ -17,14 +18,14 @@ static const double REACH = 12.0;  /* length of the longest arrow, in units of t
 static const double NEAREST = 0.5; /* [px] smallest distance between points of a path */
 /* Arrows shorter than this fraction of the longest one are not drawn. */
 static const double SMALLEST = 0.01;
-static const double LINE = 22.0; /* [px] height of a line with a scale */
+static const double LINE = 22.0; /* [px] height of one scale */
 
 /* The two kinds of reactions. Arrows of forces and arrows of moments have separate scales. */
 typedef enum effort { FORCE, MOMENT, EFFORTS } effort;
 static const char *const COLOURS[EFFORTS] = {"#be123c", "#8b5cf6"};
 static const char *const UNITS[EFFORTS] = {"N", "N m"};
 
-/* A joint reaction, and where its numbers are in the rows of a page. */
+/* A joint reaction. `column` is its first column in the rows of a page. */
 typedef struct reaction {
   const baum_i_place *place;
   int column;
@@ -34,7 +35,7 @@ typedef struct reaction {
 typedef struct figure {
   baum_i_picture picture;
   const baum_page *page;
-  baum_i_spatial_frame *frames; /* (body_count + 1), the frames of the picture */
+  baum_i_spatial_frame *frames; /* (body_count + 1) frames of the bodies in the picture */
   reaction *reactions;          /* (reaction_count) */
   int reaction_count;
   int width;            /* number of columns in a row */
@@ -126,7 +127,7 @@ static void find_largest(figure *f)
     }
   }
   if (f->most[MOMENT] < 1e-9 * f->most[FORCE] * f->picture.drawing->unit) {
-    f->most[MOMENT] = 0.0; /* only rounding errors */
+    f->most[MOMENT] = 0.0; /* the moments are only rounding errors */
   }
 }
 
@@ -179,7 +180,7 @@ static void include_motion(figure *f, int64_t sample, baum_i_box *box)
   include_sample(f, sample, box);
 }
 
-/* ---- what is drawn on top of the shapes ---- */
+/* ---- paths and reactions on top of the shapes ---- */
 
 static void put_stroke(const figure *f, const char *colour)
 {
@@ -268,15 +269,15 @@ static void put_reaction(const figure *f, const reaction *r, int64_t sample)
   baum_i_put(f->picture.out, "</g>\n");
 }
 
-/* Tells whether a scale is drawn for forces, or for moments. In the plane, moments are shown as
+/* Tells whether the picture has a scale for this kind of reaction. Planar moments are shown as
  * arcs, which have no scale. */
 static bool has_scale(const figure *f, effort what)
 {
   return f->most[what] > 0.0 && (what == FORCE || f->picture.drawing->spatial);
 }
 
-/* Draws the scale: an arrow and the force or moment that it stands for, which is the largest one
- * rounded down to 1, 2 or 5 times a power of ten. Returns the height [px] that the scale takes. */
+/* Draws the scale as an arrow with its value. The value is the largest force or moment, rounded
+ * down to 1, 2 or 5 times a power of ten. Returns the height of the scale [px]. */
 static double put_scale(const figure *f, effort what, double below)
 {
   const baum_i_picture *p = &f->picture;

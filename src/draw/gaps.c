@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Red lines that show where the constraints of a joint are violated. They connect points that
- * should coincide, or a point with the line, plane or sphere on which it should be. They also
- * connect the tips of axes that should be parallel. Pictures do not show lines that are too short
- * to be seen. Joints that relate coordinates (gears, racks, couplings and drivers) have no such
- * lines.
+/* Red lines that show the constraint violation of a joint. They connect points that should
+ * coincide, or a point with the line, plane or sphere on which it should be. They also connect the
+ * tips of axes that should be parallel. Pictures omit lines that are too short to be seen. Joints
+ * that relate coordinates (gears, racks, couplings and drivers) have no red lines.
  */
 #include <string.h>
 
@@ -11,15 +10,15 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* TIP is the distance between the joint and the tips of its axes, and ENDLESS is half the length of
- * a line without ends. Both are in units of the drawing. */
+/* TIP is the distance between the joint and the tips of its axes. ENDLESS is half the length with
+ * which an infinite line is drawn. Both are in units of the drawing. */
 static const double TIP = 4.0, ENDLESS = 1000.0;
 
 /* The conditions that a joint imposes, as bits. */
 enum {
   POINTS = 1,    /* the points coincide */
   LINE = 2,      /* the point of body_b is on the axis of body_a */
-  PLANE = 4,     /* the point of body_b is in the plane of body_a */
+  PLANE = 4,     /* the point of body_b is in a plane on body_a */
   LENGTH = 8,    /* the points have a prescribed distance */
   PARALLEL = 16, /* the axes are parallel */
   NORMAL = 32,   /* the axes are perpendicular */
@@ -57,8 +56,8 @@ typedef struct gaps {
   int what;
 } gaps;
 
-/* Draws the gap at the joint. Its ends are shifted by the vectors on_a and on_b, in the axes of
- * each body. */
+/* Draws the gap at the joint. Its ends are shifted by on_a in the axes of body_a, and by on_b in
+ * the axes of body_b. */
 static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
 {
   const baum_i_place *place = g->place;
@@ -105,7 +104,7 @@ static void draw_angle(const gaps *g)
   draw_gap(&plane, zero, tip);
 }
 
-/* Draws gaps for two directions in the plane of body_b, each at both of its tips. */
+/* Draws gaps at both tips of two directions on body_b that are perpendicular to its axis. */
 static void draw_tilt(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
@@ -115,7 +114,7 @@ static void draw_tilt(const gaps *g)
   draw_tips(g, zero, y);
 }
 
-/* Draws gaps for a direction that is normal to the axis and that both bodies should share. */
+/* Draws gaps for a direction that is normal to the axis. It should be the same on both bodies. */
 static void draw_turn(const gaps *g)
 {
   double x[3], y[3], on_b[3];
@@ -124,7 +123,7 @@ static void draw_turn(const gaps *g)
                          : (double)NAN;
   baum_i_complete_axes(g->place->axis[0], x, y);
   baum_i_draw_turn(g->drawing, g->place->body[0], g->place->body[1], x, on_b);
-  if (!isnan(angle)) { /* in the plane, the definition may give the relative orientation */
+  if (!isnan(angle)) { /* planar definitions may prescribe the relative orientation */
     on_b[0] = cos(angle) * x[0] + sin(angle) * x[1];
     on_b[1] = cos(angle) * x[1] - sin(angle) * x[0];
   }

@@ -18,8 +18,9 @@ static void find_down(const baum_i_drawing *drawing, double down[3])
   }
 }
 
-/* Finds the direction from a joint on the ground towards the centre of mass of the other body, or
- * towards the other joints of this body. The direction is zero if there is none. */
+/* Finds the direction from a joint on the ground to the other body. It is the direction of the sum
+ * of the vectors from the joint to the centre of mass and to all joints of this body. The direction
+ * is zero if this sum is too short. */
 static void find_link(const baum_i_symbol *s, int side, double link[3])
 {
   const baum_i_drawing *drawing = s->drawing;
@@ -46,7 +47,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
                        const double along[3], const double across[3])
 {
   enum { MOST = 40 };
-  /* All hatches are one line. After each hatch it returns to the edge. */
+  /* One line draws all hatches. After each hatch, the line returns to the edge. */
   double xy[3 * MOST + 2][2] = {{-half, -below}};
   int count = 1;
   const double step = fmax(1.0, 2.0 * half / MOST);
@@ -88,7 +89,8 @@ static void draw_plate(const baum_i_symbol *s, int side, const double up[3])
 void baum_i_draw_foot(const baum_i_symbol *s)
 {
   static const double foot[4][2] = {{0.0, 0.0}, {-1.5, -2.4}, {1.5, -2.4}, {0.0, 0.0}};
-  /* Cosine of the largest angle between a body that hangs and gravity. */
+  /* A body hangs from a joint if the cosine of the angle between gravity and its direction from the
+   * joint is at least this. */
   static const double HANGS = 0.7;
   double up[3], link[3];
   for (int side = 0; side < 2; side++) {

@@ -8,18 +8,18 @@
 #include "draw/symbols.h"
 #include "mechanism/kinds.h"
 
-/* Half the length of a guide, in units, if there are no samples of a motion. */
+/* Half the length of a guide, in units, if there are fewer than two samples of a motion. */
 static const double REACH = 11.0;
 
-/* A guide on body_a. Its place is the middle of the path along which the point of body_b moves.
- * `half` is half the length of the guide, in units. */
+/* A guide on body_a. Its place is the middle of the path of body_b's point. `half` is half the
+ * length of the guide, in units. */
 typedef struct guide {
   baum_i_place place;
   baum_i_symbol symbol; /* the symbol at this place */
   double half;
 } guide;
 
-/* Returns the displacement [m] of the point of body_b from the point of body_a along the axis. */
+/* Returns the displacement [m] of body_b's point relative to body_a's point along the axis. */
 static double displacement(const baum_i_place *place, const baum_i_spatial_frame *a,
                            const baum_i_spatial_frame *b)
 {
@@ -49,7 +49,7 @@ static void find_guide(const baum_i_symbol *s, double margin, guide *out)
     low = high =
       displacement(place, &s->drawing->design[place->body[0]], &s->drawing->design[place->body[1]]);
   }
-  /* A single sample, as in a live page, does not show how far the motion goes. */
+  /* The extent of the motion is unknown if there is only one sample, as in a live page. */
   out->half = motion->count > 1 ? 0.5 * (high - low) / s->drawing->unit + margin : REACH;
   out->place = *place;
   baum_i_add_scaled3(0.5 * (low + high), place->axis[0], out->place.point[0]);
@@ -57,7 +57,7 @@ static void find_guide(const baum_i_symbol *s, double margin, guide *out)
   out->symbol.place = &out->place;
 }
 
-/* Draws a line of the ground along a guide in the plane. */
+/* Draws the edge of the ground along a planar guide. */
 static void draw_edge(const guide *g, double below)
 {
   double up[3];
@@ -88,9 +88,9 @@ void baum_i_draw_slot(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.5);
 }
 
-/* Draws a rack. The distance of its pitch line from the place is y units, in the direction of
- * `left`. The rack is on the left of the pitch line if `side` is 1, and on the right if it is
- * -1. */
+/* Draws a rack. Its pitch line is y units to the left of the place, where `left` gives the
+ * direction. The rack is on the left of the pitch line if `side` is 1, and on the right if `side`
+ * is -1. */
 static void draw_teeth(const guide *g, double y, double side, const double left[3])
 {
   enum { TEETH = 28 };
@@ -111,7 +111,7 @@ static void draw_teeth(const guide *g, double y, double side, const double left[
                      g->place.axis[0], left);
 }
 
-/* If the radius of the pinion is positive, the rack is on the left of the axis. */
+/* The rack is to the left of the pinion if the radius of the pinion is positive. */
 void baum_i_draw_rack(const baum_i_symbol *s)
 {
   guide g;
@@ -132,7 +132,7 @@ void baum_i_draw_rack(const baum_i_symbol *s)
                       fabs(radius) / s->drawing->unit, 2, (const double(*)[3])disc);
 }
 
-/* A blade seen from above: long and pointed at both ends. */
+/* Draws a blade as it looks from above: long, and pointed at both ends. */
 void baum_i_draw_blade(const baum_i_symbol *s)
 {
   static const double outline[4][2] = {{-3.0, 0.0}, {0.0, -0.6}, {3.0, 0.0}, {0.0, 0.6}};
@@ -143,8 +143,8 @@ void baum_i_draw_blade(const baum_i_symbol *s)
 
 /* ---- a curve F = 0 in the plane, or F = G = 0 in space ---- */
 
-/* The curve of a symbol: F, G and their gradients at a point. In the plane, G is z. Returns false
- * if the function of the user fails. */
+/* Evaluates F, G and their gradients at a point. For planar curves, G is z. Returns false if the
+ * user function fails. */
 static bool evaluate_curve(const baum_i_symbol *s, const double at[3], double value[2],
                            double gradient[2][3])
 {
@@ -172,8 +172,8 @@ static bool evaluate_curve(const baum_i_symbol *s, const double at[3], double va
   return true;
 }
 
-/* Moves a point onto the curve by Newton's method, with the shortest steps. Returns false if the
- * curve has no tangent there. */
+/* Moves a point onto the curve by five Newton steps of least norm, and finds the tangent of the
+ * curve there. Returns false if the curve has no tangent or the user function fails. */
 static bool find_on_curve(const baum_i_symbol *s, double at[3], double tangent[3])
 {
   for (int k = 0; k < 5; k++) {
@@ -198,8 +198,8 @@ static bool find_on_curve(const baum_i_symbol *s, double at[3], double tangent[3
   return true;
 }
 
-/* Largest number of steps along a curve, in one direction: first for a closed curve, then for an
- * open one. Each step is one unit long. */
+/* Largest number of steps in one direction along a closed curve, and along an open curve. Each step
+ * is one unit long. */
 enum { CURVE_STEPS = 240, TRACK_STEPS = 60 };
 
 typedef struct path {
@@ -208,7 +208,8 @@ typedef struct path {
   bool closed;
 } path;
 
-/* Follows the curve from the starting point in one direction, until the curve closes or ends. */
+/* Follows the curve from the starting point in one direction, until it closes or ends, but for at
+ * most `most` steps. */
 static void follow_curve(const baum_i_symbol *s, const double start[3], int direction, int most,
                          path *out)
 {
@@ -234,8 +235,8 @@ static void follow_curve(const baum_i_symbol *s, const double start[3], int dire
   }
 }
 
-/* Finds the points of a closed curve. If the curve is not closed, finds the points of a part of it,
- * with at most TRACK_STEPS steps on each side of the starting point. */
+/* Finds the points of a closed curve. Of an open curve, finds only the points within TRACK_STEPS
+ * steps on either side of the starting point. */
 static void find_path(const baum_i_symbol *s, path *out)
 {
   double start[3];

@@ -15,7 +15,7 @@
 
 static const double X[3] = {1.0, 0.0, 0.0}, Y[3] = {0.0, 1.0, 0.0};
 
-/* Draws a spring and its damper, side by side in the plane, and one around the other in space. */
+/* Draws a spring and its damper. They are side by side in the plane, and coaxial in space. */
 void baum_i_draw_spring(const baum_i_symbol *s)
 {
   bool damps = baum_i_find_number(s->element, "damping") > 0.0;
@@ -64,8 +64,8 @@ static void draw_spiral(const baum_i_symbol *s, const double x[3], const double 
   baum_i_symbol_line(s, BAUM_I_SPRING, 1, 0.0, POINTS, (const double(*)[2])xy, x, y);
 }
 
-/* Draws the spring at the pin between the bodies. If there is no such pin, draws it at the centre
- * of mass of body_b. */
+/* Draws the spring at the last joint between its two bodies. If they have no joint, draws it at the
+ * centre of mass of body_b. */
 void baum_i_draw_torsion(const baum_i_symbol *s)
 {
   const baum_planar_torsion_spring_def *def = s->element->def;
@@ -156,8 +156,8 @@ static bool is_angle(const baum_i_symbol *s, baum_joint_id id, baum_joint_coordi
   return baum_i_is_angle(&c);
 }
 
-/* Draws the spring of an angle as a spiral about its axis, and the spring of a displacement as a
- * coil along its axis. */
+/* Draws a spring as a spiral about its axis if it acts on an angle, and as a coil along its axis if
+ * it acts on a displacement. */
 void baum_i_draw_joint_spring(const baum_i_symbol *s)
 {
   const baum_joint_spring_def *def = s->element->def;
@@ -195,8 +195,8 @@ void baum_i_draw_bushing(const baum_i_symbol *s)
   baum_i_draw_anchor(s, 0);
 }
 
-/* Draws the driver of an angle as an arc about its axis, and the driver of a displacement as an
- * arrow along its axis. */
+/* Draws a driver as an arc about its axis if it prescribes an angle, and as an arrow along its axis
+ * if it prescribes a displacement. */
 void baum_i_draw_driver(const baum_i_symbol *s)
 {
   const bool spline = s->element->definition == baum_i_spline_driver_definition;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds outlines of bodies from the points of their joints. Links are drawn as rounded bars and
- * polygons, sliders as blocks, and wheels as discs. The outline of a body without such points shows
- * its inertia. In the plane it is a disc of the same inertia, and in space it is a box or cylinder
- * that has the same moments about the axes of the body.
+ * polygons, sliders as blocks, and wheels as discs. If a body has no points of joints, its outline
+ * shows its inertia. In the plane this is a disc of the same inertia. In space it is a box or
+ * cylinder with the same moments of inertia about the axes of the body.
  */
 #include <string.h>
 
@@ -12,8 +12,8 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* In units of the drawing: the smallest and the largest size of discs and boxes that show inertia,
- * and half the edges of a slider's block. */
+/* In units of the drawing: limits for the radius of discs that show inertia, and half the edges of
+ * a slider's block. Half the edges of boxes that show inertia are limited to 2 MOST. */
 static const double LEAST = 1.5, MOST = 8.0;
 static const double BLOCK[2] = {2.6, 1.5};
 
@@ -48,9 +48,9 @@ static void add_point(outline *o, const double point[3])
   memcpy(o->points[o->count++], point, 3 * sizeof *point);
 }
 
-/* Tells whether the point of a joint belongs to the outline of a body. For a sliding joint, the
- * point on body_a does not belong to it. This point may be anywhere on the axis and would make the
- * outline too long. */
+/* Tells whether the point of a joint belongs to the outline of a body. The point of a sliding joint
+ * on body_a does not, because it may be anywhere on the axis and would make the outline too
+ * long. */
 static bool is_point_on(const baum_i_place *place, int side)
 {
   return side == 1 || !baum_i_has_field(place->element, "axis") ||
@@ -87,9 +87,9 @@ static void swap3(double a[3], double b[3])
   memcpy(b, kept, sizeof kept);
 }
 
-/* Finds the next corner of the hull. All other points are on the left of the line from `here` to
- * this corner. Only the points from number `first` to n - 1 are candidates. If several points are
- * in line, the farthest of them is taken. */
+/* Finds the next corner of the hull among the points `first` to n - 1. All other points are on the
+ * left of the line from `here` to this corner. If several points are on this line, the farthest is
+ * the corner. */
 static int find_rightmost(const double here[3], int first, int n, const double (*x)[3])
 {
   int found = first;
@@ -102,8 +102,7 @@ static int find_rightmost(const double here[3], int first, int n, const double (
 }
 
 /* Moves the corners of the convex hull to the front of the list, in counter-clockwise order.
- * Returns how many there are. The method is gift wrapping (Jarvis 1973): each next corner has all
- * other points on its left. */
+ * Returns the number of corners. The method is gift wrapping (Jarvis 1973). */
 static int find_hull(int n, double (*x)[3])
 {
   for (int k = 1; k < n; k++) {
@@ -123,7 +122,7 @@ static int find_hull(int n, double (*x)[3])
   return n;
 }
 
-/* Returns the radius of a disc with the same inertia, within limits. */
+/* Returns the radius of a disc with the mass and inertia of the body, limited to LEAST and MOST. */
 static double inertia_radius(const outline *o)
 {
   double mass = baum_i_find_number(o->element, "mass");
@@ -194,8 +193,8 @@ static void draw_planar(outline *o)
 
 /* ---- space ---- */
 
-/* Draws a box with the same moments of inertia. If its edges are 2 e, then I_xx = m
- * (e_y^2 + e_z^2) / 3, and so on. */
+/* Draws a box with the same moments of inertia. A box with edges 2 e_x, 2 e_y and 2 e_z has I_xx =
+ * m (e_y^2 + e_z^2) / 3, and so on. */
 static void draw_box(const outline *o)
 {
   const double u = o->drawing->unit;
@@ -224,8 +223,8 @@ static int find_symmetry(const double inertia[6])
   return -1;
 }
 
-/* Draws a cylinder with the same moments of inertia. If its radius is r and its length 2 e, then
- * I = m r^2 / 2 about its axis, and m (r^2 / 4 + e^2 / 3) about the other axes. */
+/* Draws a cylinder with the same moments of inertia. A cylinder of radius r and length 2 e has I =
+ * m r^2 / 2 about its axis, and I = m (r^2 / 4 + e^2 / 3) about the other axes. */
 static void draw_cylinder(const outline *o, int axis)
 {
   const double least = 0.5 * o->drawing->unit, most = 2.0 * MOST * o->drawing->unit;
@@ -259,7 +258,7 @@ static void draw_spatial(const outline *o)
       draw_box(o);
     }
   }
-  if (o->count == 2) { /* a single bar through the centre of mass */
+  if (o->count == 2) { /* one bent bar through the centre of mass */
     const double bar[3][3] = {{o->points[0][0], o->points[0][1], o->points[0][2]},
                               {0.0, 0.0, 0.0},
                               {o->points[1][0], o->points[1][1], o->points[1][2]}};
@@ -275,7 +274,7 @@ static void draw_spatial(const outline *o)
   }
 }
 
-/* ---- plane and space ---- */
+/* ---- any body ---- */
 
 void baum_i_draw_body(baum_i_drawing *drawing, int body)
 {

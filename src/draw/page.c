@@ -2,10 +2,10 @@
 /* Writes a run as one HTML page. The page consists of the template page.html and of the data that
  * the script in it draws.
  *
- * The data are in JSON. Their numbers are in a table of 16-bit integers, one column after the
- * other, encoded as base64. In each column, 0 to 65534 stand for the values from its smallest to
- * its largest, and 65535 stands for a missing value. The first column is the time. The columns of
- * q, of reactions and of plots follow.
+ * The data are in JSON. Their numbers are in a table of 16-bit integers, which is written column by
+ * column in base64. In each column, 0 stands for the smallest value, 65534 for the largest value,
+ * and 65535 for a missing value. The first column is the time. The columns of q, of reactions and
+ * of plots follow in this order.
  */
 #include <stdint.h>
 #include <string.h>
@@ -20,18 +20,18 @@
 #include "simulate/run.h"
 
 enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
-/* Marks in the template. In a page, the data replace the first mark, and the script that draws
- * solids replaces the second one. */
+/* Placeholders in the template. The data of the page replace DATA, and the script that draws solids
+ * replaces SOLIDS. */
 static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
 
-/* The files as bytes, in C code that cmake/Embed.cmake generates. */
+/* The contents of page.html and solids.js, in C files that cmake/Embed.cmake generates. */
 extern const unsigned char baum_i_page_html[], baum_i_solids_js[];
 
 /* A column of the table. */
 typedef struct column {
   const double *values; /* address of the value in the first sample */
   int64_t stride;
-  bool angle; /* an angle, which is stored as a value from -pi to pi */
+  bool angle; /* values are angles and are stored modulo 2 pi, from -pi to pi */
   bool plotted;
 } column;
 
@@ -69,8 +69,8 @@ static baum_status check_traces(const baum_mechanism *m, const baum_page *page, 
   return BAUM_OK;
 }
 
-/* Checks a list that the caller gives. It must have at least `least` entries, and both of its
- * arrays must be given. */
+/* Checks a list that the caller gives. It must have at least `least` entries. Both of its arrays
+ * must be given unless the list is empty. */
 static baum_status check_list(const char *call, const char *names, int64_t count, int64_t least,
                               const void *array, const void *other)
 {
@@ -116,7 +116,7 @@ static baum_status check_given(const baum_page *page, const char *call)
   return check_marks(page, call);
 }
 
-/* Copies the caller's page. Fields that the struct of an older version does not have keep their
+/* Copies the caller's page. Fields that are missing in the struct of an older version keep their
  * defaults. */
 static baum_status take_page(const baum_page *given, const char *call, baum_page *page)
 {
@@ -164,8 +164,7 @@ bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c)
          m->joints[baum_i_joint_index(m, c->joint)]->type->width > 0;
 }
 
-/* Adds the columns of q to the table. Angles of planar bodies are marked as angles, so that they
- * are stored as values from -pi to pi. */
+/* Adds the columns of q to the table, and marks those which are angles of planar bodies. */
 static void add_positions(table *t, const double *q)
 {
   const int first = t->column_count;
@@ -236,8 +235,8 @@ static void put_plots(table *t, baum_i_buffer *out)
 
 /* ---- frames ---- */
 
-/* Marks the samples in which a plotted column has its smallest or its largest value. Returns the
- * number of plotted columns for which this was done. */
+/* Marks the samples in which the first EXTREMES plotted columns have their smallest and their
+ * largest values. Returns the number of these columns. */
 static int mark_extremes(const table *t, bool *kept)
 {
   int marked = 0;
@@ -256,8 +255,9 @@ static int mark_extremes(const table *t, bool *kept)
   return marked;
 }
 
-/* Chooses the samples that the page contains. These are either all samples, or samples at equal
- * intervals and those with the extreme values of plots. */
+/* Chooses the samples that the page contains. If there are more than FRAMES samples, these are
+ * samples at equal intervals and those with the extreme values of plots. Otherwise these are all
+ * samples. */
 static baum_status choose_frames(table *t)
 {
   const int64_t n = t->page->count;

@@ -116,7 +116,7 @@ void baum_i_draw_clamp(const baum_i_symbol *s)
   baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_BOX, s->place->body[1], 0.0, 2, box);
 }
 
-/* The largest circle of the disc, and its axis. */
+/* Draws the largest circle of the disc, and its axis. */
 void baum_i_draw_rolling_disc(const baum_i_symbol *s)
 {
   const baum_spatial_rolling_disc_def *def = s->element->def;
@@ -134,7 +134,7 @@ void baum_i_draw_rolling_disc(const baum_i_symbol *s)
   baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_LINE, body, 0.4, 2, (const double(*)[3])axle);
 }
 
-/* A thin disc that is perpendicular to the axis. It stands for a blade or a wheel. */
+/* Draws a thin disc that is perpendicular to the axis. It stands for a blade or a wheel. */
 void baum_i_draw_skate(const baum_i_symbol *s)
 {
   const double *at = s->place->point[0], *axis = s->place->axis[0];

@@ -67,8 +67,9 @@ static void normalize(double x[3])
   }
 }
 
-/* In a definition that gives `point`, the axes are in ground axes. In other definitions, `axis` is
- * in the axes of body_a, and `axis_b` is in the axes of body_b. */
+/* Sets the axes of an element from its fields axis, axis_b and angle. If the definition gives
+ * `point`, both axes are in ground axes. Otherwise `axis` is in the axes of body_a, and `axis_b` is
+ * in the axes of body_b. */
 static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
                      baum_i_place *place)
 {
@@ -86,7 +87,7 @@ static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
   }
   baum_i_draw_turn(drawing, place->body[0], place->body[1], axis, axis_b);
   given = find_field(place->element, "angle", &size);
-  if (given && !isnan(*given)) { /* planar guide with a given relative orientation */
+  if (given && !isnan(*given)) { /* a planar guide with a prescribed relative orientation */
     axis_b[0] = cos(*given) * axis[0] + sin(*given) * axis[1];
     axis_b[1] = cos(*given) * axis[1] - sin(*given) * axis[0];
   }
@@ -109,8 +110,8 @@ static bool is_particle(const baum_i_drawing *drawing, int body)
   return kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_SPATIAL_PARTICLE;
 }
 
-/* Sets the points of an element from its fields point, point_a and point_b. The point of a particle
- * is always the particle itself, even if `point` is elsewhere by mistake. */
+/* Sets the points of an element from its fields point, point_a and point_b. If one of the bodies is
+ * a particle, `point` does not apply to this body: the point is the particle itself. */
 static void set_points(const baum_i_drawing *drawing, const double *point, size_t size,
                        baum_i_place *out)
 {
@@ -159,8 +160,8 @@ static void find_place(const baum_i_drawing *drawing, const baum_i_element *elem
   }
 }
 
-/* Makes the lists of the ends on each body and of the gears. With these lists, large mechanisms are
- * drawn quickly. */
+/* Makes the lists of the ends on each body and of the gears. Without these lists, drawing a body
+ * would need a search through all elements. */
 static void list_ends(baum_i_drawing *drawing)
 {
   const baum_mechanism *m = drawing->mechanism;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the solids of spatial mechanisms with WebGL. Only the pages of such mechanisms contain this part of page.html.
-// A mesh has unit size. It is drawn once for each instance, with the axes of this instance. The picture is then copied into the stage.
+// Draws the solids of spatial mechanisms with WebGL. page.c inserts this script into the pages of spatial mechanisms.
+// Every mesh has unit size and is drawn once for each of its instances, with the axes of the instance. The picture is then
+// copied into the stage.
 
 // ---- shaders: a vertex is at centre + p.x x + p.y y + p.z z + p.w along, so `along` stretches a capsule ----
 
 const PASSES = {SHADOW: 0, SOLID: 1, CREASES: 2, OUTLINE: 3};
 const ATTRIBUTES = {p: 4, normal: 3, outward: 3, x: 3, y: 3, z: 3, centre: 3, along: 3, fill: 3, edge: 3};
-const VERTEX = 10, INSTANCE = 21; // how many numbers a vertex has (the first three attributes), and how many an instance has (the others)
+const VERTEX = 10, INSTANCE = 21; // numbers in a vertex (the first three attributes) and in an instance (the other attributes)
 const VERTEX_SHADER = `#version 300 es
 in vec4 p;
 in vec3 normal, outward, x, y, z, centre, along, fill, edge;
@@ -115,7 +116,7 @@ function makePlate(points, thickness) {
 
 // ---- the shapes of a frame, as instances of meshes ----
 
-const parsed = new Map(); // colours that were read before: red, green and blue from 0 to 1
+const parsed = new Map(); // colours that have been converted: red, green and blue from 0 to 1
 function rgb(colour) {
   if (!parsed.has(colour)) parsed.set(colour, [1, 3, 5].map(k => parseInt(colour.slice(k, k + 2), 16) / 255));
   return parsed.get(colour);
@@ -157,7 +158,7 @@ function putDisc({points: [centre, n], radius}, f, fill, thin, tone) {
 function putSolid(shape, frames) {
   const {form, style, body, radius} = shape, f = frames[body], {fill, edge, width} = look(shape), tone = [...rgb(fill || edge), ...rgb(edge)];
   const points = form === 'mesh' ? [] : shape.points.map(p => moved(f, p)), thin = .5 * width / view.scale, none = [0, 0, 0];
-  const wide = Math.max(radius * (1 + .02 * (3 * body % 8)), thin); // lines of different bodies at one place have different widths
+  const wide = Math.max(radius * (1 + .02 * (3 * body % 8)), thin); // lines of different bodies differ in width, so that they remain distinguishable at one place
   const axes = [0, 1, 2].map(k => [f.a[k], f.a[3 + k], f.a[6 + k]]);
   if (form === 'ball') putTube(solids.capsule, points[0], points[0], radius, tone);
   else if (form === 'disc') putDisc(shape, f, fill, thin, tone);

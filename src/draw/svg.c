@@ -14,8 +14,8 @@ static const double MARGIN = 12.0;
 typedef baum_i_picture picture;
 typedef baum_i_look look;
 
-/* How each style looks. Bodies have the colours of COLOUR instead of the fill and stroke given
- * here. */
+/* The look of each style. Bodies have colours of COLOUR instead of the fill and stroke in this
+ * table. */
 static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
@@ -59,7 +59,7 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
 void baum_i_picture_set_view(baum_i_picture *p)
 {
   static const double plane[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  /* [rad] direction of view: rotation about the vertical, and inclination downwards. */
+  /* [rad] Direction of view: rotation about the vertical, and downward inclination. */
   static const double TURN = -0.9, TILT = 0.45;
   memcpy(p->view, plane, sizeof plane);
   if (!p->drawing->spatial) {
@@ -71,7 +71,7 @@ void baum_i_picture_set_view(baum_i_picture *p)
   for (int i = 0; i < 3 && size > 0.0; i++) {
     up[i] = -g[i] / size;
   }
-  /* The vectors x and y are horizontal, as in page.html. */
+  /* Horizontal vectors x and y, the same as in page.html. */
   const double other[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0.0};
   baum_i_cross(up, other, y);
   double length = sqrt(baum_i_dot3(y, y));
@@ -112,17 +112,17 @@ static bool connects(const baum_i_shape *shape)
   return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
-/* Tells whether all points of a shape are positions. Some forms have points that are directions or
- * lengths. */
+/* Tells whether all points of a shape are positions. In other forms, only the first point is a
+ * position on the body. */
 static bool has_places(const baum_i_shape *shape)
 {
   return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-/* Returns a number that is larger if a shape is nearer to the eye. For a bar it is the number of
- * its farther end, so that the joints at both ends cover the bar. For other shapes it is the mean
- * over their points. */
+/* Returns the depth of a shape [m], which increases towards the eye. For a bar it is the depth of
+ * the farther end, so that the joints at both ends cover the bar. For other shapes it is the mean
+ * over their points. Joints are moved one unit towards the eye. */
 static double depth_of(const picture *p, const baum_i_shape *shape)
 {
   bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;
@@ -230,8 +230,8 @@ static void put_path(const picture *p, int count, const double (*at)[3], bool cl
   baum_i_put(p->out, closed ? "Z\"" : "\"");
 }
 
-/* Draws a line. If the shape has a radius, this is a wide line in the colour of the edge, and on
- * top of it a narrower line in the colour of the fill. */
+/* Draws a line. If the shape has a radius, a wide line in the colour of the edge is drawn first,
+ * and then a narrower line in the colour of the fill on top of it. */
 static void put_line(const picture *p, const baum_i_shape *shape, int count, const double (*at)[3],
                      bool closed)
 {
@@ -309,9 +309,9 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
 }
 
 /* Draws a line along the connection between two ends, for example a coil. Each row of xy is a point
- * of this line: x is its position along the connection, as a fraction of the length of the
- * connection, and y is its distance from the connection, in radii. If the shape has a third point,
- * its y moves all points to the left, except the two ends. */
+ * of this line. x is the position along the connection, as a fraction of its length, and y is the
+ * distance from the connection, in radii of the shape. If the shape has a third point, the y of
+ * this point shifts the line to the left, except at its two ends. */
 static void put_along(const picture *p, const baum_i_shape *shape, const double (*ends)[3],
                       int count, const double (*xy)[2])
 {
@@ -434,9 +434,10 @@ static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 
 /* ---- the picture ---- */
 
-/* Tells when a shape, or one triangle of a mesh, is drawn. In the plane, the layer is the number of
- * the shape. In space, outlines of the ground are in a layer behind all others, because a large
- * floor has no single depth. Symbols of forces are in the front layer. */
+/* The order in which shapes and the triangles of meshes are drawn: by layer, then by depth. In the
+ * plane, every shape has its own layer. In space, outlines of the ground are in the rear layer,
+ * because a large floor has no single depth. Couplings, drivers, loads, user elements and gaps are
+ * in front, each in its own layer. All other shapes share one layer. */
 typedef struct order {
   int layer;
   double depth;
@@ -468,8 +469,8 @@ static int layer_of(const picture *p, int k)
   return p->drawing->spatial ? in_space : k;
 }
 
-/* Makes a list of all parts in the order of drawing. Returns their number, or -1 when out of
- * memory. */
+/* Makes a list of all shapes and triangles in the order of drawing. Returns their number, or -1
+ * when out of memory. */
 static int sort_parts(const picture *p, order **out)
 {
   int count = 0, room = 0;

@@ -8,7 +8,7 @@
 
 enum { BAUM_I_CIRCLE = 24 /* number of corners of a circle in space */ };
 
-/* How a shape looks. Colours are "#rrggbb" or "none". */
+/* The look of a shape. Colours are "#rrggbb" or "none". */
 typedef struct baum_i_look {
   char fill[8];
   char stroke[8];
@@ -19,7 +19,8 @@ typedef struct baum_i_look {
 typedef struct baum_i_picture {
   const baum_i_drawing *drawing;
   const baum_i_spatial_frame *frames; /* (body_count + 1) */
-  /* Rotation matrix from ground axes to the axes right, up and towards the eye, by rows. */
+  /* Rotation matrix (by rows) from ground axes to the axes of the picture: right, up and towards
+   * the eye. */
   double view[9];
   double scale;     /* [px/m] */
   double left, top; /* [m] */
@@ -42,8 +43,8 @@ typedef struct baum_i_picture {
 void baum_i_picture_set_view(baum_i_picture *p);
 /* Extend a box [m] so that it includes the shapes at the present frames. */
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
-/* Set the scale so that the picture shows the whole box, and write the beginning of the SVG text.
- * `below` is the height [px] that stays free for texts at the bottom. */
+/* Set the scale so that the picture shows the whole box, and write the beginning of the SVG text. A
+ * strip of height `below` [px] at the bottom stays free for text. */
 void baum_i_picture_begin(baum_i_picture *p, const baum_i_box *seen, double below);
 /* Draw all shapes. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_picture_put_shapes(const baum_i_picture *p);
@@ -55,7 +56,7 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
                             double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
-/* Write a command of an SVG path and a point, which is given in the axes of the picture. */
+/* Write the command `word` of an SVG path with a point, which is in the axes of the picture. */
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
 /* Draw a filled area with a thin edge. */
 void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,
@@ -68,7 +69,7 @@ void baum_i_shade(const char color[8], double factor, char out[8]);
 
 void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *shape);
 
-/* Return how near a triangle of a mesh is to the eye, as the mean over its corners [m]. */
+/* Return the mean depth of the corners of a triangle [m], which increases towards the eye. */
 double baum_i_picture_depth(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
 void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *shape, int triangle);
 

@@ -66,8 +66,8 @@ typedef struct assembled {
   baum_i_buffer *out;
 } assembled;
 
-/* Draws the assembled configuration. If assembly fails, draws the configuration at which it gave
- * up. */
+/* Draws the assembled configuration. If the constraints are inconsistent, draws the configuration
+ * at which assembly stopped. */
 static baum_status draw_assembled(baum_workspace *w, double *q, void *whole)
 {
   const baum_mechanism *m = w->mechanism;

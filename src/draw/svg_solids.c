@@ -21,13 +21,13 @@ void baum_i_shade(const char color[8], double factor, char out[8])
 
 /* ---- cylinders ----
  *
- * In a parallel projection, the silhouette of a cylinder consists of half of each end circle and of
- * two lines between them. The vector x lies in the plane of an end and is orthogonal to the axis
- * and to the direction towards the eye. The two lines therefore begin at x and -x. The vector y is
- * the cross product of the axis and x.
+ * In a parallel projection, the silhouette of a cylinder consists of one half of each end circle
+ * and of two lines between them. The vector x is orthogonal to the axis and to the direction
+ * towards the eye. The two lines therefore begin at x and -x from the centre. The vector y is the
+ * cross product of the axis and x.
  */
 
-/* Sets points on a part of a circle, beginning at the angle `first`. */
+/* Sets `count` points on a circle, beginning at the angle `first`. */
 static void set_arc(const double centre[3], const double (*xy)[3], double first, int count,
                     double (*out)[3])
 {
@@ -39,8 +39,7 @@ static void set_arc(const double centre[3], const double (*xy)[3], double first,
   }
 }
 
-/* Sets the vectors x and y in the plane of the ends of a cylinder. They are as long as its
- * radius. */
+/* Sets the vectors x and y, whose length is the radius of the cylinder. */
 static void set_axes(const double along[3], double radius, double (*xy)[3])
 {
   static const double eye[3] = {0.0, 0.0, 1.0};
@@ -70,7 +69,7 @@ void baum_i_picture_put_cylinder(const baum_i_picture *p, const baum_i_shape *sh
   const double along[3] = {near_end[0] - far_end[0], near_end[1] - far_end[1],
                            near_end[2] - far_end[2]};
   set_axes(along, shape->radius, xy);
-  /* The silhouette contains only that half of the far end circle that is away from the near end. */
+  /* The silhouette contains the half of the far circle that faces away from the near end. */
   const bool upper = xy[1][0] * along[0] + xy[1][1] * along[1] < 0.0;
   const double first = upper ? 0.0 : 0.5 * BAUM_I_REVOLUTION;
   set_arc(far_end, (const double(*)[3])xy, first, HALF + 1, side);
@@ -117,7 +116,7 @@ void baum_i_picture_put_triangle(const baum_i_picture *p, const baum_i_shape *sh
   }
   baum_i_cross(a, b, normal);
   const double size = sqrt(baum_i_dot3(normal, normal));
-  if (fabs(normal[2]) <= 1e-6 * size) { /* seen from the side, or with zero area */
+  if (fabs(normal[2]) <= 1e-6 * size) { /* the triangle is edge-on, or its area is zero */
     return;
   }
   const double cosine = baum_i_dot3(normal, LIGHT) / size * (normal[2] < 0.0 ? -1.0 : 1.0);

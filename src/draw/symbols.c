@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Draws the symbols of joints and forces that are usual in engineering. The table at the end has a
- * line for each kind of joint and force. */
+/* Draws joints and forces with the usual symbols of engineering. The table at the end has a line
+ * for each kind of joint and force. */
 #include "draw/symbols.h"
 
 #include <string.h>

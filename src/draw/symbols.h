@@ -11,7 +11,7 @@ typedef struct baum_i_symbol {
   baum_i_drawing *drawing;
   int number;
   const baum_i_element *element;
-  const baum_i_place *place; /* its `element` is NULL if the kind of element has no place */
+  const baum_i_place *place; /* place->element is NULL if the element has no place */
 } baum_i_symbol;
 
 /* ---- symbols.c ---- */
@@ -19,13 +19,13 @@ typedef struct baum_i_symbol {
 void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form form, int body,
                          double radius, int count, const double (*points)[3]);
 
-/* Connect a point of the place `from` with the point on body_b of the place `to`. Springs and
- * dampers are moved to the left by `shift`. */
+/* Connect the point of the place `from` on its body `side` with the point of the place `to` on
+ * body_b. Springs and dampers are shifted to the left by `shift`. */
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
                            int side, const baum_i_place *to, double radius, double shift);
 
-/* Draw a line or an area. Its points are given by coordinates x and y, in units. Their origin is
- * the point of the place, and their directions are `along` and `across`. */
+/* Draw a line or an area. Its points are given by coordinates x and y, in units, in the directions
+ * `along` and `across` from the point of the place. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);
@@ -37,7 +37,8 @@ void baum_i_symbol_axis(const baum_i_symbol *s, baum_i_style style, int side, do
                         double reach);
 void baum_i_symbol_point(const baum_i_symbol *s, baum_i_style style, int side, double radius);
 
-/* Return a copy of the place of the symbol, with its point on body_a moved by a vector. */
+/* Return a copy of the place of the symbol, with its point on body_a moved `by` units in the
+ * direction `along`. */
 baum_i_place baum_i_move_place(const baum_i_symbol *s, double by, const double along[3]);
 
 /* Return the place of a joint, or NULL if the joint has no place. */
@@ -49,18 +50,18 @@ const baum_i_place *baum_i_place_of(const baum_i_symbol *s, baum_joint_id id);
 void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double below,
                        const double along[3], const double across[3]);
 
-/* Draw the foot of a joint on the ground. The foot is below the joint in the direction of gravity.
- * If the other body hangs from the joint, the foot is above the joint. */
+/* Draw the foot of a joint on the ground. The foot is below the joint in the direction of gravity,
+ * or above the joint if the other body hangs from it. */
 void baum_i_draw_foot(const baum_i_symbol *s);
 
-/* Draw the wall to which a body is welded, on the side opposite to the body. */
+/* Draw the wall to which a body is fixed. The wall is on the side that faces away from the body. */
 void baum_i_draw_wall(const baum_i_symbol *s);
 
-/* Draw the ground at one end of a spring in the plane, on the side opposite to the other end. */
+/* Draw the ground at one end of a planar spring, on the side that faces away from the other end. */
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
-/* Find the direction from a planar guide on the ground to its free side. This direction is opposite
- * to gravity. If the guide is vertical, the direction is towards the mechanism. */
+/* Find the direction from a planar guide on the ground to its free side. This is the upper side. If
+ * the guide is vertical, the free side is the side of the mechanism. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */

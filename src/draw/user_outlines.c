@@ -21,7 +21,7 @@ void baum_outline_init(baum_outline *outline, size_t caller_size)
 
 /* ---- checks ---- */
 
-/* The outline that is being checked, and the names with which messages about it begin. */
+/* The outline that is being checked. Messages about it begin with `call` and the index `k`. */
 typedef struct subject {
   const char *call;
   int k;
@@ -226,7 +226,7 @@ baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism, baum_bod
 
 /* ---- shapes ---- */
 
-/* The form of a shape for each form of an outline. */
+/* The form of the shape that draws each form of outline. */
 static const baum_i_form FORMS[] = {
   [BAUM_OUTLINE_POLYGON] = BAUM_I_AREA, [BAUM_OUTLINE_CIRCLE] = BAUM_I_DISC,
   [BAUM_OUTLINE_BOX] = BAUM_I_BOX,      [BAUM_OUTLINE_CYLINDER] = BAUM_I_CYLINDER,

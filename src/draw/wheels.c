@@ -8,12 +8,12 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* In units of the drawing: how far a tooth extends beyond the pitch circle, and the width of the
- * ring of an internal gear outside of its pitch circle. */
+/* In units of the drawing: the height of teeth above the pitch circle, and the width of an internal
+ * gear outside its pitch circle. */
 static const double TOOTH = 0.6, RING = 1.8;
 
-/* Finds the centre of a wheel. It is the point of the first revolute joint of the body. If there is
- * no such joint, it is the centre of mass. */
+/* Finds the centre of a wheel. It is the point of the first revolute joint of the body, or the
+ * centre of mass if the body has no revolute joint. */
 static void find_centre(const baum_i_drawing *drawing, int body, double centre[3])
 {
   centre[0] = centre[1] = centre[2] = 0.0;
@@ -30,7 +30,7 @@ static void find_centre(const baum_i_drawing *drawing, int body, double centre[3
 }
 
 /* Users may give numbers of teeth as the radii of a gear. The radii are therefore scaled so that
- * they fit the distance between the centres. */
+ * the pitch circles touch. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3])
 {

@@ -9,8 +9,8 @@
  *
  * both for an entry and for the next finer entry. An entry whose error is small only by accident is
  * thus not sufficient. The margin is the factor by which the error of the method decreases when its
- * work increases by the factor MORE_WORK. If no entry satisfies this condition, only error <= E is
- * required. */
+ * work increases by the factor MORE_WORK, but it is limited to MARGINS. If no entry satisfies this
+ * condition, only error <= E is required of both entries. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@
 /* The increase of work from which margins are computed. */
 static const double MORE_WORK = 1.15;
 static const double MARGINS[2] = {2.0, 4.0}; /* the smallest and the largest margin */
-static const double SPEED_MARGIN = 1.25;     /* margin on times, because they vary between runs */
+static const double SPEED_MARGIN = 1.25;     /* margin on CPU times, which vary between runs */
 
 /* ---- front ---- */
 
@@ -33,8 +33,8 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
   return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Tells whether another entry is better: at least as good in error and in cost, and better in one
- * of them. Of two equal entries, the first is considered better. */
+/* Tells whether another entry dominates this entry: its error and its cost are not larger, and one
+ * of them is smaller. Of two equal entries, the first dominates the second. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -62,15 +62,15 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* A list of entries, sorted from cheap to expensive. It has at most `capacity` entries. */
+/* A list of at most `capacity` entries, sorted from cheap to expensive. */
 typedef struct list {
   int32_t *entries;
   int capacity;
   int count; /* number of entries found, which may be larger than the capacity */
 } list;
 
-/* Inserts an entry at its place in the list. More expensive entries move up by one place. The list
- * does not keep entries beyond its capacity. */
+/* Inserts an entry before all more expensive entries. The list drops entries beyond its
+ * capacity. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
   double c = cost_of(study->entries[k], cost);
@@ -109,8 +109,8 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- interpolated settings ---- */
 
-/* A setting between two entries of a method. If `coarse` equals `fine`, it is the setting of this
- * entry. */
+/* A setting between two entries of a method, or the setting of one entry if `coarse` equals
+ * `fine`. */
 typedef struct setting {
   const baum_i_entry *coarse;
   const baum_i_entry *fine;
@@ -133,8 +133,8 @@ static double setting_error(const setting *p)
   return between(p->coarse->out.error, p->fine->out.error, p->share);
 }
 
-/* Returns the share of the setting at which a quantity has the value `wanted`. `coarse` and `fine`
- * are its values at the two entries. */
+/* Returns the position between two entries (see setting.share) at which a quantity has the value
+ * `wanted`. `coarse` and `fine` are the values of this quantity at the two entries. */
 static double share_at(double coarse, double fine, double wanted)
 {
   return coarse == fine ? 1.0 : log(coarse / wanted) / log(coarse / fine);
@@ -143,8 +143,8 @@ static double share_at(double coarse, double fine, double wanted)
 /* ---- cost at an error ---- */
 
 /* Finds the setting of a method at which the error has the given value, by linear interpolation of
- * logarithms. Beyond the first and the last entry, the function extrapolates by at most the
- * distance of two entries. */
+ * logarithms. Extrapolates beyond the first and the last entry by at most the distance between two
+ * entries. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {
@@ -232,9 +232,9 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* Returns the error that is expected of an entry. With margin, this is the largest error over twice
- * the span and for perturbed starts. Without margin, it is the measured error. If the entry was not
- * validated, the ratio of these two errors is taken from `beside`, which is an entry of the same
+/* Returns the error that is expected of an entry. Without margin, this is the measured error. With
+ * margin, it is the largest error over twice the span and for perturbed starts. If this error is
+ * not known, it is estimated from the ratio of both errors of `beside`, a neighbouring entry of the
  * method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
@@ -249,7 +249,7 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
 }
 
 /* Returns the margin at an entry, which is the factor by which MORE_WORK reduces the error there.
- * It is larger for methods of higher order. */
+ * The margin is larger for methods of higher order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -260,8 +260,8 @@ static double margin_at(const baum_i_entry *const *entries, int count, int k)
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* Finds the coarsest setting of a method for which two errors are not larger than the given one:
- * the error of the setting itself, and the error of the next finer entry.
+/* Finds the coarsest setting of a method at which two expected errors are at most the given error
+ * divided by the margin: the error of the setting, and the error of the next finer entry.
  */
 static bool find_setting(const baum_i_entry *const *entries, int count, double error,
                          bool with_margin, setting *out)
@@ -292,7 +292,8 @@ typedef struct question {
   const baum_integrator *without; /* an integrator that must not be recommended, or NULL */
 } question;
 
-/* Finds the setting that is cheapest among all methods. */
+/* Finds the cheapest setting of all methods that meets the requirements. Returns false if there is
+ * none. */
 static bool find_best(const baum_study *study, const question *q, setting *best)
 {
   *best = (setting){.coarse = NULL};
@@ -311,7 +312,7 @@ static bool find_best(const baum_study *study, const question *q, setting *best)
   return best->fine != NULL;
 }
 
-/* Rounds a setting to two digits. A step is rounded to a step that divides the span. */
+/* Rounds rtol down to two digits, or a step down to a step that divides the span. */
 static double rounded(const baum_study *study, double value, bool fixed)
 {
   if (fixed) {
@@ -334,7 +335,7 @@ static baum_simulation_options options_of(const baum_study *study, const setting
   return o;
 }
 
-/* Appends the best setting of any other integrator to the text, for comparison. */
+/* Appends the next best integrator and its relative cost to the text. */
 static void add_rival(const baum_study *study, const setting *best, question q, char *why,
                       size_t size)
 {
@@ -384,7 +385,7 @@ static void add_margin(const baum_study *study, const setting *p, const question
 }
 
 /* Warns if the recommended formulation has no stabilization. It may be the cheapest one within the
- * span, but it drifts. */
+ * span, but its constraint violation grows. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
@@ -465,8 +466,7 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* Tells whether a setting is better than another one. It must be more accurate, or as accurate and
- * faster. */
+/* Tells whether a setting is more accurate than another one, or equally accurate and faster. */
 static bool beats(const setting *p, const setting *other)
 {
   if (!other->fine) {

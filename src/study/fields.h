@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables that list the members of structs by name. Study files, CSV, JSON and the page are written
- * from them. The members of an entry are listed in BAUM_STUDY_ENTRY_LIST. */
+/* Tables that list the members of structs by name. They determine the fields of study files, CSV,
+ * JSON and the page. BAUM_STUDY_ENTRY_LIST lists the members of an entry. */
 #ifndef BAUM_I_STUDY_FIELDS_H
 #define BAUM_I_STUDY_FIELDS_H
 
@@ -25,16 +25,16 @@ typedef struct baum_i_field {
   const char *meaning;
   baum_i_kind kind;
   bool when_done; /* known only for entries whose state is "done" */
-  bool filed;     /* whether study files contain it */
+  bool filed;     /* whether study files contain the field */
   size_t place;   /* offset of the member in its struct */
 } baum_i_field;
 
-/* An entry of a study, and the data that a report adds to it. */
+/* An entry of a study with the data that a report adds to it. */
 typedef struct baum_i_report_entry {
-  baum_study_entry entry; /* first member, so that offsets are those of an entry */
+  baum_study_entry entry; /* first member, so that both structs have the same offsets */
   const char *gains;      /* name of the rule for gains; NULL if there is none */
-  double gain[2];         /* the numbers of this rule; NaN if there are none */
-  bool front[2];          /* whether the entry is on the front, for each baum_study_cost */
+  double gain[2];         /* the parameters of this rule; NaN if it has none */
+  bool front[2];          /* whether the entry is on the Pareto front, for each baum_study_cost */
 } baum_i_report_entry;
 
 typedef struct baum_i_report_method {
@@ -47,10 +47,11 @@ extern const baum_i_field baum_i_entry_fields[];     /* fields of a baum_i_repor
 extern const baum_i_field baum_i_method_fields[];    /* fields of a baum_i_report_method */
 extern const baum_i_field baum_i_reference_fields[]; /* fields of a baum_study_reference */
 
-/* Returns the value of a member that is a text. Returns NULL if it is not known. */
+/* Returns the value of a member that is a text. Returns NULL if the value is not known. */
 const char *baum_i_field_text(const baum_i_field *field, const void *object);
 
-/* Returns the value of a member that is a number of any kind. Returns NaN if it is not known. */
+/* Returns the value of a member that is a number of any kind. Returns NaN if the value is not
+ * known. */
 double baum_i_field_number(const baum_i_field *field, const void *object);
 
 /* Returns the value of a member that is a whole number, an enum or a flag. Returns 0 if the member

@@ -2,15 +2,15 @@
 /* The standard grid of settings that a study can add.
  *
  * Tolerances decrease by equal ratios from 1e-2 to the finest one, and are rounded to one digit.
- * Steps begin with h0. Each step is the previous one divided by a constant factor. They are rounded
- * to (t1 - t0) / N with a whole number N. The product of h0 and the rate of the motion
- * (baum_i_study_rate()) and the factor depend on the order of the method:
+ * Steps begin with h0, decrease by a constant factor, and are rounded down to (t1 - t0) / N with a
+ * whole number N. The factor, and the product of h0 and the rate of the motion
+ * (baum_i_study_rate()), depend on the order of the method:
  *
  *   order        1      2      3 to 5   8
  *   h0 x rate    0.1    0.3    0.5      0.8
  *   factor       3      3      2        1.5
  *
- * The quick grid has the first five of these steps, and five tolerances in the same range. */
+ * The quick grid has the first five of these steps, and five tolerances over the same range. */
 #include <math.h>
 
 #include "base/sized.h"
@@ -113,8 +113,8 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
-/* Returns the finest tolerance of the grid. If derivatives of constraints are missing and replaced
- * by differences, the tolerance is not below the error of these differences. */
+/* Returns the finest tolerance of the grid. Its default is not below the error of the difference
+ * quotients that replace missing derivatives of constraints. */
 static double finest_of(const grid *g)
 {
   double finest = g->wanted->finest;
@@ -146,7 +146,7 @@ static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fix
   return BAUM_OK;
 }
 
-/* Adds settings by step and settings by rtol, if the integrator offers them. */
+/* Adds settings with rtol and settings with a fixed step, as far as the integrator offers them. */
 static baum_status add_settings(const grid *g, const baum_simulation_options *o)
 {
   if (o->integrator->without_freedom) {
@@ -158,8 +158,8 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
   return baum_integrator_has_fixed_step(o->integrator) ? add_ladder(g, *o, true) : BAUM_OK;
 }
 
-/* Adds settings with three kinds of gains: the gains of the integrator's default rule, the gains of
- * the rule "auto", and constant gains. */
+/* Adds settings with the integrator's default gains. The full grid of Baumgarte's method also has
+ * settings with the rule "auto" and with constant gains. */
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
   BAUM_I_TRY(add_settings(g, &o));

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sorts entries by method, and finds what one more digit of accuracy costs.
  *
- * The error of a method is about C h^p, where h is the step or rtol. This is true until the error
- * reaches rounding, or the uncertainty of the reference. The cost is also about proportional to a
- * power of h. Straight lines are therefore fitted to the logarithms of error and cost, from the
- * coarsest entry to the most accurate one. Errors near the smallest one do not follow these lines.
- * Entries with an error below FLOOR times the smallest error are therefore excluded, except the
- * most accurate entry. */
+ * The error of a method is about C h^p, where h is the step or rtol, until rounding errors or the
+ * uncertainty of the reference dominate. The cost is also about proportional to a power of h.
+ * Straight lines are therefore fitted to the logarithms of error and cost, from the coarsest entry
+ * to the most accurate one. Errors near the smallest error do not follow these lines. The fit
+ * therefore excludes entries with errors below FLOOR times the smallest error, except the most
+ * accurate entry. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -71,8 +71,8 @@ int baum_i_study_usable(const baum_study *study, int method,
   return count;
 }
 
-/* Returns the slope of the least-squares line through points. Returns NaN if there are not at least
- * two different points. */
+/* Returns the slope of the least-squares line through points. Returns NaN if there are fewer than
+ * two different values of x. */
 static double slope_of(const double *x, const double *y, int count)
 {
   double mx = 0.0;

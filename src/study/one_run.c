@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Makes one run of a study. To measure its errors, the run goes through all samples. To measure its
- * cost, it only goes to the end of the span.
+/* Makes one run of a study. A run that measures errors computes all samples. A run that measures
+ * the cost only advances to the end of the span.
  */
 #include <math.h>
 #include <stdio.h>
@@ -34,7 +34,7 @@ static int check_deadline(const baum_simulation *simulation, double t, void *use
   return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* Returns the options of an entry, with the options of the study added. */
+/* Returns the options of the task, completed by the options that the study determines. */
 static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
@@ -69,8 +69,8 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   return rest == BAUM_OK ? status : rest;
 }
 
-/* Advances a run to the end of the span. For kinematics the cost depends on the times at which
- * configurations are requested, so such a run goes through the samples. */
+/* Advances a run to the end of the span. A run of kinematics also stops at the times of all
+ * samples, because its cost depends on the times at which configurations are requested. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
   const baum_i_samples *samples = task->samples;
@@ -85,7 +85,7 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-/* Copies a warning of the run: the first one that says that the motion may be wrong, or else the
+/* Copies the first warning that says that the motion may be wrong. If there is none, copies the
  * first of all warnings. */
 static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
                          size_t size)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference is the motion with which runs are compared. It consists of given samples, or it is
- * a closed-form solution, or the study computes it.
+/* The reference is the motion with which runs are compared. The user gives it as samples or as a
+ * closed-form solution, or the study computes it.
  *
- * The study computes a reference with two formulations that have nothing in common except the
- * equations of motion. One of them uses projection. Each formulation makes a run at a tight
- * tolerance, and a run at half of this tolerance. The run of the first formulation at the tighter
- * tolerance is the reference. The largest difference between the reference and the other three runs
- * is the uncertainty of the reference. If runs fail, or differ by more than CLOSE, the study also
- * tries looser tolerances and implicit methods. It then uses the attempt with the smallest
- * difference. The last attempt makes two runs with RK4, one with STEPS steps and one with twice as
- * many. It succeeds even after singular configurations, where constraint violations grow
+ * The study computes a reference with projection and with Baumgarte's method, which have nothing in
+ * common except the equations of motion. Each formulation makes a run at a tight tolerance and a
+ * run at half of this tolerance. The projection run at the tighter tolerance is the reference. The
+ * largest difference between the reference and the other three runs is the uncertainty of the
+ * reference. If runs fail, differ by more than CLOSE, or come near a singular configuration, the
+ * study also tries looser tolerances and implicit methods. It then uses the attempt with the
+ * smallest difference, but prefers attempts without a singular configuration. In the last attempt,
+ * all runs use projection. Its second pair of runs uses RK4, with STEPS and with 2 STEPS steps.
+ * This attempt succeeds even after singular configurations, where constraint violations grow
  * strongly. */
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +23,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-/* If the difference is below this, no other attempt is made. */
+/* No other attempt is made if the difference is at most this. */
 static const double CLOSE = 1e-9;
 static const double TRUSTED = 1e-3;   /* largest difference for which a reference is trusted */
 static const double ROUNDING = 1e-15; /* the uncertainty is at least this */
@@ -33,7 +34,8 @@ enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
 typedef const baum_integrator *integrator_fn(void);
 
-/* How an attempt computes a reference: with which integrators, formulations and tolerance. */
+/* The integrators, the formulations and the tolerance with which an attempt computes a
+ * reference. */
 typedef struct attempt {
   integrator_fn *integrator[PARTIES];
   baum_formulation formulation[PARTIES];
@@ -50,7 +52,7 @@ static const attempt ATTEMPTS[] = {
 };
 
 /* The attempt for mechanisms in which drivers prescribe all degrees of freedom. It compares
- * kinematics, whose configurations are accurate to rounding, with an integration. */
+ * kinematics, whose configurations are accurate to rounding errors, with an integration. */
 static const attempt WITHOUT_FREEDOM[] = {
   {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
 };
@@ -104,8 +106,8 @@ static void describe_failure(const baum_simulation_options *o, const baum_i_outc
                  baum_i_options_name(o).text, outcome->message);
 }
 
-/* Makes one run of an attempt and writes its samples to `values`. The first run of an attempt is
- * the reference with which the others are compared. */
+/* Makes one run of an attempt and writes its samples to `values`. The first run becomes the
+ * reference, and later runs are compared with it. */
 static baum_status compare_run(baum_study *study, const baum_simulation_options *o,
                                baum_i_deadline *deadline, double *values, found *out)
 {
@@ -138,8 +140,8 @@ static void describe(const baum_study *study, const attempt *a, found *out)
                baum_i_method_name(&one).text, baum_i_method_name(&other).text, a->rtol);
 }
 
-/* Makes the four runs of an attempt, beginning with the one that becomes the reference. Afterwards
- * study->reference.samples.values is NULL. */
+/* Makes up to four runs of an attempt, beginning with the run that becomes the reference. Sets
+ * study->reference.samples.values to NULL afterwards. */
 static baum_status run_attempt(baum_study *study, const attempt *a, baum_i_deadline *deadline,
                                found *out)
 {
@@ -239,7 +241,7 @@ static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
   return best.values ? baum_i_study_weigh(study) : BAUM_OK;
 }
 
-/* ---- given ---- */
+/* ---- given reference ---- */
 
 static bool all_known(const double *values, int count)
 {
@@ -251,28 +253,29 @@ static bool all_known(const double *values, int count)
   return true;
 }
 
-/* Tells whether a channel does not depend on velocities. */
+/* Tells whether a channel is independent of velocities. */
 static bool is_of_position(baum_quantity quantity)
 {
   return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
 }
 
-/* A run that is used only to evaluate channels. It is set to one sample after the other. */
+/* A run that serves only to evaluate channels. It is set to one sample after the other. */
 typedef struct probe {
   baum_simulation *run;
   bool lost; /* whether the number of revolutions of some angle is unknown */
 } probe;
 
-/* Follows the revolutions of angles from the previous sample to this one. The velocities of both
+/* Counts the revolutions of angles from the previous sample to this one. The velocities of both
  * samples predict each angle. If an angle differs from its prediction by more than a quarter of a
- * revolution, its number of revolutions is no longer known. */
+ * revolution, its number of revolutions is unknown from then on. */
 static void follow(probe *p, const baum_i_state *at)
 {
   double off = baum_i_run_follow_angles(p->run, at);
   p->lost = p->lost || off > 0.25 * BAUM_I_REVOLUTION;
 }
 
-/* Computes the energy and the user's channels of a sample. Its q, v and lambda are known. */
+/* Computes the energy and the user's channels of a sample from its q and v. Values that depend on
+ * unknown numbers become NaN. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, probe *p, double t,
                           double *sample)
 {
@@ -291,7 +294,7 @@ static baum_status derive(const baum_study *study, const baum_i_layout *l, probe
   BAUM_I_TRY(baum_i_check_memory(still));
   follow(p, &at);
   if (p->lost) {
-    has_v = false; /* forces and energies may depend on the unknown revolutions */
+    has_v = false; /* forces and energies may depend on the unknown number of revolutions */
   }
   if (has_v) {
     status = baum_i_output(p->run, &at, &energy, 1, sample + l->energy);
@@ -373,7 +376,7 @@ static baum_status take_given(baum_study *study)
   return status;
 }
 
-/* ---- all ---- */
+/* ---- any reference ---- */
 
 baum_status baum_i_study_set_times(baum_study *study)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports of studies. All forms of reports are made from a snapshot of the study. */
+/* Reports of studies. A report of any form is written from a snapshot of the study. */
 #ifndef BAUM_I_STUDY_REPORT_H
 #define BAUM_I_STUDY_REPORT_H
 
@@ -11,21 +11,21 @@
 #include "base/text.h"
 #include "study/fields.h"
 
-/* Numbers of recommendations and of kinds of cost. Recommendations are made for the errors 1e-2,
- * 1e-4, 1e-6, 1e-8 and 1e-10. */
+/* The number of recommendations for each kind of cost, and the number of kinds of cost. There is a
+ * recommendation for each of the errors 1e-2, 1e-4, 1e-6, 1e-8 and 1e-10. */
 enum { BAUM_I_ADVICE = 5, BAUM_I_COSTS = 2 };
 
 /* The recommendation for one error. */
 typedef struct baum_i_advice {
   double error;
   baum_status status;
-  baum_simulation_options options; /* the recommended setting, unless the status is an error */
+  baum_simulation_options options; /* the recommended options, unless the status is an error */
   baum_i_text setting;             /* name of the setting, or "" if there is none */
   /* Why this setting is recommended, or why there is no recommendation. */
   char why[BAUM_I_MESSAGE_SIZE];
 } baum_i_advice;
 
-/* The versions and the machine with which a report was made. */
+/* The software versions, the machine and the date of a report. */
 typedef struct baum_i_environment {
   const char *baum;     /* version of baum */
   const char *sundials; /* version of SUNDIALS, or "none" */
@@ -46,7 +46,7 @@ typedef struct baum_i_snapshot {
   int entry_count;
   baum_i_report_method *methods;
   int method_count;
-  int32_t *front[BAUM_I_COSTS]; /* the entries on each front, from cheap to accurate */
+  int32_t *front[BAUM_I_COSTS]; /* the entries on each Pareto front, from cheap to accurate */
   int32_t front_count[BAUM_I_COSTS];
   baum_i_advice advice[BAUM_I_COSTS][BAUM_I_ADVICE];
   baum_i_environment environment;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a study as JSON (RFC 8259). The names of keys never change. The number "version" is
- * increased if a key gets another meaning. */
+/* Writes a study as JSON (RFC 8259). The names of keys never change. If a key gets another meaning,
+ * the number "version" increases. */
 #include <math.h>
 
 #include "study/report.h"

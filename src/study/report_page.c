@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Writes a study as one HTML page. The page consists of the template report.html, a picture of the
- * mechanism, and the data that the script in the template draws. The data begin with the report as
+ * mechanism, and the data that the script in the template draws. The data contain the report as
  * JSON. For each fixed-step integrator with gains, they also contain its gain rule, its point of
- * best damping, and level lines of the spectral radius, which show where it is stable. */
+ * best damping, and level lines of the spectral radius, which show the region of stability. */
 #include <math.h>
 #include <string.h>
 
@@ -14,11 +14,11 @@
 
 enum { POINTS = 4000, LEVELS = 3 };
 static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
-/* In the page, the picture replaces this mark of the template. */
+/* Placeholders in the template for the picture and the data. */
 static const char PICTURE[] = "<!-- PICTURE -->";
 static const char DATA[] = "\"DATA\"";
 
-/* The template as bytes, in C code that cmake/Embed.cmake generates. */
+/* The contents of report.html, in a C file that cmake/Embed.cmake generates. */
 extern const unsigned char baum_i_report_html[];
 
 static bool has_gains(const baum_study_entry *entry)
@@ -80,8 +80,8 @@ static void put_regions(const baum_i_snapshot *snapshot, double *points, baum_i_
   }
 }
 
-/* Draws the initial configuration of the mechanism. If assembly fails, draws the design
- * configuration. */
+/* Draws the initial configuration of the mechanism, or the design configuration if assembly
+ * fails. */
 static void put_picture(const baum_study *study, baum_i_buffer *out)
 {
   baum_simulation *start = NULL;

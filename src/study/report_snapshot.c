@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads all that a report needs from a study, through its public interface. */
+/* Reads all data of a report from a study, through its public interface. */
 #include <math.h>
 #include <stdio.h>
 

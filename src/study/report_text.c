@@ -6,8 +6,8 @@
 
 #include "study/report.h"
 
-/* Returns the width of the column of names, which is the width of the longest name or of the
- * column's title. */
+/* Returns the width of the column of names, which fits the longest name and the title of the
+ * column. */
 static int name_width(const baum_i_snapshot *snapshot)
 {
   int width = baum_i_length("setting");

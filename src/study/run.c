@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a study. First it computes the reference. Then it runs all entries. The runs that measure
- * errors use several threads, and the runs that measure times are made one after the other.
- * Finally, it validates those entries that may be recommended. */
+/* Runs a study. First it computes the reference. Then it runs all entries: in several threads to
+ * measure errors, and one after the other to measure times. Finally, it validates those entries
+ * that may be recommended. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,14 +10,14 @@
 #include "base/platform.h"
 #include "study/study.h"
 
-/* [-] A run whose positions have a larger error has followed another motion. */
+/* [-] A run whose positions have a larger error than this has followed another motion. */
 static const double OFF = 0.1;
-/* Time limit of a validation, divided by the limit of an entry. */
+/* Time limit of a validation run, divided by the time limit of an entry. */
 static const double VALIDATED_FOR = 5.0;
-/* [s] an entry is run again until the runs have taken this time in total. */
+/* [s] The runs that time an entry are repeated until they have taken this time in total. */
 static const double TIMED_FOR = 0.2;
 
-/* Data that the threads have in common. */
+/* Data that the threads share. */
 typedef struct workers {
   baum_study *study;
   baum_i_study_file *file;
@@ -46,8 +46,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Sets the error over the whole span and the error at its end. An error is never below the
- * uncertainty of the reference. */
+/* Sets two errors from two differences. An error is NaN if the difference is unknown, and never
+ * below the uncertainty of the reference. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
@@ -118,15 +118,15 @@ static void note_failure(workers *c, baum_status status)
   }
 }
 
-/* Returns the deadline of a run. Its time limit is `limits` times the limit of an entry. */
+/* Returns the deadline of a run. The time limit is `limits` times the time limit of an entry. */
 static baum_i_deadline deadline_of(const workers *c, double limits)
 {
   return (baum_i_deadline){
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* Runs work() in several threads. Their number is given by the options, but it is at most the
- * number of entries. */
+/* Runs work() in as many threads as the options give, but in no more threads than there are
+ * entries. */
 static void run_workers(workers *c, void (*work)(void *user, int k))
 {
   int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
@@ -145,8 +145,8 @@ static void report_progress(workers *c)
   }
 }
 
-/* Tells whether an entry need not be run, because a coarser setting of its method has already
- * reached the time limit. */
+/* Tells whether an entry is skipped because a coarser setting of its method has already reached the
+ * time limit. */
 static bool is_too_fine(const workers *c, const baum_i_entry *entry)
 {
   double setting = baum_i_setting(&entry->options);
@@ -163,7 +163,7 @@ static void mark_too_fine(const workers *c, baum_i_entry *entry)
   entry->stage = BAUM_I_MEASURED;
 }
 
-/* Returns the next entry to be run, or NULL if there is none. */
+/* Returns the next entry to be run. Returns NULL if there is none, or if the study must stop. */
 static baum_i_entry *next_entry(workers *c)
 {
   const baum_i_deadline deadline = deadline_of(c, 1.0);
@@ -261,7 +261,7 @@ static void validate(void *self, int k)
   run_entries(self, validate_entry);
 }
 
-/* Makes the list of the entries that need validation. Returns whether there is any such entry. */
+/* Makes the list of the entries that need validation. Returns false if the list is empty. */
 static bool order_validations(workers *c)
 {
   const baum_study *study = c->study;
@@ -303,7 +303,7 @@ static int rank_of(const baum_study *study, const baum_i_entry *entry)
   return rank;
 }
 
-/* An entry and its rank, by which entries are sorted. */
+/* An entry with its rank and its index, by which entries are sorted. */
 typedef struct place {
   baum_i_entry *entry;
   int rank;
@@ -318,8 +318,8 @@ static int by_rank(const void *a, const void *b)
                             : (x->k > y->k) - (x->k < y->k);
 }
 
-/* Sorts the entries into the order in which they are run. Coarse settings come first, so that all
- * methods have results if the time budget is used up. */
+/* Sorts the entries to be measured. Coarse settings come first, so that every method has results
+ * when the time budget is used up. */
 static baum_status set_order(workers *c)
 {
   const baum_study *study = c->study;
@@ -344,11 +344,11 @@ static baum_status set_order(workers *c)
 
 /* ---- times ---- */
 
-/* Returns the cost of a run as a number that does not depend on the machine. It is the number of
- * evaluations of right-hand sides or residuals, plus the factorizations, plus the iterations of
- * implicit methods. An explicit method thus counts 2 for each stage, and CVODE's Adams method
- * counts 3 for each iteration. IDA and BDF factorize larger matrices, and SUNDIALS does other work
- * between evaluations. Only the CPU time shows these costs. */
+/* Returns the work of a run, a cost that does not depend on the machine. The work is the number of
+ * evaluations of right-hand sides or residuals, plus the number of factorizations, plus the number
+ * of iterations of implicit methods. An explicit method thus has a work of 2 for each stage, and
+ * CVODE's Adams method has a work of 3 for each iteration. IDA and BDF factorize larger matrices,
+ * and SUNDIALS does other work between evaluations. Only the CPU time shows these costs. */
 static double work_of(const baum_study_entry *r)
 {
   return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
@@ -416,7 +416,7 @@ static void time_entries(workers *c)
 
 /* ---- the whole study ---- */
 
-/* Counts the entries that have no result, or no time. */
+/* Counts the entries that must still be measured or timed. */
 static int waiting(const baum_study *study)
 {
   int count = 0;
@@ -427,8 +427,8 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-/* Tells whether any entry will be compared with the reference. This is so for entries that must be
- * measured, and for entries that may need validation after they are timed. */
+/* Tells whether any entry will be compared with the reference: it must be measured, needs
+ * validation, or may need validation after it is timed. */
 static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
@@ -497,7 +497,7 @@ static baum_status conclude(workers *c)
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
-/* Prepares the memory, the samples, the study file and the reference. */
+/* Prepares the memory, the samples, the study file, the reference and the order of the runs. */
 static baum_status begin_study(workers *c)
 {
   baum_study *study = c->study;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes how much the samples of a run differ from the reference. A sample has several parts. The
- * errors of its numbers are
+/* Computes the differences between the samples of a run and the reference. A sample has several
+ * parts with these errors:
  *
- *   q       |dq_i| / s_i             s: scales of the mechanism, L for lengths and 1 for angles
+ *   q       |dq_i| / s_i             s: characteristic length for lengths, and 1 for angles
  *   v       |dv_i| / (s_i V)         V: largest |v_j| / s_j over all samples of the reference [1/s]
  *   lambda  |dlambda_i| n_i / E      n_i: displacement of row i for changes of q by s
  *                                   E: largest |lambda_j| n_j over all samples [J]
  *   energy  |d(T + U)|
- *   user    |dx_i| / unit        without channels of the user, the error is that of q
+ *   user    |dx_i| / unit            the error of q if the user gives no channels
  *
  * Numbers that are missing in the reference are not compared. If a number is missing in a run but
  * not in the reference, the error of the run is infinite. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Settings for a stress test of a user's mechanism. The steps, tolerances and gains cover a wide
- * range in factors of 10. */
+/* Settings for a stress test of a user's mechanism. Steps, tolerances and gains vary by factors of
+ * ten over a wide range. */
 #include <math.h>
 
 #include "base/text.h"
@@ -9,8 +9,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Exponents of ten. Steps are 10^-1 to 10^-9 of the period, rtol is 10^-2 to 10^-14, and gains are
- * 10^-6 to 10^12 1/s.
+/* Exponents of ten. Steps are 10^-1 to 10^-9 periods, rtol is 10^-2 to 10^-14, and gains are 10^-6
+ * to 10^12 1/s.
  */
 enum {
   FIRST_STEP = 1,
@@ -53,8 +53,8 @@ static baum_status add_settings(const ladders *l, const baum_simulation_options 
   return BAUM_OK;
 }
 
-/* Adds settings with different gains, at one moderate step or tolerance. The first has no gains,
- * and the others have alpha = beta = 10^k 1/s for every exponent k in the range. */
+/* Adds settings with different gains, at one moderate step or tolerance. The first setting has
+ * gains of zero. The others have alpha = beta = 10^k 1/s for every exponent k in the range. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
   o.formulation = BAUM_FORMULATION_BAUMGARTE;

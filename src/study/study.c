@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates a study, defines what it studies, and returns its reference. */
+/* Creates a study, sets its options, its error and its reference, and returns the reference. */
 #include <baum/study.h>
 
 #include <math.h>
@@ -81,8 +81,8 @@ static void truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
-/* Tells whether this build contains an integrator. The list always contains the integrators of
- * SUNDIALS, even in a build without SUNDIALS. */
+/* Tells whether this build contains an integrator. The list of integrators always contains the
+ * integrators of SUNDIALS, even in a build without SUNDIALS. */
 static bool is_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;
@@ -139,7 +139,7 @@ void baum_study_cancel(baum_study *study)
 /* ---- options ---- */
 
 enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
-/* Largest number of values of q, v and lambda in the samples that one thread stores. */
+/* Largest total number of values of q, v and lambda in the samples of a run. */
 static const double MOST_NUMBERS = 1e8;
 
 static int most_samples(const baum_mechanism *m)

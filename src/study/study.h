@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The internals of a study. A study has settings and an entry for each of them, a reference, and
- * runs of entries, which are compared with the reference.
+/* The internals of a study. A study has an entry for each setting, and a reference. It runs the
+ * entries and compares their motions with the reference.
  *
- * Runs are compared at a number of samples. The samples of a run are a matrix. It has one row for
- * each sample, and the columns
+ * Runs are compared at samples. The samples of a run form a matrix with one row for each sample and
+ * these columns:
  *
  *   q (nq)   v (nv)   lambda (nc)   kinetic, potential energy (2)   the user's channels */
 #ifndef BAUM_I_STUDY_STUDY_H
@@ -38,9 +38,9 @@ typedef struct baum_i_differences {
   double energy[2];
 } baum_i_differences;
 
-/* The stage that an entry has reached. MEASURED: the errors and all other results that concern the
- * motion are known. TIMED: if the run succeeded, its work and time are known as well. VALIDATED:
- * error_validated is known as well, if it could be computed. */
+/* The stage that an entry has reached. MEASURED: the errors and all other results of the motion are
+ * known. TIMED: the work and the time of the run are also known. VALIDATED: error_validated is also
+ * known, if it could be computed. */
 typedef enum baum_i_stage {
   BAUM_I_ADDED,
   BAUM_I_MEASURED,
@@ -49,7 +49,7 @@ typedef enum baum_i_stage {
 } baum_i_stage;
 
 typedef struct baum_i_entry {
-  baum_study_entry out; /* the results; its name and message point to the members below */
+  baum_study_entry out; /* the results; `name` and `message` in it point to the members below */
   baum_simulation_options options;
   double *row_gains; /* a copy of the array that the options contain */
   baum_i_text name;
@@ -57,10 +57,10 @@ typedef struct baum_i_entry {
   uint64_t key; /* key that identifies the options */
   double limit; /* [s] the time limit per entry when this entry was measured */
   baum_i_stage stage;
-  baum_i_stage filed; /* the stage that the entry had in the study file when the file was opened */
+  baum_i_stage filed; /* the stage of the entry in the study file when the file was opened */
 } baum_i_entry;
 
-/* Samples of a motion. */
+/* Samples of a motion, and its start. */
 typedef struct baum_i_samples {
   int n;
   double *times;  /* (n) */
@@ -72,17 +72,17 @@ typedef struct baum_i_samples {
 /* A method: a set of entries that differ only in step or rtol. */
 typedef struct baum_i_study_method {
   uint64_t key;
-  /* Index of its first entry; the options that all its entries share are those of this entry. */
+  /* Index of the first entry. Its options, except step and rtol, are the options of the method. */
   int first;
   baum_i_text name; /* name without the step or the tolerance */
-  double too_fine;  /* the step or rtol at which an entry reached its time limit; 0 if none has */
+  double too_fine;  /* largest step or rtol at which an entry reached its time limit, or 0 */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
   baum_i_samples samples;          /* `values` is NULL if there is no reference */
-  baum_simulation_options options; /* options of the run; `integrator` is NULL if no run was made */
+  baum_simulation_options options; /* of the run; `integrator` is NULL if there is no run */
   bool known;                      /* whether the uncertainties are known */
 
   double *given[3]; /* the given samples of q, v and lambda; each may be NULL */
@@ -93,7 +93,7 @@ typedef struct baum_i_study_reference {
   double *weight; /* (width) the weights with which differences are multiplied */
 } baum_i_study_reference;
 
-/* Number of motions over twice the span that are used for validation. */
+/* Number of motions for validation. Each of them covers twice the span. */
 enum { BAUM_I_VALIDATIONS = 3 };
 
 struct baum_study {
@@ -117,7 +117,8 @@ struct baum_study {
   baum_i_study_method *methods; /* (method_count) */
   int method_count;
 
-  /* Whether entries have been run. If so, settings that all entries share cannot change. */
+  /* Whether baum_study_run() has begun. Settings that all entries share cannot change
+   * afterwards. */
   bool begun;
   /* Set inside baum_study_run(), where the progress callback must not change the study. */
   bool running;
@@ -132,17 +133,17 @@ baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 /* A function that adds the settings for one integrator to a study. */
 typedef baum_status baum_i_add_fn(void *user, const baum_integrator *integrator);
 
-/* Calls `add` for the integrator `only`. If `only` is NULL, calls it for each integrator of this
- * build. If a call fails, no setting is added. If no call has added a setting, the function fails
- * with the message `missing`. */
+/* Calls `add` for the integrator `only`, or for each integrator of this build if `only` is NULL. If
+ * a call fails, the study keeps none of the new settings. If no call has added a setting, the
+ * function fails with the message `missing`. */
 baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only,
                                   baum_i_add_fn *add, void *user, const char *missing);
 
 /* ---- grid.c ---- */
 
-/* Finds the rate of the motion [1/s]. This is the larger of two numbers: the rate at the start, and
- * the mean scaled velocity of a rough run. If the rough run fails, the motion up to the failure is
- * used. Returns a status of baum_simulation_create(), or BAUM_STOP_CANCELLED. */
+/* Finds the rate of the motion [1/s]. This is the rate at the start or the mean scaled velocity of
+ * a rough run, whichever is larger. If the rough run fails, the motion up to the failure counts.
+ * Returns the status of baum_simulation_create(), or BAUM_STOP_CANCELLED. */
 baum_status baum_i_study_rate(baum_study *study, double *rate);
 
 /* ---- names.c ---- */
@@ -150,15 +151,15 @@ baum_status baum_i_study_rate(baum_study *study, double *rate);
 /* Returns the name of a method, such as "rk4 baumgarte auto". */
 baum_i_text baum_i_method_name(const baum_simulation_options *options);
 
-/* Returns the name of a setting. This is the name of its method followed by ", step 0.001 s" or ",
- * rtol 1e-06", for example. */
+/* Returns the name of a setting. This is the name of its method and, for example, ", step 0.001 s"
+ * or ", rtol 1e-06". */
 baum_i_text baum_i_options_name(const baum_simulation_options *options);
 
 /* Checks that a study is not NULL. Returns BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_study_check(const baum_study *study, const char *call);
 
-/* Returns a key that is the same for all options that are equal. If `with_setting` is false,
- * options that differ only in step or rtol also have the same key. */
+/* Returns a key that identifies options. Equal options have equal keys. If `with_setting` is false,
+ * options that differ only in step or rtol also have equal keys. */
 uint64_t baum_i_options_key(const baum_simulation_options *options, bool with_setting);
 
 /* Returns the step or rtol of the options. Returns 0 if they have neither. */
@@ -170,18 +171,17 @@ baum_i_layout baum_i_study_layout(const baum_study *study);
 
 void baum_i_study_clear_samples(baum_i_samples *samples);
 
-/* Lists the channels of a sample. The first channels, which are at most BAUM_I_CHANNELS, belong to
- * every study. The channels that the user has added follow. Returns their number.
+/* Lists the channels of a sample, and returns their number. At most BAUM_I_CHANNELS channels, which
+ * are the same in every study, precede the channels of the user.
  */
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 
-/* Computes the weights with which differences are multiplied. They follow from the samples of the
- * reference. The reference must be known. Returns BAUM_ERR_MEMORY, or the status of a failed
- * evaluation. */
+/* Computes the weights of differences from the samples of the reference, which must be known.
+ * Returns BAUM_OK, BAUM_ERR_MEMORY, or the status of a failed evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
-/* Compares `values`, the samples of a run, with the samples of a known motion. The weights of the
- * reference are used. */
+/* Compares `values`, the samples of a run, with the samples of a known motion. Differences are
+ * weighted as for the reference. */
 baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
                                         const double *values);
 
@@ -190,7 +190,7 @@ baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_sa
 /* The time limits of a run. */
 typedef struct baum_i_deadline {
   const baum_study *study;
-  double limit;    /* [s] how much CPU time of this thread the run may use */
+  double limit;    /* [s] largest CPU time of this thread that the run may use */
   double begin;    /* [s] CPU time of this thread when the run began */
   double wall_end; /* [s] wall time at which the time budget of the study is used up */
   bool timed_out;
@@ -205,7 +205,7 @@ typedef struct baum_i_outcome {
   char message[BAUM_I_NOTE_SIZE];
 } baum_i_outcome;
 
-/* A run that is to be made: its options, its start and its samples. */
+/* A run to be made: its options, its start and its samples. */
 typedef struct baum_i_task {
   const baum_study *study;
   const baum_simulation_options *options;
@@ -213,13 +213,13 @@ typedef struct baum_i_task {
   bool with_account; /* whether the run keeps an energy account, if the study requests it */
 } baum_i_task;
 
-/* Makes one run. It goes through the samples and, if it starts from the design configuration, on to
- * the end of the span. The samples are written to values (n x width). If `values` is NULL, none are
- * computed. */
+/* Makes one run and writes its samples to values (n x width). A run from the design configuration
+ * continues to the end of the span after the last sample. If `values` is NULL, the run computes no
+ * samples and only advances to the end of the span. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, double *values,
                           baum_i_outcome *out);
 
-/* Creates a run that is only used to evaluate channels. */
+/* Creates a run that serves only to evaluate the initial state and channels. */
 baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out);
 
 /* Writes the message for a run that has taken longer than `limit` [s]. */
@@ -230,28 +230,28 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 
 /* ---- reference.c ---- */
 
-/* Computes the reference of a study. Returns BAUM_OK, even if the reference is not trusted or could
- * not be computed. Otherwise returns BAUM_ERR_MEMORY, the status of a closed-form solution that
- * failed, or a status that stops all runs. */
+/* Computes the reference of a study. Returns BAUM_OK even if the reference is not trusted or no run
+ * of it succeeded. Returns BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED, or the status of a given solution
+ * or an evaluation that failed. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
 
-/* Sets the times of the samples. They are the given times, or they follow from the options. */
+/* Sets the times of the samples from the options, unless the samples of the reference are given. */
 baum_status baum_i_study_set_times(baum_study *study);
 
 void baum_i_study_clear_reference(baum_study *study);
 
 /* ---- validate.c ---- */
 
-/* Computes the motions that are used for validation. Returns BAUM_OK, even if some of them could
- * not be computed, or BAUM_ERR_MEMORY. */
+/* Computes the motions for validation. Returns BAUM_ERR_MEMORY, or BAUM_OK even if some of the
+ * motions could not be computed. */
 baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *deadline);
 
-/* Tells whether an entry needs validation. All entries must have been timed before. */
+/* Tells whether an entry needs validation. The answer is final only after all entries are timed. */
 bool baum_i_study_wants_validation(const baum_study *study, const baum_i_entry *entry);
 
-/* Finds the largest error of an entry over the motions for validation. The error is NaN if it is
- * not known. values (n x width) is scratch memory. Returns BAUM_OK, even if a run of the entry
- * failed, or BAUM_ERR_MEMORY. */
+/* Finds the largest error of an entry over the motions for validation. The error is NaN if none of
+ * these motions is known, and infinite if a run of the entry failed. values (n x width) is scratch
+ * memory. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *entry,
                                   baum_i_deadline *deadline, double *values, double *error);
 
@@ -259,11 +259,11 @@ baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *e
 
 typedef struct baum_i_study_file baum_i_study_file;
 
-/* Opens the study file that the options name, and reads entries and the reference from it. Results
- * that become known later are appended to it. *out is NULL if the options name no file. */
+/* Opens the study file that the options name. Reads entries and the reference from it, and appends
+ * the known results of entries that it lacks. *out is NULL if the options name no file. */
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
-/* The first two of these functions append the reference or an entry to the study file. The third
- * one closes it. If `file` is NULL, all three return BAUM_OK. */
+/* Append the reference or an entry to the study file, and close the file. These functions return
+ * BAUM_OK if `file` is NULL. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
@@ -278,9 +278,8 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
  * right motion, and its gains must damp violations. */
 bool baum_i_study_is_answer(const baum_i_entry *entry);
 
-/* Lists entries of a method from coarse to fine. The list contains those that are done and timed
- * and have followed the right motion. Returns how many there are. The list contains at most
- * BAUM_I_METHOD_ENTRIES. */
+/* Lists entries of a method from coarse to fine. The list contains at most BAUM_I_METHOD_ENTRIES
+ * entries that are done and timed and have followed the right motion. Returns their number. */
 enum { BAUM_I_METHOD_ENTRIES = 256 };
 int baum_i_study_usable(const baum_study *study, int method,
                         const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES]);

@@ -9,11 +9,10 @@
  * STAGE is 1 for an entry that is measured, 2 for one that is timed, and 3 for one that is
  * validated. KEY is a digest of the options of an entry. The entries of a study may therefore be
  * added in any order. SUM is a digest of the text before it in the line. In all lines except the
- * first, the first line is also included in this digest. A line that is incomplete or damaged, or
- * that belongs to another study, is therefore recognized and ignored, and its entry is run again.
- * The file contains one line for each stage of an entry, with all results that are known at this
- * stage. If there are two lines for the same stage of an entry, the first one without a timeout is
- * used. */
+ * first, this digest also covers the first line. A line that is incomplete, damaged or from another
+ * study is therefore recognized and ignored, and its entry is run again. Each stage of an entry has
+ * its own line, with all results that are known at this stage. If there are two lines for the same
+ * stage of an entry, the first line without a timeout counts. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -41,7 +40,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* the digests of all lines except the first begin with this number */
+  uint64_t seed; /* digest of the first line, from which the digests of all other lines begin */
 };
 
 /* ---- lines ---- */
@@ -67,7 +66,7 @@ static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed
 
 /* ---- identity of the study ---- */
 
-/* A property of the study that must also be true of the file, with its name in messages. */
+/* A property that must be the same in the study and in the file. `what` is its name in messages. */
 typedef struct mark {
   const char *name;
   const char *what;
@@ -253,7 +252,8 @@ static bool is_begun_head(const baum_i_study_file *file, const baum_study *study
          ftell(file->stream) == (long)size;
 }
 
-/* Reads all lines. *whole is set to tell whether the last line is complete. */
+/* Reads all lines. Sets *is_new if there is no complete first line, and *whole if the last line is
+ * complete. */
 static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is_new, bool *whole)
 {
   char *line = baum_i_alloc(LINE, 1);
@@ -282,7 +282,7 @@ static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is
 
 /* ---- opening and closing ---- */
 
-/* Reads an existing study file. If there is no file, *is_new is set to true. */
+/* Reads the study file. If there is no file, *is_new and *whole are set to true. */
 static baum_status take_present(baum_i_study_file *file, baum_study *study, bool *is_new,
                                 bool *whole)
 {
@@ -314,13 +314,13 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
     write_head(study, line);
     return write_line(file, line, 0);
   }
-  /* If the last line is incomplete, a newline ends it. It will be ignored later, because it is
-   * damaged. */
+  /* A newline ends an incomplete last line. Readers ignore this line, because its digest is
+   * missing. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : fail_file(file, "written");
 }
 
-/* Writes results that are known but not in the file. An earlier attempt may have failed, for
- * example because the disk was full. */
+/* Writes known results of entries that are not in the file. An earlier attempt to write them may
+ * have failed, for example because the disk was full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   for (int k = 0; k < study->entry_count; k++) {

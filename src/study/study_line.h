@@ -11,15 +11,14 @@ enum { BAUM_I_STUDY_LINE = 4096 }; /* largest length of a line, including the te
 void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
                                const baum_i_field *fields);
 
-/* Reads fields from a line and stores their values in an object. Returns the end of the fields, or
- * NULL if a field is missing or invalid. If it returns NULL, some members of the object may have
- * changed. */
+/* Reads fields from a line and stores their values in an object. Returns the end of the fields.
+ * Returns NULL if a field is missing or invalid; some members may have changed nevertheless. */
 const char *baum_i_study_read_fields(const char *text, void *object, const baum_i_field *fields);
 
 /* Appends " | " and a text to the line. Characters that would end the line are replaced. */
 void baum_i_study_write_text(char line[BAUM_I_STUDY_LINE], const char *text);
 
-/* Appends the digest of the line and of `seed`, and ends the line. */
+/* Appends the digest of `seed` and of the line, and ends the line. */
 void baum_i_study_seal(char line[BAUM_I_STUDY_LINE], uint64_t seed);
 
 /* Removes the digest from the end of a line. Returns false if the digest is not correct. */

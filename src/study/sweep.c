@@ -44,7 +44,7 @@ static baum_status sample(const sweep *s, const baum_mechanism *mechanism, doubl
   return status;
 }
 
-/* A changed mechanism may have other sizes. */
+/* Checks that change() has not changed the number of columns. */
 static baum_status check_width(const sweep *s, const baum_mechanism *copy)
 {
   const int32_t width = baum_channels_width(copy, s->def->channels, s->def->channel_count);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the errors of entries over twice the span and from other starts. How fast errors grow
- * depends on the motion and on the method. They may grow by a factor of 100 from one revolution to
- * the next. Entries that may be recommended are therefore run again over twice the span. One of
- * these runs starts with the velocities of the study, and two others start with changed velocities.
- * The changed velocities differ by the fraction NUDGE of their size. If the mechanism starts at
- * rest, they differ by NUDGE times the rate of the motion. Each start has its own reference, which
- * is computed with the same setting as the reference of the study. An entry that costs more than
- * NEAR times as much as an equally accurate one is not validated. */
+/* Finds the errors of entries over twice the span and from other starts. The growth of errors
+ * depends on the motion and on the method, and may be a factor of 100 per revolution. Entries that
+ * may be recommended are therefore run again over twice the span. One of these runs starts with the
+ * velocities of the study. The velocities of two others are perturbed by the fraction NUDGE, or, if
+ * the mechanism starts at rest, by NUDGE times the rate of the motion. Each start has its own
+ * reference. It is computed with the setting of the study's reference, or with RK8 and projection
+ * if the reference is given. An entry is not validated if its work is more than NEAR times the work
+ * of an entry that is at least as accurate. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ static baum_status allocate(const baum_study *study, baum_i_samples *samples)
                                                                        : baum_i_fail_memory();
 }
 
-/* Sets the start of a motion. Its velocities are changed by the fraction `nudge`. */
+/* Sets the start of a motion, whose velocities are perturbed by the fraction `nudge`. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_samples *samples)
 {
   const baum_mechanism *m = study->mechanism;
@@ -107,8 +107,8 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Tells whether an entry is near the Pareto front. An entry is not near the front if another entry,
- * which may be recommended, is at least as accurate and costs less than 1 / NEAR as much. */
+/* Tells whether an entry is near the Pareto front. It is not if another entry that may be
+ * recommended is at least as accurate and has less than 1 / NEAR of its work. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_live.py FOLDER
 
-Uses live views of planar and spatial runs in headless Chromium. It checks that frames arrive and
-that the time bar grows. Buttons and keys must pause, step and resume the run. The past and the end
-of the run must be shown. Screenshots are saved in FOLDER. If a check fails, the program lists the
-errors.
+Operates live views of planar and spatial runs in headless Chromium. Checks that frames arrive, that
+buttons and keys pause, step and resume the run, and that the page shows the past and the end of the
+run. Saves screenshots in FOLDER, and lists the checks that fail.
 """
 
 import os
@@ -45,8 +44,8 @@ class Loop:
             time.sleep(STEP * STEPS)
 
     def steps(self):
-        """Return the number of steps made so far. This works at any moment, because the time of a
-        run can always be read."""
+        """Return the number of steps made so far. The time of a run can be read while the thread
+        makes steps."""
         return round(self.simulation.time / STEP)
 
     def end(self):
@@ -55,6 +54,7 @@ class Loop:
 
 
 def until(browser, expression):
+    """Wait until an expression is true. Return False if this takes too long."""
     for _ in range(400):
         if browser.run(expression):
             return True
@@ -71,27 +71,27 @@ def is_held(loop):
 def check_frames(browser, loop, checks):
     checks.expect(until(browser, "times.length > 20"), "no frames arrive")
     checks.expect(browser.run("now === last && following_now()"), "the page does not show the newest frame")
-    checks.expect(browser.run("times.every((t, k) => k === 0 || t > times[k - 1])"), "times do not rise")
-    checks.expect(browser.run("table.every(column => column.length === times.length)"), "columns differ in length")
+    checks.expect(browser.run("times.every((t, k) => k === 0 || t > times[k - 1])"), "times do not increase")
+    checks.expect(browser.run("table.every(column => column.length === times.length)"), "the columns differ in length")
     checks.expect(browser.run("traces[0].points.length === times.length"), "the path does not grow")
     begin, since = browser.run("times.length"), time.monotonic()
     time.sleep(1)
     rate = (browser.run("times.length") - begin) / (time.monotonic() - since)
     checks.expect(rate > 20, f"{rate:.0f} frames a second")
-    # This is the mean since the page was opened. A busy browser may handle several waiting frames
-    # at once.
+    # The mean counts from the opening of the page, because a busy browser may handle several
+    # waiting frames at once.
     mean = browser.run("1000 * times.length / performance.now()")
-    checks.expect(mean <= 61, f"{mean:.0f} frames a second in the mean")
+    checks.expect(mean <= 61, f"{mean:.0f} frames a second on average")
     inside = ("framesAt(at(last)).every(({r}) => { const [x, y] = project(r); "
               "return x >= 0 && x <= wide && y >= 0 && y <= high; })")
-    checks.expect(browser.run(inside), "a body is outside of the picture")
+    checks.expect(browser.run(inside), "a body is outside the picture")
     return rate
 
 
 def check_buttons(browser, loop, checks):
     checks.expect(browser.run("find('play').textContent") == "Pause", "the button is not named Pause")
     browser.click("#play")
-    checks.expect(until(browser, "find('play').textContent === 'Run'") and is_held(loop), "Pause does not hold the run")
+    checks.expect(until(browser, "find('play').textContent === 'Run'") and is_held(loop), "Pause does not pause the run")
     before = loop.steps()
     browser.click("#play + button")  # the button Step
     time.sleep(0.3)
@@ -100,17 +100,17 @@ def check_buttons(browser, loop, checks):
     key(browser, "ArrowRight")
     time.sleep(0.3)
     checks.expect(loop.steps() == before + 2, f"the arrow key makes {loop.steps() - before - 1} steps")
-    checks.expect(until(browser, f"Math.abs(now - {loop.simulation.time}) < 1e-9"), "a step is not shown")
+    checks.expect(until(browser, f"Math.abs(now - {loop.simulation.time}) < 1e-9"), "the page does not show the last step")
     key(browser, "ArrowLeft")
     wait(browser)
-    checks.expect(browser.run("now < last && !following_now()"), "the past is not shown")
+    checks.expect(browser.run("now < last && !following_now()"), "the arrow key does not show the past")
     key(browser, " ")
     time.sleep(0.3)
-    checks.expect(not is_held(loop), "the space bar does not resume")
-    checks.expect(browser.run("now < last"), "new frames end the view of the past")
+    checks.expect(not is_held(loop), "the space bar does not resume the run")
+    checks.expect(browser.run("now < last"), "new frames replace the view of the past")
     key(browser, "End")
     time.sleep(0.2)
-    checks.expect(browser.run("now === last && following_now()"), "End does not follow the run again")
+    checks.expect(browser.run("now === last && following_now()"), "the key End does not show the newest frames again")
     browser.run("(() => { const bar = find('time'); bar.value = 0.25;"
                 " bar.dispatchEvent(new Event('input', {bubbles: true})); })()")
     checks.expect(browser.run("now < last && !following_now()"), "the time bar does not show the past")
@@ -118,9 +118,9 @@ def check_buttons(browser, loop, checks):
 
 
 def check_quiet(browser, checks):
-    checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
+    checks.expect(browser.complaints() == [], f"the console shows {browser.complaints()}")
     foreign = [url for url in browser.requests() if not url.startswith("http://127.0.0.1:")]
-    checks.expect(foreign == [], f"the page asked for {foreign}")
+    checks.expect(foreign == [], f"the page requested {foreign}")
     checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
 
 
@@ -142,7 +142,7 @@ def check_page(browser, name, make, folder, checks):
                 check_quiet(browser, checks)
         loop.end()
         view.close()
-        checks.expect(until(browser, "find('play').textContent === 'Ended'"), "the end is not shown")
+        checks.expect(until(browser, "find('play').textContent === 'Ended'"), "the page does not show that the run has ended")
         print(f"{name}: {rate:.0f} frames a second")
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_motion.py FOLDER
 
-Writes pages of planar and spatial runs, with names that contain scripts, and uses them in headless
-Chromium. The checks are that pages load without console messages, that they play, step, scrub, zoom
-and rotate, and that they fit desktop and telephone screens in light and dark. Plots must follow the
-time, and solids must cover each other as they do in space. Pages and screenshots are saved in
-FOLDER. If a check fails, the program lists the errors.
+Writes pages of planar and spatial runs, with names that contain scripts, and operates them in
+headless Chromium. Pages must load without console messages, must play, step, scrub, zoom and
+rotate, and must fit desktop and telephone screens in light and dark. Plots must follow the time,
+and nearer solids must cover farther ones. Saves pages and screenshots in FOLDER, and lists the
+checks that fail.
 """
 
 import base64
@@ -24,7 +24,7 @@ from chromium import Chromium
 
 NAME = '<b onclick="window.taken = 1">A</b> </script><script>window.taken = 1</script> \u05d0\u05d1' + "long" * 9
 SIZES = [(1280, 900, False), (420, 800, True)]
-FRAME = 4.0  # [ms] longest time that the script takes to draw 50 bodies
+FRAME = 4.0  # [ms] longest time that the script may take to draw 50 bodies
 INK = "(draw(), stage.toDataURL())"
 
 
@@ -63,36 +63,36 @@ def many_in_space():
     return m.freeze().simulate(np.linspace(0, 1, 51), "rk4", step=1e-2)
 
 
-# ---- a scene of solids that sorting by depth would draw in a wrong order ----
+# ---- a scene of solids for which sorting by depth would give a wrong picture ----
 
 HIGH = 0.3
 
 
 def shape(body, form, points, radius=0.0, **more):
-    """Return a shape at rest. It has the colour of its body."""
+    """Return a fixed shape in the colour of its body."""
     return {"style": "body", "form": form, "body": body, "other": body, "element": f"{form} {body}",
             "radius": radius, "points": points, **more}
 
 
 def bar_over(angle, body):
-    """Return a side of a triangle. It passes over the next side and under the previous one."""
+    """Return a side of a triangle, which passes over the next side and under the previous side."""
     c, s = np.cos(angle), np.sin(angle)
     ends = [(x * c + 0.5 * s, x * s - 0.5 * c, HIGH * np.sign(x)) for x in (-1.6, 1.6)]
     return shape(body, "line", ends, 0.12)
 
 
 def solids():
-    """Return the description of a page. Also return points in space, each with the body that is
-    seen there, or 0 if there is none."""
+    """Return the data of a page and a list of points in space. Each point comes with the number of
+    the body that is visible there, or 0 if there is none."""
     thirds = 2 * np.pi / 3 * np.arange(3)
-    corner = np.sqrt(3) / 2  # distance from the middle of a side to where two sides cross
+    corner = np.sqrt(3) / 2  # distance from the middle of a side to the crossing with another side
     shapes = [bar_over(angle, k + 1) for k, angle in enumerate(thirds)]
     seen = []
     for k, angle in enumerate(thirds):
         c, s = np.cos(angle), np.sin(angle)
         height = HIGH * corner / 1.6
         seen.append(((corner * c + 0.5 * s, corner * s - 0.5 * c, height), k + 1))
-    shapes += [  # a ring around a bar; it is above the bar at x = 4, and below it elsewhere
+    shapes += [  # a ring around a bar, which passes above and below the bar
         shape(4, "line", [(4, -1.5, 0), (4, 1.5, 0)], 0.12),
         shape(5, "line", [(3.5, 0, -0.6), (4.5, 0, -0.6), (4.5, 0, 0.6), (3.5, 0, 0.6), (3.5, 0, -0.6)], 0.12),
         shape(6, "box", [(8, 0, 0), (0.5, 0.5, 0.5)]),  # a bar that passes through a box
@@ -127,8 +127,8 @@ def write_solids(template, path):
     return seen
 
 
-# For each given point, returns the number of the body that is seen there. The body is found by the
-# colour of the pixel, whatever the light. The number is 0 for the paper or the floor.
+# For each given point, returns the number of the visible body, or 0 for the paper and the floor.
+# The ratio of the pixel's red, green and blue identifies the body, whatever the light.
 BODIES_AT = """(points => {
   const copy = document.createElement('canvas').getContext('2d', {willReadFrequently: true});
   [copy.canvas.width, copy.canvas.height] = [stage.width, stage.height];
@@ -163,7 +163,8 @@ def key(browser, name):
 
 
 def wait(browser, until_not="asked"):
-    """Wait until the page has drawn the requested frame, or until a condition is no longer true."""
+    """Wait until the page has drawn the requested frame, or until the condition `until_not` is
+    false."""
     for _ in range(500):
         if not browser.run(f"Boolean({until_not})"):
             return
@@ -171,7 +172,8 @@ def wait(browser, until_not="asked"):
 
 
 def mouse(browser, *steps, **more):
-    """Send mouse events at positions (x, y). The units are the width and the height of the stage."""
+    """Send mouse events at positions (x, y), as fractions of the width and the height of the
+    stage."""
     left, top, width, height = browser.run(
         "(() => { stage.scrollIntoView({block: 'center'}); const r = stage.getBoundingClientRect();"
         " return [r.left, r.top, r.width, r.height]; })()"
@@ -183,16 +185,16 @@ def mouse(browser, *steps, **more):
 
 
 def check_quiet(browser, checks):
-    checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
-    checks.expect(browser.requests() == [], f"the page asked for {browser.requests()}")
+    checks.expect(browser.complaints() == [], f"the console shows {browser.complaints()}")
+    checks.expect(browser.requests() == [], f"the page requested {browser.requests()}")
     checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
-    checks.expect(browser.run("document.querySelectorAll('main b:not(#marks b), h1 b').length") == 0, "a name has become markup")
+    checks.expect(browser.run("document.querySelectorAll('main b:not(#marks b), h1 b').length") == 0, "a name was parsed as markup")
     checks.expect(browser.run("document.title") == NAME, "the title is not the given name")
 
 
 def check_layout(browser, checks):
     wide, room = browser.run("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
-    checks.expect(wide <= room, f"{wide} px wide in a window of {room} px")
+    checks.expect(wide <= room, f"the page is {wide} px wide in a window of {room} px")
     overlaps = browser.run(
         "(() => { const b = Array.from(document.querySelectorAll('.bar > *, h1, .help, figcaption')).filter(e => e.offsetParent)"
         ".map(e => e.getBoundingClientRect()); let n = 0; b.forEach((p, i) => b.forEach((q, j) => {"
@@ -204,12 +206,12 @@ def check_layout(browser, checks):
 
 def check_time(browser, checks):
     """Check that playing, steps, the time bar and clicks on plots change the time and the picture."""
-    checks.expect(not browser.run("playing"), "a page with #t= plays")
-    checks.expect(abs(browser.run("now") - 0.5) < 1e-6, "#t= is not shown")
+    checks.expect(not browser.run("playing"), "a page with #t= in its address plays")
+    checks.expect(abs(browser.run("now") - 0.5) < 1e-6, "the page does not show the time after #t=")
     before = browser.run(INK)
     key(browser, "ArrowRight")
     wait(browser)
-    checks.expect(browser.run("now") > 0.5 and browser.run(INK) != before, "a step to the right")
+    checks.expect(browser.run("now") > 0.5 and browser.run(INK) != before, "the right arrow key makes no step")
     key(browser, "Home")
     wait(browser)
     checks.expect(browser.run("now === first"), "Home does not show the first frame")
@@ -221,18 +223,18 @@ def check_time(browser, checks):
     browser.run("(() => { const bar = find('time'); bar.value = 0.75;"
                 " bar.dispatchEvent(new Event('input', {bubbles: true})); })()")
     wait(browser)
-    checks.expect(abs(browser.run("(now - first) / span") - 0.75) < 1e-6, "the bar does not scrub")
+    checks.expect(abs(browser.run("(now - first) / span") - 0.75) < 1e-6, "the time bar does not change the time")
     browser.click("#plots canvas")
     wait(browser)
-    checks.expect(abs(browser.run("(now - first) / span") - 0.5) < 0.1, "a plot does not move the time")
+    checks.expect(abs(browser.run("(now - first) / span") - 0.5) < 0.1, "a click on a plot does not change the time")
     browser.click("#play")
     time.sleep(0.2)
-    checks.expect(browser.run("playing"), "the button does not play")
+    checks.expect(browser.run("playing"), "the play button does not play")
     browser.click("#play")
 
 
-# Between the first two samples, a body is rotated by TURN [rad]. The page may show an orientation
-# 0.4 of the way between them only if TURN is small.
+# Rotates a body by TURN [rad] between the first two samples, and returns which fraction of this
+# rotation the page shows after 0.4 of the interval. The page interpolates only small rotations.
 SHARE_SHOWN = """(() => {
   const column = table[3 + bodies.find(body => body.kind === 'body').q], kept = column[1];
   column[1] = column[0] + TURN;
@@ -245,7 +247,7 @@ SHARE_SHOWN = """(() => {
 def check_coarse(browser, checks):
     for turn, shown in ((0.1, 0.4), (0.5, 0), (2 * np.pi + 0.1, 0.4)):
         share = browser.run(SHARE_SHOWN.replace("TURN", str(turn)))
-        checks.expect(abs(share - shown) < 1e-9, f"a turn of {turn:.1f} rad is shown at {share} of the way")
+        checks.expect(abs(share - shown) < 1e-9, f"the page shows {share} of a rotation of {turn:.1f} rad")
 
 
 def check_view(browser, spatial, checks):
@@ -255,17 +257,17 @@ def check_view(browser, spatial, checks):
     mouse(browser, ("mousePressed", 0.4, 0.5), ("mouseMoved", 0.6, 0.6), ("mouseReleased", 0.6, 0.6))
     after = browser.run("[view.scale, view.azimuth, view.shift[0]]")
     moved = 1 if spatial else 2
-    checks.expect(after[moved] != before[moved], "dragging does not turn" if spatial else "dragging does not move")
-    if spatial:  # what is near must follow the pointer
+    checks.expect(after[moved] != before[moved], "dragging does not rotate the view" if spatial else "dragging does not move the view")
+    if spatial:  # points near the eye must follow the pointer
         browser.run("window.near = view.centre.map((x, i) => x + 50 / view.scale * view.axes[6 + i])")
         x, y, _ = browser.run("project(near)")
         mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.52, 0.52), ("mouseReleased", 0.52, 0.52))
         moved_x, moved_y, _ = browser.run("project(near)")
-        checks.expect(moved_x > x and moved_y > y, "the near side does not follow the hand")
+        checks.expect(moved_x > x and moved_y > y, "a point near the eye does not follow the pointer")
         before = browser.run("[...view.axes, ...view.shift]")
         mouse(browser, ("mousePressed", 0.5, 0.5), ("mouseMoved", 0.6, 0.5), ("mouseReleased", 0.6, 0.5), modifiers=8)
         after = browser.run("[...view.axes, ...view.shift]")
-        checks.expect(after[:9] == before[:9] and after[9] > before[9], "Shift does not move the picture")
+        checks.expect(after[:9] == before[:9] and after[9] > before[9], "dragging with Shift does not move the picture")
     key(browser, "0")
     wait(browser)
     checks.expect(abs(browser.run("view.shift[0]")) < 1e-9, "the key 0 does not reset the view")
@@ -273,10 +275,10 @@ def check_view(browser, spatial, checks):
         before = browser.run(INK)
         key(browser, name)
         wait(browser)
-        checks.expect(browser.run(INK) != before, f"{name} changes nothing")
+        checks.expect(browser.run(INK) != before, f"the key {name} changes nothing")
         key(browser, name)
         wait(browser)
-        checks.expect(browser.run(INK) == before, f"{name} is not undone")
+        checks.expect(browser.run(INK) == before, f"pressing the key {name} again does not restore the picture")
 
 
 def check_names(browser, checks):
@@ -287,7 +289,7 @@ def check_names(browser, checks):
             f"(now = first + {share} * span, draw(), [drawNames(framesAt(at(now))), wide, high])")
         checks.expect(len(rooms) > 3, f"only {len(rooms)} names are shown")
         inside = all(a[0] >= 0 and a[1] >= 0 and a[2] <= wide and a[3] <= high for a in rooms)
-        checks.expect(inside, "a name is outside of the picture")
+        checks.expect(inside, "a name is outside the picture")
         overlaps = [1 for k, a in enumerate(rooms) for b in rooms[:k]
                     if a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]]
         checks.expect(not overlaps, f"{len(overlaps)} names overlap")
@@ -304,23 +306,23 @@ def check_video(browser, checks):
         if browser.run("window.saved"):
             break
         time.sleep(0.1)
-    checks.expect(browser.run("window.saved") == "mechanism.webm", "no video")
+    checks.expect(browser.run("window.saved") == "mechanism.webm", "no video is saved")
 
 
 def check_solids(browser, seen, checks):
-    checks.expect(browser.run("solids !== null"), "no WebGL")
+    checks.expect(browser.run("solids !== null"), "the page does not use WebGL")
     for tilt in (1.2, 0.9):
         browser.run(f"view.azimuth = 0, view.tilt = {tilt}, fit()")
         all_found = browser.run(f"{BODIES_AT}({json.dumps([point for point, _ in seen])})")
         for (point, body), found in zip(seen, all_found):
-            checks.expect(found == body, f"body {found} is seen at {np.round(point, 2)} in place of {body}")
+            checks.expect(found == body, f"body {found} is visible at {np.round(point, 2)} instead of body {body}")
 
 
 def check_lost_context(browser, seen, checks):
     before = browser.run(INK)
     browser.run("window.lost = solids.gl.getExtension('WEBGL_lose_context'), lost.loseContext()")
     wait(browser, "solids")
-    checks.expect(browser.run("solids === null") and browser.run(INK) != before, "a lost context goes unnoticed")
+    checks.expect(browser.run("solids === null") and browser.run(INK) != before, "the page ignores the loss of the WebGL context")
     browser.run("lost.restoreContext()")
     wait(browser, "!solids")
     check_solids(browser, seen, checks)
@@ -330,11 +332,12 @@ def check_marks(browser, checks):
     looks = browser.run("Array.from(document.querySelectorAll('#ticks button')).map(e => {"
                         " const s = getComputedStyle(e, '::before'); return [s.backgroundColor, s.clipPath]; })")
     for what, values in zip(("colour", "shape"), zip(*looks)):
-        checks.expect(len(set(values)) == 3, f"marks of different kinds have one {what}: {values}")
+        checks.expect(len(set(values)) == 3, f"marks of different kinds have the same {what}: {values}")
 
 
 def touch(browser, *moments):
-    """Put two fingers at these positions. The units are the width and the height of the stage."""
+    """Move two fingers through these positions, which are fractions of the width and the height of
+    the stage."""
     left, top, width, height = browser.run("(() => { stage.scrollIntoView({block: 'center'});"
                                            " const r = stage.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()")
     browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
@@ -346,8 +349,8 @@ def touch(browser, *moments):
 
 
 def check_two_fingers(browser, spatial, checks):
-    """Check that two fingers move and zoom the picture and, in space, rotate it. What is below the
-    fingers must stay there."""
+    """Check that two fingers move and zoom the picture and, in space, rotate it. The points below
+    the fingers must stay there."""
     place = "[view.scale, view.azimuth, view.tilt, ...view.shift]"
     key(browser, "0")
     wait(browser)
@@ -362,26 +365,27 @@ def check_two_fingers(browser, spatial, checks):
     checks.expect(abs(moved[4] - after[4] - 0.1 * height) < 2, "two fingers do not move the picture")
     touch(browser, [(0.4, 0.5), (0.6, 0.5)], [(0.45, 0.42), (0.55, 0.58)])
     turned = browser.run(place)[1] - moved[1]
-    checks.expect(turned > 0.5 if spatial else turned == 0, f"two fingers turn the picture by {turned}")
+    checks.expect(turned > 0.5 if spatial else turned == 0, f"two fingers rotate the picture by {turned} rad")
     key(browser, "0")
     wait(browser)
 
 
 def check_speed(browser, page, checks):
-    """Measure how long it takes to draw a frame. In space this includes the wait for a graphics
-    card, which software replaces here. The limit is therefore for the time without this wait."""
+    """Measure how long it takes to draw a frame. In space this includes a wait for WebGL, which is
+    slow here because software replaces a graphics card. The limit therefore applies to the time
+    without this wait."""
     browser.size(1280, 900)
     browser.open(page)
     took, script = browser.run(
         "(() => { play(false); const copy = pen.drawImage.bind(pen); let waited = 0, least = [Infinity, Infinity];"
         " pen.drawImage = (...a) => { const begin = performance.now(); copy(...a); waited += performance.now() - begin; };"
-        # the shortest batch counts, because other programs also use the machine
+        # the shortest batch counts, because other programs disturb the measurement
         " for (let batch = 0; batch < 20; batch++) { const begin = performance.now(); waited = 0;"
         " for (let k = 0; k < 5; k++) { now = first + span * k / 5; draw(); }"
         " const took = performance.now() - begin;"
         " least = [Math.min(least[0], took / 5), Math.min(least[1], (took - waited) / 5)]; } return least; })()")
     print(f"{checks.where}, 50 bodies: {took:.2f} ms a frame, script {script:.2f} ms")
-    checks.expect(script <= FRAME, f"50 bodies take {script:.2f} ms a frame")
+    checks.expect(script <= FRAME, f"the script takes {script:.2f} ms for a frame of 50 bodies")
 
 
 def main():

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_page.py FOLDER
 
-Writes the pages of studies, with a title that contains a script. Uses them in headless Chromium as
-a reader would: on desktop and telephone screens and on paper, in light and dark. The program also
-breaks a page in several ways, and tests that the checks then fail. Pages and screenshots are saved
-in FOLDER. If a check fails, the program lists the errors.
+Writes the pages of studies, with a title that contains a script. Operates them in headless Chromium
+as a reader would: on desktop and telephone screens and on paper, in light and dark. Also breaks a
+page in several ways, and checks that the other checks then fail. Saves pages and screenshots in
+FOLDER, and lists the checks that fail.
 """
 
 import json
@@ -20,11 +20,11 @@ NAME = '<b onclick="window.taken = 1">A</b> & \'B\' Ä曲柄 ' + "long" * 30
 SIZES = [(1280, 900, False), (420, 800, True)]
 PAPER = (718, 1000)  # [px] an A4 page without its margins
 CHARTS, MAPS = 4, 4
-TEXT, GRAPHICS = 4.5, 3.0  # smallest contrasts, of WCAG 2.1 level AA
+TEXT, GRAPHICS = 4.5, 3.0  # smallest contrasts that WCAG 2.1 requires for level AA
 # [px] smallest height of a chart's letters, including the space above and below them
 LEAST_TEXT = 9.0
 LEAST_GAP = 6.0  # [px] smallest distance between marks of one kind in a map
-SABOTAGE = {  # for each part of the page, what breaks it
+SABOTAGE = {  # parts of the page, each with a replacement that breaks the page
     "  texts();\n": "  texts(); undefinedFunction();\n",
     "max-width: 1320px": "min-width: 1400px",
     "#picture { float: right;": "#picture { position: absolute;",
@@ -53,8 +53,8 @@ def slider_crank():
 
 
 def make_studies(mechanism):
-    """Four studies. One has more methods than colours, one is a stress test, one has a single
-    entry, and one was not run."""
+    """Return four studies. One has more methods than colours, one is a stress test, one has a
+    single entry, and one has not been run."""
     grid, stress, single, waiting = (
         baum.study(mechanism, 0, 0.1, repeats=1, entry_limit=0.05, validate=False) for _ in range(4))
     for name in ("euler", "rk4", "ab3", "rk8"):
@@ -91,11 +91,11 @@ def contrast(a, b):
 
 
 def check_quiet(browser, checks):
-    checks.expect(browser.complaints() == [], f"the console has {browser.complaints()}")
-    checks.expect(browser.requests() == [], f"the page asked for {browser.requests()}")
+    checks.expect(browser.complaints() == [], f"the console shows {browser.complaints()}")
+    checks.expect(browser.requests() == [], f"the page requested {browser.requests()}")
     checks.expect(browser.run("window.taken") is None, "a name was executed as a script")
-    checks.expect(browser.run("document.title") == TITLE, "the title is not what was given")
-    checks.expect(count(browser, "main b, main img, header img") == 0, "a name has become markup")
+    checks.expect(browser.run("document.title") == TITLE, "the title is not the given title")
+    checks.expect(count(browser, "main b, main img, header img") == 0, "a name was parsed as markup")
 
 
 # Returns, for each chart or map, [left, top, right, bottom] of the elements that match a selector.
@@ -104,8 +104,8 @@ BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map
     const at = element.getBoundingClientRect();
     return [at.left, at.top, at.right, at.bottom]; })))"""
 
-# Returns the width of the picture, how much of it the window shows, and how many lines of the
-# header's text it covers.
+# Returns the width of the picture, the number of its visible shapes, and the number of text lines
+# of the header that it covers.
 PICTURE = """(() => {
   const at = document.querySelector('#picture svg').getBoundingClientRect();
   const texts = document.createRange();
@@ -133,18 +133,18 @@ def check_layout(browser, checks):
     width, room = browser.run(
         "[document.documentElement.scrollWidth, document.documentElement.clientWidth]"
     )
-    checks.expect(width <= room, f"{width} px wide in a window of {room} px")
+    checks.expect(width <= room, f"the page is {width} px wide in a window of {room} px")
     wide = browser.run("Array.from(document.querySelectorAll('.scroll'))"
                        ".filter(box => box.scrollWidth > box.clientWidth).map(box => box.ariaLabel)")
     checks.expect(wide == [], f"tables of {wide} are too wide")
     wide, drawn, covered = browser.run(PICTURE)
-    checks.expect(wide >= 200 and drawn >= 8, f"a picture of {wide} px with {drawn} shapes")
+    checks.expect(wide >= 200 and drawn >= 8, f"the picture is {wide} px wide and shows {drawn} shapes")
     checks.expect(covered == 0, f"the picture covers {covered} lines of the header")
     bad = browser.run(BAD_CELLS)
-    checks.expect(bad == [], f"{len(bad)} cells are cut or wrap: {bad[:3]}")
+    checks.expect(bad == [], f"{len(bad)} cells cut or wrap their text: {bad[:3]}")
     for boxes in browser.run(f"{BOXES}('text')"):
         heights = [bottom - top for _, top, _, bottom in boxes]
-        checks.expect(min(heights) >= LEAST_TEXT, f"letters of {min(heights)} px in a chart")
+        checks.expect(min(heights) >= LEAST_TEXT, f"letters in a chart are {min(heights)} px high")
         overlaps = sum(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
                        for k, a in enumerate(boxes) for b in boxes[:k])
         checks.expect(overlaps == 0, f"{overlaps} texts of a chart overlap")
@@ -152,7 +152,7 @@ def check_layout(browser, checks):
         for boxes in browser.run(f"{BOXES}('use.{kind}')"):
             gap = min((abs(complex(a[0] - b[0], a[1] - b[1])) for k, a in enumerate(boxes) for b in boxes[:k]),
                       default=LEAST_GAP)
-            checks.expect(gap >= LEAST_GAP, f"marks of a map are {gap} px apart")
+            checks.expect(gap >= LEAST_GAP, f"marks in a map are only {gap} px apart")
 
 
 def check_entries(browser, study, checks):
@@ -161,18 +161,18 @@ def check_entries(browser, study, checks):
     names = browser.run("Array.from(document.querySelectorAll('#rows tbody tr'), row =>"
                         " `${row.cells[0].textContent}, ${row.cells[1].textContent}`)")
     wanted = [entry.name for entry in study.entries]
-    checks.expect(names == wanted, f"{len(names)} rows of {len(wanted)} entries, or other names")
+    checks.expect(names == wanted, f"{len(names)} rows for {len(wanted)} entries, or wrong names")
     said = browser.run("document.getElementById('said').textContent")
     failures = [entry for entry in study.entries if entry.state in ("failed", "refused", "timed_out")]
     for entry in failures:
-        checks.expect(entry.name in said and entry.message in said, f"no message of {entry.name}")
+        checks.expect(entry.name in said and entry.message in said, f"the page has no message of {entry.name}")
     pills = count(browser, "#rows tr:not([data-kinds~=done]):not([data-kinds~=waiting]) .remark.bad")
-    checks.expect(pills >= len(failures), f"{pills} remarks on {len(failures)} failures")
+    checks.expect(pills >= len(failures), f"{pills} remarks for {len(failures)} failures")
 
 
 def check_advice(browser, checks):
-    """Check the cost of recommended settings. A run with such a setting must cost what the library
-    states, except for the effect of rounding the setting."""
+    """Check that the page shows each recommended setting with the error, the work and the CPU time
+    that the library states, except for the effect of rounding the setting."""
     advice = json.loads(browser.run("document.getElementById('data').textContent"))["report"]["recommendations"]
     why = {each["setting"]: each["why"] for each in advice if each["setting"]}
     rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"
@@ -183,12 +183,12 @@ def check_advice(browser, checks):
         said = re.search(r"error (\S+) for a work of (\S+) and (\S+) ms", why[name]).groups()
         for got, wanted, factor in zip(figures, said, (1, 1, 1e3)):
             checks.expect(got and abs(float(got) * factor / float(wanted) - 1) < 0.1,
-                          f"{name}: {got} for {wanted}")
+                          f"{name}: {got} instead of {wanted}")
 
 
 def check_charts(browser, study, checks):
-    checks.expect(count(browser, "svg.chart") == CHARTS, "charts")
-    checks.expect(count(browser, "svg.map") == MAPS, "maps")
+    checks.expect(count(browser, "svg.chart") == CHARTS, "the number of charts is wrong")
+    checks.expect(count(browser, "svg.map") == MAPS, "the number of maps is wrong")
     drawn = sum(entry.state == "done" and entry.error <= 10 for entry in study.entries)
     for k in range(CHARTS):
         chart = f"document.querySelectorAll('svg.chart')[{k}]"
@@ -202,9 +202,9 @@ def check_charts(browser, study, checks):
             ".filter(line => line.getTotalLength() > 10);"
             " return [marks.length, lines.length, outside.length]; })()"
         )
-        checks.expect(marks == drawn, f"chart {k}: {marks} marks of {drawn} entries")
-        checks.expect(lines >= 8, f"chart {k}: {lines} lines")
-        checks.expect(outside == 0, f"chart {k}: {outside} marks lie outside")
+        checks.expect(marks == drawn, f"chart {k}: {marks} marks for {drawn} entries")
+        checks.expect(lines >= 8, f"chart {k}: only {lines} lines")
+        checks.expect(outside == 0, f"chart {k}: {outside} marks are outside the chart")
 
 
 def count(browser, selector):
@@ -212,32 +212,32 @@ def count(browser, selector):
 
 
 def check_maps(browser, study, checks):
-    """Check that the maps show the gains of every run. The gains of refused runs must be
-    shown, too, if they can be computed."""
+    """Check that the maps show the gains of every run. They may also show gains of refused runs,
+    which follow from the rules of these runs."""
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")
     drawn = sum(title.count("αh") for title in titles)
-    checks.expect(len(known) <= drawn <= len(candidates), f"{drawn} gains are drawn")
+    checks.expect(len(known) <= drawn <= len(candidates), f"{drawn} gains are drawn, not {len(known)} to {len(candidates)}")
     for entry in known:
         drawn = any(f"{entry.name}\nαh" in title for title in titles)
         checks.expect(drawn, f"the gains of {entry.name} are not drawn")
 
 
 def check_parts(browser, study, checks):
-    """Check how many elements of each other kind the page has."""
+    """Check the numbers of elements of other kinds."""
     wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#environment dd": 6,
               "#methods tbody tr": len(study.methods), "#methods svg": 8}
     for selector, number in wanted.items():
         got = count(browser, selector)
-        checks.expect(got == number, f"{got} of {selector}, not {number}")
+        checks.expect(got == number, f"{got} elements match {selector}, not {number}")
     remarks = count(browser, "#rows .remark.good")
     front = len(study.front("work")) + len(study.front("cpu"))
-    checks.expect(remarks == front, f"{remarks} remarks on the fronts, not {front}")
+    checks.expect(remarks == front, f"{remarks} remarks about the fronts, not {front}")
 
 
 def cells(browser, column):
-    """Return the values of a column in all visible rows. Values that are not known are None."""
+    """Return the values of a column in all visible rows. Unknown values are None."""
     return browser.run(
         "Array.from(document.querySelectorAll('#rows tbody tr')).filter(row => !row.hidden)"
         f".map(row => row.cells[{column}].dataset.v === '' ? null"
@@ -259,7 +259,7 @@ def check_table(browser, study, checks):
     for presses, reverse, word in ((1, False, "ascending"), (2, True, "descending")):
         browser.click(button)
         values = cells(browser, column)
-        checks.expect(is_sorted(values, reverse), f"error is not {word} after {presses} presses")
+        checks.expect(is_sorted(values, reverse), f"the errors are not {word} after {presses} clicks")
         checks.expect(sum(v is not None for v in values) == len(expected), "the number of errors in the table is wrong")
         sort = browser.run(f"document.querySelector('{button}').parentNode.ariaSort")
         checks.expect(sort == word, f"aria-sort is {sort}, not {word}")
@@ -279,25 +279,25 @@ def select(browser, kind):
 def check_filters(browser, study, checks):
     front = set(study.front("work")) | set(study.front("cpu"))
     shown = select(browser, "front")
-    checks.expect(shown == len(front), f"{shown} entries on a front, not {len(front)}")
+    checks.expect(shown == len(front), f"the filter shows {shown} entries on a front, not {len(front)}")
     for state in ("done", "failed", "refused", "timed_out"):
         wanted = sum(entry.state == state for entry in study.entries)
-        checks.expect(select(browser, state) == wanted, f"{wanted} entries are {state}")
+        checks.expect(select(browser, state) == wanted, f"the filter does not show the {wanted} entries that are {state}")
     select(browser, "all")
     browser.click("#integrators input")
     shown = browser.run(
         "Array.from(document.querySelectorAll('svg.chart g.line[data-i=euler]'))"
         ".filter(line => getComputedStyle(line).display !== 'none').length"
     )
-    checks.expect(shown == 0, f"{shown} lines of euler are shown without it")
+    checks.expect(shown == 0, f"{shown} lines of euler are visible although it is not selected")
     others = sum(entry.integrator != "euler" for entry in study.entries)
     checks.expect(len(cells(browser, 2)) == others, "the number of entries without euler is wrong")
     browser.click("#integrators input")
-    checks.expect(len(cells(browser, 2)) == len(study), "not all entries are shown again")
+    checks.expect(len(cells(browser, 2)) == len(study), "selecting euler again does not show all entries")
     browser.click("#all")
     hidden = browser.run("Array.from(document.querySelectorAll('#rows th, #rows td'))"
                          ".filter(cell => getComputedStyle(cell).display === 'none').length")
-    checks.expect(hidden == 0, f"{hidden} cells are hidden among all columns")
+    checks.expect(hidden == 0, f"{hidden} cells are hidden although all columns are selected")
     browser.click("#all")
 
 
@@ -316,7 +316,8 @@ def check_colours(browser, checks):
 
 
 def check_everywhere(browser, page, study, checks):
-    """Check the page of any study, for each window size, in both colour schemes, and on paper."""
+    """Check the page of any study for each window size and colour scheme, and on paper. Yields
+    after each size and scheme, so that the caller can add checks."""
     for width, height, phone in SIZES:
         for scheme in ("light", "dark"):
             checks.where = f"{os.path.basename(page)}, {width} px, {scheme}"
@@ -351,15 +352,15 @@ def check_sabotage(browser, page, study, checks):
     broken = page.replace(".html", "_broken.html")
     for part, other in SABOTAGE.items():
         checks.where = "sabotage"
-        checks.expect(text.count(part) == 1, f"the page has {text.count(part)} of {part!r}")
+        checks.expect(text.count(part) == 1, f"the page contains {part!r} {text.count(part)} times")
         with open(broken, "w", encoding="utf-8") as file:
             file.write(text.replace(part, other))
         found = Checks(quiet=True)
         try:
             for _ in check_everywhere(browser, broken, study, found):
                 pass
-        except (RuntimeError, ValueError):  # something that the checks need is missing
-            found.wrong.append("the page lacks what the checks need")
+        except (RuntimeError, ValueError):  # the page lacks an element that the checks need
+            found.wrong.append("the page lacks an element that the checks need")
         checks.expect(found.wrong, f"no check notices {other!r}")
         print(f"noticed: {found.wrong[0] if found.wrong else 'nothing'}"[:150])
 

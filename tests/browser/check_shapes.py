@@ -2,11 +2,11 @@
 """usage: check_shapes.py FOLDER [--write]
 
 Draws each kind of element as an SVG picture and as a page in headless Chromium. Compares the
-pictures with those in tests/browser/references. With --write, it replaces these references. Look at
-the new sheets before you commit them. Sheets of all pictures are saved in FOLDER. If pictures
-differ, the program lists the kinds of elements. Their places in the sheets are marked.
+pictures with the references in tests/browser/references. Saves sheets of all pictures in FOLDER.
+Lists the kinds of elements whose pictures differ, and marks them in the sheets. With --write,
+replaces the references. Look at the new sheets before you commit them.
 
-A sheet has COLUMNS pictures in a row, in the order of scenes.py, with 16 shades of grey.
+A sheet has COLUMNS pictures in a row, in the order of scenes.py, in 16 shades of grey.
 """
 
 import base64
@@ -33,7 +33,7 @@ TOLERANCE = 0.6
 SCENES = {"plane": scenes.PLANE, "space": scenes.SPACE}
 PAGES = ("plane", "space")  # the pages for which there are references
 
-# Returns the shades of an image or a canvas. There is a hexadecimal digit for each pixel.
+# Returns the shades of an image or a canvas, as one hexadecimal digit for each pixel.
 SHADES = """(source => {
   const canvas = document.createElement('canvas'), pen = canvas.getContext('2d');
   [canvas.width, canvas.height] = [%d, %d];
@@ -54,7 +54,7 @@ def shades(text):
     return np.array([int(digit, 16) for digit in text], np.uint8).reshape(HEIGHT, WIDTH)
 
 
-# ---- sheets: PNG files with 4 bits for a pixel ----
+# ---- sheets: PNG files with 4 bits per pixel ----
 
 
 def write_png(path, image):
@@ -104,7 +104,7 @@ def difference(a, b):
 
 
 def read_images(browser, folder, images):
-    """Return the shades of pictures. Each picture is given as the text of a data address."""
+    """Return the shades of pictures. Each picture is given as the content of a data URL."""
     page = os.path.join(folder, "images.html")
     with open(page, "w", encoding="utf-8") as file:
         file.writelines(f'<img src="data:image/{image}">' for image in images)
@@ -113,7 +113,7 @@ def read_images(browser, folder, images):
 
 
 def enlarge(size):
-    """Give all pictures the width of lines that they have in a page."""
+    """Scale a picture so that its lines are as wide as in a page."""
     width, height = map(int, size.groups())
     scale = SCALE * min(WIDTH / width, HEIGHT / height)
     return f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
@@ -124,8 +124,8 @@ def svg_image(svg):
     return "svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-# Returns the number of open joints at the start, and the number after all bodies have been moved.
-# Returns null if there are no gaps.
+# Returns the number of open gaps at the start, and the number after all bodies have been moved.
+# Returns null if the page has no gaps.
 GAPS = """(() => {
   const gaps = shapes.filter(shape => shape.style === 'gap'), frames = framesAt(at(first));
   const open = () => gaps.filter(shape => isOpen(ends(shape, frames))).length, before = open();
@@ -134,8 +134,8 @@ GAPS = """(() => {
 
 
 def page_image(browser, folder, name, m, wrong):
-    """Return a picture of the page. If the page does not notice that a joint opens, add the name to
-    `wrong`."""
+    """Return a picture of the page. Add the name to `wrong` if a gap is open at the start, or if no
+    gap opens when the bodies move apart."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         run = m.freeze().simulate([0, 1e-6], "rk4", step=1e-6)
@@ -159,7 +159,7 @@ def page_image(browser, folder, name, m, wrong):
 
 
 def draw_all(browser, folder, wrong):
-    """Return the SVG texts and all sheets. A sheet consists of names and pictures."""
+    """Return the SVG texts and the pictures of all sheets. Both map the names of scenes."""
     svgs, images = {}, {}
     for group, kinds in SCENES.items():
         mechanisms = {name: scenes.build(kinds, name) for name in kinds}
@@ -176,7 +176,7 @@ def draw_all(browser, folder, wrong):
 
 
 def check_sheet(title, pictures, folder):
-    """Compare the pictures with the references. Return the names of kinds that differ."""
+    """Compare the pictures with the references. Return the names of scenes that differ."""
     path = os.path.join(REFERENCES, f"{title}.png")
     names, sheet = list(pictures), join(pictures.values())
     known = read_png(path) if os.path.exists(path) else sheet[:0]
@@ -194,8 +194,8 @@ def check_sheet(title, pictures, folder):
 
 
 def check_kinds():
-    """Check that there is a scene for each kind of element. User coordinates are excluded, because
-    they have no position that could be drawn."""
+    """Check that there is a scene for each kind of element, except user coordinates, which have no
+    position in a picture."""
     used = {e.kind.name for kinds in SCENES.values() for name in kinds for e in scenes.build(kinds, name)}
     missing = sorted(set(KINDS) - used - {"coordinates"})
     for name in missing:
@@ -204,7 +204,7 @@ def check_kinds():
 
 
 def check_sensitivity(browser, folder, svgs, sheets):
-    """Check that a picture changes if its last shape is removed."""
+    """Check that every picture changes if its last shape is removed."""
     wrong = []
     for group, texts in svgs.items():
         images = [svg_image(text[: text.rindex("<g>")] + "</svg>") for text in texts.values()]

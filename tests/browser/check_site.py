@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: check_site.py SITE [SCREENSHOTS]
 
-Checks the documentation site in the folder SITE: that all links between its pages lead somewhere, that the browser
-reports no errors, that no page is wider than a phone, that no page needs a network, and that the search works from the
-file system. Writes screenshots of each kind of page into the folder SCREENSHOTS."""
+Checks the documentation site in the folder SITE. All links between its pages must have targets, and the search must work
+from the file system. No page may be wider than a phone, need a network, or cause errors in the browser. Writes screenshots
+of each kind of page into the folder SCREENSHOTS."""
 
 import sys
 import time
@@ -36,7 +36,7 @@ class Links(HTMLParser):
                 self.links.add(value)
 
 
-def dead_links(site):
+def find_dead_links(site):
     pages = {path.resolve(): Links(path) for path in site.glob("**/*.html")}
     count, dead = 0, []
     for path, page in pages.items():
@@ -55,8 +55,8 @@ def dead_links(site):
     return dead
 
 
-def look(browser, path, size, scheme):
-    """Open a page. Return what is wrong with it."""
+def find_errors(browser, path, size, scheme):
+    """Open a page. Return a list of its errors."""
     browser.size(*size, phone=size is PHONE, scheme=scheme)
     browser.open(str(path))
     wrong = [f"console: {text}" for text in browser.complaints()]
@@ -80,23 +80,23 @@ def search(browser, site):
         if found:
             print(f"search: {found} pages found")
             return []
-    return ["the search finds nothing"]
+    return ["the search finds no page"]
 
 
 def main():
     site = Path(sys.argv[1])
-    failures = dead_links(site)
+    failures = find_dead_links(site)
     paths = [path for path in sorted(site.glob("**/*.html")) if path.parent.name != "motion"]
     with Chromium() as browser:
         for path in paths:
-            failures += look(browser, path, PHONE, "light")
-            failures += look(browser, path, DESKTOP, "dark")
+            failures += find_errors(browser, path, PHONE, "light")
+            failures += find_errors(browser, path, DESKTOP, "dark")
         failures += search(browser, site)
         for name in SHOWN.split() if len(sys.argv) > 2 else ():
             for size in (PHONE, DESKTOP):
                 for scheme in ("light", "dark"):
-                    look(browser, site / f"{name}.html", size, scheme)
-                    time.sleep(1.5)  # for the frames of motions
+                    find_errors(browser, site / f"{name}.html", size, scheme)
+                    time.sleep(1.5)  # until the frames of motions are loaded
                     target = Path(sys.argv[2]) / f"{name.replace('/', '-')}-{size[0]}-{scheme}.png"
                     target.parent.mkdir(parents=True, exist_ok=True)
                     browser.screenshot(target, whole=False)

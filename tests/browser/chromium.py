@@ -18,7 +18,8 @@ class Chromium:
         to_browser, self._write = os.pipe()
         self._read, from_browser = os.pipe()
 
-        # Chromium reads descriptor 3 and writes descriptor 4, and both may be in use already
+        # Chromium reads descriptor 3 and writes descriptor 4. The pipes themselves may already use
+        # these numbers, so they are duplicated first.
         def take_pipes():
             ends = os.dup(to_browser), os.dup(from_browser)
             os.dup2(ends[0], 3)
@@ -94,7 +95,7 @@ class Chromium:
         self.call("Emulation.setEmulatedMedia", media=media, features=features)
 
     def open(self, path):
-        """Open a file. If the path begins with http, open it as an address."""
+        """Open a file, or an address that begins with "http:"."""
         self.events.clear()
         url = path if path.startswith("http:") else "file://" + os.path.abspath(path)
         self.call("Page.navigate", url=url)
@@ -129,8 +130,8 @@ class Chromium:
             file.write(base64.b64decode(answer["data"]))
 
     def complaints(self):
-        """Return console messages, exceptions, and reports of blocked content. One report is
-        omitted. It says that copying pictures is slow, because software replaces a graphics
+        """Return console messages, exceptions, and reports of blocked content. The report that
+        copying pictures is slow is omitted, because it is due to drawing without a graphics
         card."""
         out = []
         for event in self.events:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mechanisms for the checks of pages that move. They are a slider-crank and a double pendulum in
-space."""
+"""Mechanisms for the checks of moving pictures: a slider-crank, and a spatial double pendulum."""
 
 import baum
 from baum import inertia

@@ -21,7 +21,7 @@ def scene(scenes):
 
 
 def arm(m, name="arm", start=(0, 0), end=(2, 0.5)):
-    """Add a body between two points. Its axes are parallel to those of the ground."""
+    """Add a body between two points. Its axes are parallel to the axes of the ground."""
     middle = (np.array(start, float) + end) / 2
     add = m.planar_body if len(start) == 2 else m.spatial_body
     return add(name, mass=1, inertia=0.1 if len(start) == 2 else BOX, position=middle)

@@ -46,7 +46,7 @@ static pose draw_pose(baum_workspace *w, fuzz_bytes *b, int nv)
   return p;
 }
 
-/* Makes every kind of evaluation in one configuration. */
+/* Calls every kind of evaluation in one configuration. */
 static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
 {
   static double out[SIZE * SIZE];
@@ -65,7 +65,7 @@ static void evaluate(baum_workspace *w, const pose *p, int nv, int nc)
   check_finite(status, lambda, nc);
 }
 
-/* Projects a configuration and assembles it. If this fails, q and v must be unchanged. */
+/* Projects a configuration and assembles it. Calls that fail must leave q and v unchanged. */
 static void move(baum_workspace *w, pose *p, int nv)
 {
   pose before = *p;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Makes runs with arbitrary options, and arbitrary calls on these runs. After each call, the state
- * of the run must be finite. */
+/* Makes runs with arbitrary options, and calls functions of these runs with arbitrary arguments.
+ * After each call, the state of the run must be finite. */
 #include <math.h>
 #include <string.h>
 
@@ -8,10 +8,9 @@
 
 enum { STEPS = 40, CHANNELS = 14, WIDTH = 400, LOOKS = 6, MECHANISMS = 2 };
 
-/* ---- mechanisms, which are made only once ---- */
+/* ---- mechanisms, made once for all inputs ---- */
 
-/* Makes a particle on a massless rod. It has no user functions, so that every formulation can be
- * used. */
+/* Makes a particle on a massless rod. Without user functions, every formulation can be used. */
 static baum_mechanism *make_pendulum(every_element *parts)
 {
   baum_mechanism *m = NULL;
@@ -142,7 +141,7 @@ static void get_channels(const scene *s)
   }
 }
 
-/* Saves a run and restores it. Afterwards it must be at the same time as before. */
+/* Saves a run and restores it. The restored run must be at the time at which it was saved. */
 static void save_and_restore(const scene *s)
 {
   enum { BYTES = 1 << 20 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restores runs from bytes. These bytes are arbitrary, or they are a saved run in which some words
- * were changed and the checksum was corrected. If the bytes are refused, the run must be unchanged.
- * If they are accepted, later calls may fail, but they must not crash. After that, it must be
- * possible to restore the saved run exactly. */
+/* Restores runs from bytes. The bytes are arbitrary, or they are a saved run with some changed
+ * words and a corrected checksum. If the library refuses the bytes, the run must be unchanged. If
+ * it accepts the bytes, later calls may fail, but they must not crash. Afterwards the saved run
+ * must be restored exactly. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 
 enum { WORD = 8, MOST_CHANGES = 6, STEPS = 20 };
 
-/* ---- runs, which are made only once ---- */
+/* ---- runs, made once for all inputs ---- */
 
 /* A saved run, and the positions that it reaches some steps later. */
 typedef struct scene {
@@ -102,7 +102,7 @@ static void seal(unsigned char *bytes, size_t size)
   memcpy(bytes + size - WORD, &sum.value, WORD);
 }
 
-/* Changes some words of a saved run, or its length. Returns the length. */
+/* Changes some words or the length of a saved run. Returns the length. */
 static size_t change(scene *s, fuzz_bytes *b)
 {
   size_t size = s->size;
@@ -129,7 +129,8 @@ static baum_status restore_any(scene *s, fuzz_bytes *b)
     return baum_simulation_restore(s->run, b->at, b->left);
   }
   size_t size = change(s, b);
-  /* The memory is allocated separately, so that a sanitizer reports reading past its end. */
+  /* The bytes are in separately allocated memory, so that a sanitizer reports reading past its
+   * end. */
   unsigned char *bytes = malloc(size);
   FUZZ_CHECK(bytes);
   memcpy(bytes, s->changed, size);

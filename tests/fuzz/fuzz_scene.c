@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads scenes from arbitrary bytes. If a scene is accepted, it is written and read back, and this
+/* Reads scenes from arbitrary bytes. If the library accepts a scene, writing it and reading it back
  * must give an equal mechanism. Freezing this mechanism may fail, but it must not crash. */
 #include <stdlib.h>
 #include <string.h>

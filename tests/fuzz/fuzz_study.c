@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Continues studies from files. Some files consist of arbitrary bytes. Some are real files in which
- * bits or lines were changed, or which contain lines of another study. Others are real files in
- * which fields were changed and the digests of their lines corrected. If a file is refused, it must
- * be unchanged. If it is accepted, the study must have exactly the entries of a study without a
- * file, unless a digest was corrected. Running a completed study again must never find anything
- * left to do. */
+/* Continues studies from files. Some files consist of arbitrary bytes. Others are study files with
+ * changed bits or lines, or with lines of another study. In further files, fields are changed and
+ * the digests of their lines are corrected. If the library refuses a file, the file must be
+ * unchanged. If it accepts a file, the study must have exactly the entries of a study without a
+ * file, unless a digest was corrected. Running a completed study again must compute nothing. */
 #define _GNU_SOURCE /* for mkstemp */
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +17,7 @@
 
 enum { ENTRIES = 3, TEXT = 1 << 15, LINES = 64, MOST_CHANGES = 8, FORMS = 4 };
 
-/* ---- the file, which is the same for all inputs ---- */
+/* ---- the file, at the same path for all inputs ---- */
 
 static char path[] = "/tmp/baum-fuzz-study-XXXXXX";
 
@@ -51,7 +50,7 @@ static size_t read_file(char text[TEXT])
 
 /* ---- studies ---- */
 
-/* Makes study 0 or study 1, which ends at another time. */
+/* Makes study 0, or study 1 with another end time. */
 static baum_study *make_study(int which)
 {
   static model pendulum;
@@ -69,7 +68,7 @@ static baum_study *make_study(int which)
     baum_simulation_options run = baum_simulation_options_default();
     run.integrator = k < 2 ? baum_rk4() : baum_euler();
     run.formulation = k < 2 ? BAUM_FORMULATION_PROJECTION : BAUM_FORMULATION_BAUMGARTE;
-    /* Unstable gains, so that the entry is refused. */
+    /* The library refuses the last entry, because its gains are unstable. */
     run.gains = k < 2 ? run.gains : baum_gains_fixed(1e3, 1e3);
     run.step = k == 1 ? 0.01 : 0.02;
     FUZZ_CHECK(baum_study_add(study, &run) == BAUM_OK);
@@ -84,7 +83,7 @@ static baum_study_entry entry_of(const baum_study *study, int k)
   return entry;
 }
 
-/* Tells whether two numbers are the same. Two NaNs are considered the same. */
+/* Tells whether two numbers are equal. Two NaNs count as equal. */
 static bool same(double a, double b)
 {
   return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
@@ -138,7 +137,7 @@ static const truth *true_ones(void)
 
 /* ---- texts ---- */
 
-/* The lines of a file, each with its line end. At most LINES lines are read. */
+/* The first LINES lines of a file, each with its line end. */
 typedef struct document {
   char line[LINES][BAUM_I_STUDY_LINE];
   int count;
@@ -205,7 +204,7 @@ static void change(document *d, fuzz_bytes *b, const truth *t)
   }
 }
 
-/* Writes the changed file. Returns whether a line that no study has written has a correct
+/* Writes the changed file. Returns true if a line that no study has written has a correct
  * digest. */
 static bool write_changed(fuzz_bytes *b, const truth *t)
 {
@@ -227,7 +226,7 @@ static bool write_changed(fuzz_bytes *b, const truth *t)
   return d.sealed;
 }
 
-/* ---- how a study reads the file ---- */
+/* ---- studies that continue from the file ---- */
 
 static void read_all(const baum_study *study, fuzz_bytes *b)
 {
@@ -255,7 +254,7 @@ static void read_all(const baum_study *study, fuzz_bytes *b)
     baum_study_recommend_budget(study, 1e-3, &options, sizeof options, text, sizeof text));
 }
 
-/* Runs the completed study again. This must compute nothing and leave the file unchanged. */
+/* Runs the completed study again. The study must compute nothing and leave the file unchanged. */
 static void check_over(const baum_study *study)
 {
   static char before[TEXT];
@@ -292,8 +291,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  /* A line with a corrected digest may say that an entry is done, although it cannot be simulated.
-   * In this case the study fails when it measures the CPU time of that entry. */
+  /* A line with a corrected digest may claim that an entry is done although its run fails. The
+   * study then fails when it measures the CPU time of this entry. */
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);

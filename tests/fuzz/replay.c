@@ -24,8 +24,8 @@ int main(int count, char **paths)
   for (int k = 1; k < count; k++) {
     size_t size = 0;
     unsigned char *bytes = read_file(paths[k], &size);
-    /* The name is printed first. If the program fails, the last name in the output is the name of
-     * this input. */
+    /* If the program crashes, the last name in its output is the name of the input that caused
+     * it. */
     (void)printf("%s\n", paths[k]);
     (void)fflush(stdout);
     (void)LLVMFuzzerTestOneInput(bytes, size);

@@ -7,11 +7,11 @@
 /* ---- points ---- */
 
 typedef struct marker {
-  int first; /* first column of the body on which the point is; -1 for ground */
+  int first; /* first column of the body of the point; -1 for ground */
   bool turns;
   double w;
   double angle;
-  double arm[2]; /* from the centre of mass to the point, in ground axes */
+  double arm[2]; /* vector from the centre of mass to the point, in ground axes */
   double p[2];
   double dp[2];
 } marker;
@@ -108,8 +108,8 @@ static void fill_pin(const gap *g, int row, judge_rows *out)
   }
 }
 
-/* Sets the row of u . d. Here d is the gap between two points, and u is a unit vector fixed in body
- * a. */
+/* Sets the row of u . d, where d is the vector between two points and u is a unit vector fixed in
+ * body a. */
 static void fill_along(const gap *g, const double axis[2], int row, judge_rows *out)
 {
   double u[2];
@@ -242,7 +242,7 @@ double judge_kinetic(const judge_scene *s, const double *v)
 
 /* ---- factors ---- */
 
-/* Reflects x by x -= 2 h (h . x). h is a unit vector, and its entries before `from` are 0. */
+/* Reflects x: x -= 2 h (h . x). h is a unit vector whose entries before `from` are 0. */
 static void reflect(const double *h, int from, int n, double *x)
 {
   double sum = 0.0;
@@ -361,7 +361,7 @@ bool judge_project(const judge_scene *s, double t, bool weighted, double *q, dou
     for (int i = 0; i < s->n; i++) {
       q[i] += step[i];
     }
-    if (size < 1e-9) { /* convergence is quadratic, so the next step would be below rounding */
+    if (size < 1e-9) { /* quadratic convergence: the next step would be below rounding errors */
       judge_evaluate_rows(s, t, q, v, &rows);
       bool fine = judge_factor(s, &rows, weighted, &f);
       if (fine) {

@@ -8,8 +8,8 @@
  *
  *   a = M^-1/2 Q (R^-T gamma; Q2^T M^-1/2 g),
  *
- * where Q2 are the columns of Q that belong to the zeros. Unlike a solution with J~ J~^T, this one
- * does not square the condition number of J~.
+ * where Q2 contains the columns of Q that belong to the zero block. Unlike a solution with J~ J~^T,
+ * this solution does not square the condition number of J~.
  */
 #ifndef BAUM_JUDGE_EQUATIONS_H
 #define BAUM_JUDGE_EQUATIONS_H
@@ -36,8 +36,8 @@ void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const 
 void judge_forces(const judge_scene *s, const double *q, const double *v, double *g);
 double judge_mass(const judge_scene *s, int column);
 
-/** Factors J~ if `weighted` is set, and otherwise J. Returns false if the rows are dependent up to
- * rounding. */
+/** Factors J~ if `weighted` is set, and J otherwise. Returns false if the rows are dependent up to
+ * rounding errors. */
 bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
 
 /** Replaces x by the nearest vector for which J x = rhs. The distance is measured in the metric M,
@@ -51,7 +51,7 @@ void judge_null_vector(const judge_factors *f, int k, double *out);
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/** Replaces q and v by the nearest ones on the constraints. The metric is the same as in
+/** Replaces q and v by the nearest values that satisfy the constraints, in the same metric as
  * judge_nearest(). */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 

@@ -84,7 +84,7 @@ static double scale_error(const run *r, const double *error, const double *y)
   return most / r->tolerance;
 }
 
-/* Extrapolates by the Aitken-Neville scheme. It overwrites each row of the table by the next one.
+/* Extrapolates by the Aitken-Neville scheme. Each row of the table overwrites the previous row.
  * Returns the error divided by the tolerance. */
 static double extrapolate(const run *r, double t, const double *y, const double *dy, double h,
                           double *out)
@@ -120,7 +120,7 @@ static void pack(const judge_state *from, double *y)
   memcpy(y + JUDGE_N, from->v, sizeof from->v);
 }
 
-/* Returns by which factor to change the step. `error` is the error divided by the tolerance. */
+/* Returns the factor for the next step. `error` is the error divided by the tolerance. */
 static double rescale(const run *r, double error)
 {
   double factor = 0.85 * pow(fmax(error, 1e-30), -1.0 / (2 * r->columns - 1));
@@ -212,8 +212,8 @@ static double along(const judge_scene *s, const double *direction, const double 
   return sum;
 }
 
-/* Computes a matrix by differences. The matrix maps small changes of positions and velocities at
- * sample k to the changes that they cause at sample k + 1. */
+/* Computes a matrix by finite differences. The matrix maps small changes of positions and
+ * velocities at sample k to the changes that they cause at sample k + 1. */
 static bool differentiate(const judge_scene *s, const judge_reference *ref, int k, double h,
                           matrix *out)
 {
@@ -261,8 +261,7 @@ static void multiply(const matrix *a, const matrix *b, matrix *out)
   }
 }
 
-/* Computes the largest singular value of the first `rows` rows. It is found by power iteration with
- * A^T A. */
+/* Computes the largest singular value of the first `rows` rows by power iteration with A^T A. */
 static double largest_singular_value(const matrix *a, int rows)
 {
   double x[FREE];
@@ -298,7 +297,7 @@ static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;
   matrix product;
-  /* Each matrix maps changes at an earlier sample to changes at the present one. */
+  /* Each matrix maps changes at an earlier sample to changes at the present sample. */
   matrix from[JUDGE_SEGMENTS];
   ref->growth = 1.0;
   ref->growth_end = 1.0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reference motion of a judge_scene, and how much it amplifies perturbations. The method is
- * extrapolation of the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966). It uses the
- * accelerations of judge_equations, and a projection after each step. */
+/* The reference motion of a judge_scene, and the growth of perturbations along it. The integrator
+ * extrapolates the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966). It uses the
+ * accelerations of judge_equations, and projects after each step. */
 #ifndef BAUM_JUDGE_REFERENCE_H
 #define BAUM_JUDGE_REFERENCE_H
 
@@ -17,20 +17,21 @@ typedef struct judge_state {
 typedef struct judge_reference {
   double t[JUDGE_SEGMENTS + 1];
   judge_state at[JUDGE_SEGMENTS + 1];
-  /* Largest difference between the two runs for the reference. Their orders are 14 and 12, and
-   * their tolerances are 1e-12 and 1e-10. */
+  /* Largest difference of positions between the two runs for the reference. Their orders are 14 and
+   * 12, and their tolerances are 1e-12 and 1e-10. */
   double agreement;
-  double rate;        /* [1/s] mean of |v| over the samples, with v in m/s and rad/s */
+  /* Mean over the samples of the root mean square of v [m/s, rad/s], but at least 0.1. */
+  double rate;
   double kinetic;     /* [J] largest kinetic energy at a sample */
   double growth;      /* largest factor by which perturbations grow between any two samples */
-  double growth_end;  /* the same from any sample to the last one */
-  double growth_q;    /* like growth, but only positions count at the later sample */
+  double growth_end;  /* the same between any sample and the last sample */
+  double growth_q;    /* like growth, but counts only positions at the later sample */
   const char *failed; /* why there is no reference, or NULL if there is one */
 } judge_reference;
 
 /** Integrates twice from (q, v) at t = 0 to the end of the scene. (q, v) must satisfy the
- * constraints to rounding. Errors of positions are relative to `length`. Returns true if both runs
- * agree to 1e-6. */
+ * constraints up to rounding errors. Differences of lengths are divided by `length`. Returns true
+ * if both runs agree to 1e-6 and the growth of perturbations is known. */
 bool judge_find_reference(const judge_scene *s, const double *q, const double *v, double length,
                           judge_reference *out);
 

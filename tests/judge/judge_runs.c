@@ -25,8 +25,8 @@ static bool read_start(judge_case *c)
   return true;
 }
 
-/* Checks that the library and the reference describe the same mechanism. Their accelerations at the
- * start must agree. */
+/* Checks that the library and the reference describe the same mechanism, by comparing their
+ * accelerations at the start. */
 static bool accelerations_agree(judge_case *c)
 {
   const judge_scene *s = &c->scene;

@@ -11,12 +11,12 @@ typedef struct judge_setting {
   const char *name;
   const baum_integrator *(*integrator)(void);
   baum_formulation formulation;
-  double step; /* [s] fixed step, or 0 if rtol determines the steps */
+  double step; /* [s] fixed step; 0 if rtol determines the steps */
   double rtol; /* [-] 0 for a fixed step */
 } judge_setting;
 
 typedef enum judge_class {
-  JUDGE_UNUSED, /* the library does not support the setting, or the setting was not run */
+  JUDGE_UNUSED, /* the library does not support the setting, or the setting has not been run */
   JUDGE_STOPPED,
   JUDGE_RIGHT,
   JUDGE_GREY,
@@ -50,7 +50,7 @@ typedef struct judge_case {
 bool judge_open(judge_case *c, uint64_t seed);
 void judge_close(judge_case *c);
 
-/** Makes a run with a setting, and compares it with the samples of the reference. */
+/** Makes a run with a setting, and compares its positions with those of the reference. */
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 

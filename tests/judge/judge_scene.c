@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generates scenes at random. Links are placed first. Then joints are placed where links meet, so
- * that the design configuration satisfies the constraints. Velocities are random and then projected
- * onto the constraints. Lengths are about 1 m. */
+/* Generates random scenes. Links are placed first. Then joints are placed where links meet, so that
+ * the design configuration satisfies the constraints. The velocities are random and are then
+ * projected, so that they satisfy the constraints. Lengths are about 1 m. */
 #include "judge_scene.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* A scene that is being generated, and the choices that hold for all of it. */
+/* A scene that is being generated, and the choices that apply to the whole scene. */
 typedef struct pen {
   judge_scene *s;
   judge_dice dice;
@@ -145,8 +145,8 @@ static double angle_of(const judge_scene *s, int body)
   return body == JUDGE_GROUND ? 0.0 : s->bodies[body].pose[2];
 }
 
-/* Adds a slot or a translational joint at a point. Its axis, on body a, is at `angle` to the
- * ground. */
+/* Adds a slot or a translational joint at a point. Its axis is fixed on body a and is at `angle` to
+ * the x axis of the ground. */
 static void add_slider(pen *p, judge_kind kind, int a, int b, const double at[2], double angle)
 {
   judge_joint *j = add_joint(p, kind, a, b);
@@ -193,8 +193,7 @@ static void from_polar(const double from[2], double radius, double angle, double
 
 /* ---- springs ---- */
 
-/* Returns the smaller of the masses, or of the inertias, of two bodies. The ground is not
- * counted. */
+/* Returns the smaller mass or inertia of two bodies. The ground does not count. */
 static double lighter(const judge_scene *s, int a, int b, bool inertia)
 {
   double least = INFINITY;
@@ -254,7 +253,7 @@ static void add_attached(pen *p, int parent, const double at[2], const double to
   double angle = judge_between(d, 0.0, 2.0 * PI);
   bool particle = judge_chance(d, 0.25);
   double begin[2] = {at[0], at[1]};
-  if (particle) { /* it hangs on a rod, or slides in a slot */
+  if (particle) { /* the particle slides in a slot, or hangs on a rod or a spring */
     bool slides = kind < 0.4 && !is_particle(p->s, parent);
     int body = add_particle(p, slides ? at : to);
     if (slides) {
@@ -296,7 +295,7 @@ static void grow_tree(pen *p, int count)
     add_attached(p, parent, at, to);
   }
   int loads = judge_below(&p->dice, 4);
-  if (loads == 0 && p->s->body_count > 0) { /* a bob at the tip of the last rod */
+  if (loads == 0 && p->s->body_count > 0) { /* add a bob at the tip of the last rod */
     int body = p->s->body_count - 1;
     double at[2];
     point_on(p->s, body, 0.5, at);
@@ -323,8 +322,8 @@ static bool meet(const double a[2], double ra, const double b[2], double rb, dou
   return true;
 }
 
-/* Adds a chain of rods through points. Its start is pinned to ground, and also its end if `closed`
- * is set. */
+/* Adds a chain of rods through points. Pins connect its start, and its end if `closed` is set, to
+ * the ground. */
 static void add_chain(pen *p, double points[][2], int count, bool closed)
 {
   int before = JUDGE_GROUND;
@@ -346,7 +345,8 @@ static bool draw_four_bar(pen *p, bool near)
     link[k] = judge_between(d, 0.3, 1.3);
   }
   link[3] = judge_between(d, 0.4, 1.5);
-  /* A change point: the longest plus the shortest link is almost the sum of the others. */
+  /* Near a change point, the longest and the shortest link are together almost as long as the two
+   * others. */
   if (near) {
     double off = draw_decades(d, -3.0, -1.3) * (judge_chance(d, 0.5) ? 1.0 : -1.0);
     link[0] = judge_between(d, 0.25, 0.7);
@@ -433,9 +433,9 @@ static bool draw_loop(pen *p)
   return true;
 }
 
-/* Generates a light rod between a slot of ground and a bob. The bob moves almost freely until the
- * rod is perpendicular to the slot. Then its velocity changes abruptly, like that of a bob on a
- * string that becomes taut. */
+/* Generates a light rod between a slot in the ground and a bob. The bob moves almost freely until
+ * the rod is perpendicular to the slot. Then the velocity of the bob changes abruptly, as if it
+ * hung on a string that becomes taut. */
 static void draw_taut(pen *p)
 {
   judge_dice *d = &p->dice;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random planar mechanisms for bench_doubts, described only by numbers. The library's mechanism and
- * the reference are both built from these numbers. No code is shared with the other random
- * mechanisms that tests use. The conventions for coordinates, axes and rows are those of
- * planar.h. */
+/* Random planar mechanisms for bench_doubts, described only by numbers. The mechanism of the
+ * library and the equations of the reference are both built from these numbers. Other random
+ * mechanisms in the tests share no code with these. planar.h explains the conventions for
+ * coordinates, axes and rows. */
 #ifndef BAUM_JUDGE_SCENE_H
 #define BAUM_JUDGE_SCENE_H
 
@@ -26,9 +26,10 @@ typedef enum judge_kind {
   JUDGE_SLOT,
   JUDGE_TRANSLATIONAL,
   JUDGE_DISTANCE,
-  /* Drives the revolute joint `of`, and has the bodies and points of this joint. */
+  /* Prescribes the angle of the revolute joint `of`, and has the bodies and points of this
+   * joint. */
   JUDGE_DRIVE_ANGLE,
-  JUDGE_DRIVE_SLIDE /* drives a pin in a slot in the same way */
+  JUDGE_DRIVE_SLIDE /* prescribes the displacement of a pin in its slot in the same way */
 } judge_kind;
 
 typedef struct judge_joint {
@@ -76,7 +77,7 @@ typedef struct judge_scene {
   double end;        /* [s] */
 } judge_scene;
 
-/** Generates the scene of a seed. Returns false if it finds no consistent start. */
+/** Generates the scene of a seed. Returns false if no attempt has a consistent start. */
 bool judge_scene_draw(judge_scene *s, uint64_t seed);
 
 /** Evaluates the law of a driver. s receives its value, rate and acceleration. */

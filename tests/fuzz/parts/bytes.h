@@ -8,11 +8,11 @@
 
 #include <baum/status.h>
 
-/* Each target defines this function. It is called by the fuzzer, or by replay.c in other builds. It
- * returns 0. */
+/* Each target defines this function. The fuzzer calls it, or replay.c in builds without the fuzzer.
+ * It returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The bytes of an input that have not been read yet. After the last byte, zeros are read. */
+/* The unread bytes of an input. Reading continues with zeros after the last byte. */
 typedef struct fuzz_bytes {
   const uint8_t *at;
   size_t left;
@@ -23,8 +23,8 @@ int fuzz_byte(fuzz_bytes *b);
 int fuzz_below(fuzz_bytes *b, int count);
 /* Copies the next `count` bytes. */
 void fuzz_copy(fuzz_bytes *b, void *out, size_t count);
-/* Returns a number. Most numbers are ordinary. Others are zeros, infinities, NaN, the smallest and
- * the largest numbers, and arbitrary bits. */
+/* Returns a number. Most numbers are ordinary. Others are zero, infinite, NaN, extremely small or
+ * large, or have arbitrary bits. */
 double fuzz_number(fuzz_bytes *b);
 /* Returns a number, usually between 1e-6 and 1, and occasionally any number. */
 double fuzz_small(fuzz_bytes *b);

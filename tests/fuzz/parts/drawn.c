@@ -14,7 +14,7 @@ typedef struct drawing {
   const element_kind *kind;
   element_fields fields;
   any_def *def;
-  int arrays; /* how many arrays of numbers are in use */
+  int arrays; /* number of arrays of numbers in use */
 } drawing;
 
 static void put(const drawing *d, const element_field *f, const void *value, size_t size)
@@ -64,7 +64,7 @@ static void draw_flag(const drawing *d, const element_field *f)
   put(d, f, &value, sizeof value);
 }
 
-/* Returns a handle. Most of the time, it is the handle of an existing element. */
+/* Returns a handle, which usually belongs to an existing element. */
 static any_id draw_id_of(design_mechanism *m, fuzz_bytes *b, int family)
 {
   int roll = fuzz_byte(b);
@@ -142,8 +142,7 @@ static void draw_field(drawing *d, const element_field *f)
 
 /* ---- definitions ---- */
 
-/* If an array would be shorter than the length that the definition states, sets the array to
- * NULL. */
+/* Sets all arrays to NULL if the definition states more entries than the arrays have. */
 static void drop_short_arrays(const drawing *d, int32_t count)
 {
   const void *none = NULL;
@@ -217,8 +216,8 @@ static void add_one(design_mechanism *m, fuzz_bytes *b)
   m->ids[family][m->counts[family]++] = id;
 }
 
-/* Reads a definition back and sets it again. Then sets another definition. If the other definition
- * is refused, the first one must be unchanged. */
+/* Reads a definition back and sets it again. Then sets another definition. If the library refuses
+ * it, the first definition must be unchanged. */
 static void replace_one(design_mechanism *m, fuzz_bytes *b)
 {
   int family = fuzz_below(b, 3);
@@ -252,8 +251,8 @@ static void ask_for_wrong_element(design_mechanism *m, fuzz_bytes *b)
   (void)fuzz_status(kind->get(m->mechanism, id, &def, (size_t)fuzz_byte(b)));
 }
 
-/* Replaces the mechanism by a copy of it. The handles of its elements remain valid. */
-static void go_on_with_a_copy(design_mechanism *m)
+/* Replaces the mechanism by its copy. The handles of the elements remain valid. */
+static void continue_with_copy(design_mechanism *m)
 {
   baum_mechanism *copy = NULL;
   FUZZ_CHECK(baum_mechanism_copy(m->mechanism, &copy) == BAUM_OK);
@@ -270,7 +269,7 @@ static void call_another(design_mechanism *m, fuzz_bytes *b)
   case 2: (void)fuzz_status(baum_mechanism_add_input(m->mechanism, "%", x[0], &m->input)); break;
   case 3: (void)fuzz_status(baum_mechanism_set_input(m->mechanism, m->input, x[0])); break;
   case 4: (void)fuzz_status(baum_mechanism_add_break_times(m->mechanism, x, 3)); break;
-  case 5: go_on_with_a_copy(m); break;
+  case 5: continue_with_copy(m); break;
   case 6: replace_one(m, b); break;
   default: ask_for_wrong_element(m, b); break;
   }

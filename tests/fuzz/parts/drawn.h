@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, options and mechanisms that are chosen by the bytes of a fuzzer. They contain
- * everything that a caller may pass, whether it is sensible or not. Pointers are always valid or
- * NULL, and arrays have at least the length that is stated, because the library cannot check
- * this. */
+/* Definitions, options and mechanisms that the bytes of a fuzzer determine. They contain everything
+ * that a caller may pass, sensible or not. The exception is what the library cannot check: pointers
+ * are always valid or NULL, and arrays have at least the stated length. */
 #ifndef BAUM_FUZZ_DRAWN_H
 #define BAUM_FUZZ_DRAWN_H
 
@@ -11,12 +10,12 @@
 
 enum { DRAWN_MOST = 24, DRAWN_ROOM = 8, DRAWN_NAME = 300 };
 
-/* All functions of one element receive a pointer to this struct as their `user`. The functions
- * depend only on one coordinate, q[0]. In some elements, one call of a function fails. */
+/* The `user` of all functions of one element points to this struct. The functions depend only on
+ * one coordinate, q[0]. In some elements, one call of a function fails. */
 typedef struct design_user {
   int size;   /* number of rows of the mass matrix */
-  int calls;  /* the call with this number fails; if 0, none fails */
-  int answer; /* what this call returns; if 0, it succeeds with NaN as its result */
+  int calls;  /* number of the call that fails; 0 if none fails */
+  int answer; /* what this call returns; 0 if it succeeds with NaN as its result */
 } design_user;
 
 /* The elements that exist, and the data to which their definitions point. */
@@ -43,9 +42,8 @@ void design_definition(design_mechanism *m, fuzz_bytes *b, const element_kind *k
 void design_mechanism_make(design_mechanism *m, fuzz_bytes *b);
 void design_mechanism_destroy(design_mechanism *m);
 
-/* Chooses options, most of which are valid. A call makes at most `steps` steps. The options do not
- * contain `progress` and `user`. `factors` (DRAWN_ROOM) is memory for factors on the gains of
- * rows. */
+/* Chooses options, most of which are valid. max_steps is at most `steps`. `progress` and `user`
+ * keep their defaults. `factors` (DRAWN_ROOM) is memory for factors on the gains of rows. */
 void design_options(fuzz_bytes *b, int steps, double factors[DRAWN_ROOM],
                     baum_simulation_options *out);
 

@@ -37,8 +37,8 @@ static void draw_integer(fuzz_bytes *b, const element_field *f, unsigned char *a
   }
 }
 
-/* Chooses the size of the options. It always includes max_steps, because without this field, as in
- * an older version, a run could make a billion steps. */
+/* Chooses the size of the options. Every size that the library may accept covers max_steps. Without
+ * this field, as in older versions, a run could make a billion steps. */
 static size_t draw_size(fuzz_bytes *b)
 {
   const size_t least = offsetof(baum_simulation_options, max_steps) + sizeof(int64_t);
