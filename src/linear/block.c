@@ -143,7 +143,7 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
   return positive;
 }
 
-/* Computes L of M = L L^T (A.-L. Cholesky), row by row. */
+/* Computes the Cholesky factor L of M = L L^T, row by row. */
 static bool factor_one(const double *m, int n, double *l)
 {
   bool positive = true;

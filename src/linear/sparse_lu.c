@@ -21,7 +21,8 @@ static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* not const, because KLU requires this, but KLU does not change them */
+  int32_t *
+    columns; /* not const, because KLU takes pointers to non-const arrays; it does not change them */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;

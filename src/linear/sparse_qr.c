@@ -87,7 +87,7 @@ struct baum_i_sparse_qr {
 
 /* ---- structure ---- */
 
-/* Data that are needed only at creation. */
+/* Data needed only while the structure is found. */
 typedef struct plan {
   const baum_i_sparse_columns *pattern;
   int32_t *memory;   /* memory of the six arrays below, (n) each */
