@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
- * functions, named by BAUM_I_HOT(). Each mechanism chooses one of the two tables, when it is
- * created, for its workspaces and runs. The results of the two tables differ in the last digits.
+ * functions, named by BAUM_I_HOT(). The creation of a mechanism selects one of the two tables for
+ * its workspaces and runs. The results of the two tables differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops over arrays, which the monitors execute after every step. They use vectors of four numbers,
- * because plain loops would cost half as much time as an evaluation of the accelerations. */
+/* The monitors execute these loops over arrays after every step. The loops use vectors of four
+ * numbers, because plain loops would cost half as much time as an evaluation of the
+ * accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
 

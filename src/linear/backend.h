@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The interface of a solver (backend) of the saddle-point system. To add a solver, write a file
  * that defines a const baum_i_kkt_ops, declare it below, and use it in kkt.c. A backend only
- * factors and solves. The front end (kkt.c) computes residuals, refines, counts, checks the
- * accuracy and chooses another solver if necessary. None of these functions sets a message. */
+ * factors and solves. The front end (kkt.c) computes residuals, refines, counts the work, checks
+ * the accuracy and chooses another solver if necessary. None of these functions sets a message. */
 #ifndef BAUM_I_LINEAR_BACKEND_H
 #define BAUM_I_LINEAR_BACKEND_H
 

@@ -104,7 +104,7 @@ typedef struct baum_i_dense_body {
 /* The sides of a node on all body blocks of a dense body. They are consecutive in side[]. */
 typedef struct baum_i_dense_side {
   int32_t body; /* in dense[] */
-  int32_t side; /* first */
+  int32_t side; /* first of these sides */
 } baum_i_dense_side;
 
 /* The numbers of a node, which fill one cache line. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic of the Schur complement in blocks; block.h has the equations and the storage.
+/* Arithmetic of the block Schur complement; block.h describes the equations and the storage.
  *
  *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_1 c_n c_k^T
  *

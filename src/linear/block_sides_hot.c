@@ -60,8 +60,7 @@ static void whiten(baum_i_block *b)
 }
 
 /* Returns the velocities of all body blocks. The result is v itself if no body block has numbers
- * outside v. Otherwise it is a copy in pull[], with L^T v for each dense body. Only refinement uses
- * pull[] for another purpose. */
+ * outside v. Otherwise it is a copy in pull[], with L^T v for each dense body. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the structure of the Schur complement in blocks: nodes, sides, couplings, and all indices.
+/* Finds the structure of the block Schur complement: nodes, sides, couplings, and all indices.
  *
  * The rows, in their order, are grouped into nodes with sides. Nodes with sides on the same body
  * block are coupled. The graph of these couplings gives the order of elimination. The position of a

@@ -4,8 +4,8 @@
  *   [ M   J^T ] [ a      ]   [ f ]
  *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
- * M is block diagonal, and J is a list of dense blocks. Both are given by their row-major blocks
- * with a fixed structure. An omitted row i is replaced by lambda_i = 0. */
+ * M is block diagonal, and J is a list of dense blocks. Both are stored as row-major blocks, whose
+ * structure is fixed. An omitted row i is replaced by lambda_i = 0. */
 #ifndef BAUM_I_LINEAR_KKT_H
 #define BAUM_I_LINEAR_KKT_H
 
@@ -69,8 +69,8 @@ typedef enum baum_i_kkt_choice { BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR 
 
 typedef struct baum_i_kkt baum_i_kkt;
 
-/* The structure's arrays must outlive the solver. The structure, whose analysis costs more than a
- * factorization, is analysed by baum_i_kkt_prepare() or by the first factorization. */
+/* The structure's arrays must outlive the solver. baum_i_kkt_prepare() or the first factorization
+ * analyses the structure, which costs more than a factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
 /* Analyse the structure, unless this has already been done, so that only new pivots allocate memory
@@ -106,7 +106,7 @@ baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
  * estimate is dimensionless. It is continuous while pivots are kept and jumps when new pivots are
  * chosen. It is 0 without a factorization, or if the rank is not full. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
-const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr": the last used */
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr": the backend used last */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 
 /* ---- plain products with the blocks, also used by dynamics ---- */

@@ -56,8 +56,8 @@ static void orthogonalize(double *x, double rows[][MOST_COLUMNS], int count, int
   }
 }
 
-/* Loads the entries of the free velocities of row i, after scaling the row to unit length. Returns
- * their number. */
+/* Scales row i to unit length and loads its entries for the free velocities. Returns the number of
+ * these entries. */
 static int load_row(const peeling *p, const baum_i_row_block *block, int i, double *out)
 {
   const double *value = p->jacobian + block->value + i * block->cols;

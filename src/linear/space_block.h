@@ -51,8 +51,9 @@ typedef struct baum_i_space_layout {
   const unsigned char *omitted; /* (nc) */
   const unsigned char *moments; /* (nc) non-zero: the multiplier is a moment, otherwise a force */
   const unsigned char *fixed;   /* (mass_block_count) non-zero: a = 0 */
-  double length; /* [m] characteristic length, to compare accelerations of origins with angular
-                  * ones, and forces with moments */
+  /* [m] characteristic length, to compare accelerations of origins with angular accelerations, and
+   * forces with moments */
+  double length;
 } baum_i_space_layout;
 
 typedef struct baum_i_space_node {
@@ -215,8 +216,8 @@ baum_status baum_i_space_find_islands(baum_i_space *space);
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
 /* The first function tells whether there are bodies so slender that their pivots may be too small.
- * The second one raises the moments of inertia of these bodies about their axes. The third one
- * restores one of them. */
+ * The second function raises the moments of inertia of these bodies about their axes. The third
+ * function restores the moment of one body. */
 bool baum_i_space_has_slender(const baum_i_space *space);
 void baum_i_space_raise_slender(baum_i_space *space);
 void baum_i_space_restore_slender(baum_i_space *space, int body);

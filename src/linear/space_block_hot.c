@@ -310,8 +310,7 @@ static double ratio(double x, double y)
   return x > 0.0 ? x / y : 0.0;
 }
 
-/* The largest accelerations of origins, and the largest angular accelerations without the spins of
- * thin bodies. */
+/* The largest accelerations of origins, and angular accelerations except spins of thin bodies. */
 typedef struct peaks {
   four moves;
   four turns;
@@ -331,8 +330,7 @@ BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
   return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
 }
 
-/* `thin` tells whether any body is thin. Here and in the functions below it must be a compile-time
- * constant. */
+/* `thin` tells whether any body is thin. It must be a compile-time constant. */
 BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
                             peaks most)
 {
@@ -380,8 +378,7 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
   return most;
 }
 
-/* Returns the sum of the magnitudes of the spins that the multipliers of one side cause. The spins
- * may nearly cancel. */
+/* Returns the sum of the magnitudes of the spins that one side causes, which may nearly cancel. */
 BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side *side,
                                  column lambda, bool tall)
 {
@@ -526,7 +523,7 @@ static double change_of_spin(const baum_i_space *b, int t, const double *before,
   return slow ? 1.0 : ratio(change, size);
 }
 
-/* Returns the largest change of an acceleration in an island, relative to the largest
+/* Returns the largest change of an acceleration in an island, relative to its largest
  * acceleration. */
 BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const double *before,
                                       bool thin)

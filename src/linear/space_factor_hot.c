@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings and factorization of the Schur complement of mechanisms in space; space_block.h has the
- * equations and the storage.
+/* Couplings and factorization of the Schur complement of mechanisms in space; space_block.h
+ * describes the equations and the storage.
  *
  * The factorization S = L D L^T is right-looking, node by node. The pivot of a node is divided into
  * a first block of up to three rows and a second block with the other rows,
@@ -29,7 +29,7 @@ static const double bad_pivot = 1e-12;
 
 /* ---- off-diagonal blocks ---- */
 
-/* Computes E_i E_k^T / m + R_i R_k^T. n: rows of the earlier node. */
+/* Computes E_i E_k^T / m + R_i R_k^T. n: number of rows of the earlier node. */
 BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *pair, int n,
                                bool tall, bool lean)
 {
@@ -152,7 +152,7 @@ BAUM_I_INLINE double pivot_entry(const double *d, int n, int row, int col)
   return row < 4 ? d[4 * col + row] : d[4 * n + 2 * (col - 4) + row - 4];
 }
 
-/* Factors D of a node of n rows. */
+/* Factors D of a node with n rows. */
 BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *t, double det[2])
 {
   int n1 = n < 3 ? n : 3;
@@ -226,7 +226,8 @@ BAUM_I_INLINE void store_factors(int n, const pivot *t, double *d, double *b)
 
 /* Subtracts X' U^T from a block of off[] or, if `is_pivot`, from D of the later node. Here x is X'
  * of one coupling, and u is U of an earlier coupling or, for D, of the same one. D is symmetric, so
- * rows 4 and 5 of D are stored only for columns 4 and 5. n: rows of the eliminated node. */
+ * rows 4 and 5 of D are stored only for columns 4 and 5. n: number of rows of the eliminated
+ * node. */
 BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, const double *u,
                                     int columns, bool is_pivot, double *to)
 {
