@@ -13,9 +13,9 @@ void *baum_i_alloc(size_t count, size_t size);
  * the function returns NULL and the old array stays valid. */
 void *baum_i_grow(void *old, size_t count, size_t size);
 
-/* Grow an array by one element to count elements. The array must come from this function or from
- * baum_i_grow(). NULL stands for an empty array. The array is moved in memory only when its length
- * grows from a power of two to the next number. */
+/* Grow an array by one element, to `count` elements. The array must come from this function or from
+ * baum_i_grow(). NULL stands for an empty array. The array is reallocated only if it was empty or
+ * its old length is a power of two. */
 void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
 /* Copy count elements. Returns NULL when out of memory. */
@@ -28,8 +28,8 @@ char *baum_i_copy_text(const char *text);
  * a const pointer. */
 void baum_i_free(const void *memory);
 
-/* Return the pointer without const. The library uses this only for the few members of constant
- * objects that change. */
+/* Return the pointer without const. The library uses it where an object changes, is freed or is
+ * passed on although its owner holds it through a const pointer. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

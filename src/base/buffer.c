@@ -19,7 +19,7 @@ void baum_i_buffer_clear(baum_i_buffer *buffer)
   *buffer = (baum_i_buffer){0};
 }
 
-/* Allocates memory for `more` characters and the terminating zero. Returns the end of the present
+/* Makes room for `more` further characters and the terminating zero. Returns the end of the present
  * text, or NULL when out of memory. */
 static char *make_room(baum_i_buffer *buffer, size_t more)
 {

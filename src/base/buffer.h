@@ -24,8 +24,8 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2
 /* Appends a text, left-aligned in a column of `width` characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 
-/* Appends a user's text unchanged, or escaped for a quoted string in JSON or CSV, or for XML. Bytes
- * that are not UTF-8 become U+FFFD, and control characters become spaces. */
+/* Appends a user's text, escaped for a quoted string in JSON or CSV, or for XML, or not escaped at
+ * all. Bytes that are not UTF-8 always become U+FFFD, and control characters become spaces. */
 typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV, BAUM_I_XML } baum_i_quoting;
 void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
@@ -35,11 +35,11 @@ typedef struct baum_i_number {
   char text[40];
 } baum_i_number;
 
-/* Converts a number to text with `digits` digits. Magnitudes from 1e3 to 1e7 are rounded to whole
- * numbers. NaN becomes "-". */
+/* Converts a number to text with `digits` significant digits. Magnitudes from 1e3 to 1e7 are
+ * rounded to whole numbers. NaN becomes "-". */
 baum_i_number baum_i_short(double x, int digits);
-/* Converts a number to the shortest text from which the same number is read again. NaN and
- * infinities are converted to the text `otherwise`.
+/* Converts a number to text with the fewest digits, from 15 to 17, from which the same number is
+ * read again. NaN and infinities are converted to the text `otherwise`.
  */
 baum_i_number baum_i_exact(double x, const char *otherwise);
 /* Reads a number that baum_i_exact() has written. The number ends at a blank. Returns the end of

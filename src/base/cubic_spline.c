@@ -9,7 +9,7 @@
  *   h_i-1 c_i-1 + 2 (h_i-1 + h_i) c_i + h_i c_i+1
  *     = 3 ((y_i+1 - y_i) / h_i - (y_i - y_i-1) / h_i-1)
  *
- * Such equations at all inner points form a diagonally dominant system, which needs no pivoting. A
+ * The equations at all inner points form a diagonally dominant system, which needs no pivoting. A
  * natural spline has c = 0 at both ends. A periodic spline has the coefficients c + p z, where c is
  * the solution of the natural spline and z solves the homogeneous equations with z = 1 at both
  * ends. The number p is chosen so that the equation above also holds at the point where the two

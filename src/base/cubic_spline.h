@@ -15,8 +15,8 @@ typedef struct baum_i_cubic_spline {
   double *bends;        /* (count) half of the second derivative at each time */
 } baum_i_cubic_spline;
 
-/* Find the second derivatives of the spline. At both ends they are zero, or the spline is periodic.
- * Returns BAUM_OK or BAUM_ERR_MEMORY and sets no message. */
+/* Find the second derivatives of the spline. They are zero at both ends unless the spline is
+ * periodic. Returns BAUM_OK or BAUM_ERR_MEMORY and sets no message. */
 baum_status baum_i_cubic_spline_fit(const baum_i_cubic_spline *spline, bool periodic);
 
 /* Evaluate s, s', s'' at a time between the first and the last of the given times. */

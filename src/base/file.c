@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads whole files, and writes a file completely or not at all. The functions that write make a
- * new file in the same folder first, and then replace the old file by the new one.
+/* Reads whole files, and writes a file completely or not at all. A new file is written in the same
+ * folder and then replaces the old file. Only paths that must not be replaced, such as devices and
+ * links, are written in place.
  */
 #include "base/file.h"
 
@@ -130,7 +131,7 @@ baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *
   return status;
 }
 
-/* ---- what callers receive ---- */
+/* ---- output to callers ---- */
 
 baum_status baum_i_give_text(const baum_i_buffer *whole, const char *call, char *text,
                              size_t capacity, size_t *size)

@@ -17,8 +17,8 @@ baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
  * BAUM_ERR_ARGUMENT, BAUM_ERR_FILE or BAUM_ERR_MEMORY. */
 baum_status baum_i_read_file(const char *path, const char *call, baum_i_buffer *out);
 
-/* Give a whole text to a caller, in memory or as a file. `call` is the name of the public function,
- * with which messages begin. In memory, the text is cut after capacity - 1 bytes and ends with a
+/* Copy a whole text to the caller's memory, or write it to a file. `call` is the name of the public
+ * function, with which messages begin. The copy is cut after capacity - 1 bytes and ends with a
  * zero byte. *size is set to the length of the whole text, unless `size` is NULL. */
 baum_status baum_i_give_text(const baum_i_buffer *whole, const char *call, char *text,
                              size_t capacity, size_t *size);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Four numbers in two halves. They are one vector if the processor has vectors of this size, and
  * otherwise two pairs. Moving numbers between the halves is slow, so only the functions that join
- * or split halves do so. All other operations take one instruction.
+ * or split halves do so.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H

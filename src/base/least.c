@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* This file finds the minimum of a function of one variable by Brent's method. A step goes to the
- * vertex of the parabola through the three lowest points found so far. If this step is longer than
- * half of the step before the last one, the search divides the larger side by the golden section
- * instead.
+/* Finds the minimum of a function of one variable by Brent's method. A step goes to the vertex of
+ * the parabola through the three lowest points found so far. If this step is longer than half of
+ * the step before the last one, the search divides the larger side by the golden section instead.
  *
  * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. If the function
  * resembles a parabola near its minimum, about eight evaluations locate the minimum to a millionth
@@ -23,7 +22,7 @@ typedef struct place {
 typedef struct search {
   double ends[2];   /* the ends of the interval that contains the minimum */
   place least[3];   /* the three lowest points, the lowest first; some may coincide */
-  double tolerance; /* by how much the found t may be wrong */
+  double tolerance; /* allowed error of the position of the minimum */
   double step;      /* the last step */
   double before;    /* the step before the last one */
 } search;
@@ -63,7 +62,7 @@ static double next_place(search *s)
   return t + s->step;
 }
 
-static void keep_value(search *s, place new)
+static void include_value(search *s, place new)
 {
   place *p = s->least;
   if (new.value <= p[0].value) {
@@ -99,7 +98,7 @@ double baum_i_least(baum_i_function *function, void *user, const double ends[2],
   }
   for (int k = 1; k < most && !is_known(&s); k++) {
     t = next_place(&s);
-    keep_value(&s, (place){t, function(user, t)});
+    include_value(&s, (place){t, function(user, t)});
   }
   *at = s.least[0].t;
   return s.least[0].value;

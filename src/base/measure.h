@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops over arrays that the monitors execute after every step. They use vectors of four numbers,
- * because plain loops would cost half as much time as an evaluation of the accelerations. */
+/* The monitors execute these loops over arrays after every step. The loops use vectors of four
+ * numbers, because plain loops would cost half as much time as an evaluation of the
+ * accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
 
@@ -12,7 +13,7 @@ typedef struct baum_i_step_samples {
   const double *v[2];
   /* accelerations at the end of the step, at its start, and at the three times before */
   const double *a[5];
-  const double *dq; /* NULL if q is a vector; otherwise dq without its last term */
+  const double *dq; /* NULL if q' = v; otherwise dq without its last term */
   const double *scale;
   double h;
   double period; /* [s] factor by which errors of v are multiplied */

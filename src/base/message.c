@@ -9,7 +9,7 @@
 #include "base/text.h"
 
 static _Thread_local char message[BAUM_I_MESSAGE_SIZE];
-static _Thread_local bool has_said; /* baum_fail() was called since baum_i_listen() */
+static _Thread_local bool has_said; /* baum_fail() has set a message since baum_i_listen() */
 
 const char *baum_message(void)
 {

@@ -44,8 +44,8 @@ static inline baum_status baum_i_check_memory(const void *memory)
   return memory ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A saved message. The library saves the present message before a call whose failure does not
- * matter, and restores the message after it. */
+/* A saved message. A call whose parts may fail saves the present message first, and restores it if
+ * the call as a whole succeeds. */
 typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
 } baum_i_kept_message;

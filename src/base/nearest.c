@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The distance of two names is the smallest number of characters that must be inserted, deleted or
- * replaced (Levenshtein). Let D(i, j) be the distance of the first i characters of a name a and the
- * first j characters of a name b. Then
+/* The distance between two names is the smallest number of characters that must be inserted,
+ * deleted or replaced (Levenshtein). Let D(i, j) be the distance between the first i characters of
+ * a name a and the first j characters of a name b. Then
  *
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *
- * A name that contains the given one has the distance 1. Names are similar if the distance is at
- * most a third of the length of the given name, rounded. */
+ * A name that contains a given name of at least SHORTEST_PART characters has the distance 1. Names
+ * are similar if the distance is at most a third of the length of the given name, rounded, and
+ * neither has more than LONGEST characters. */
 #include "base/nearest.h"
 
 #include <stdbool.h>
@@ -21,7 +22,7 @@ static int smaller(int a, int b)
 
 static int distance_between(const char *a, const char *b)
 {
-  int row[LONGEST + 1]; /* D(i, .) left of the present place, and D(i-1, .) from this place on */
+  int row[LONGEST + 1]; /* D(i, .) before the present column, and D(i-1, .) from it on */
   const int columns = (int)strlen(b);
   for (int j = 0; j <= columns; j++) {
     row[j] = j;

@@ -24,8 +24,8 @@ static inline baum_i_pair baum_i_both(double x)
   return (baum_i_pair){x, x};
 }
 
-/* Return (-y, x), which is p rotated by a right angle. This is the cross product k x p with the
- * unit vector k along z. */
+/* Return (-y, x), which is p rotated by +90 degrees. This is the cross product k x p with the unit
+ * vector k along z. */
 static inline baum_i_pair baum_i_turned(baum_i_pair p)
 {
   return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
@@ -73,8 +73,8 @@ static inline void baum_i_store_square(double *to, baum_i_square m)
   baum_i_store(to + 2, m.column[1]);
 }
 
-/* Return m + x I. Products with zeros and ones add x to the diagonal here. An instruction that sets
- * half a vector would do the same, but valgrind misreports it. */
+/* Return m + x I. x is added by products with zeros and ones, because valgrind misreports the
+ * instruction that sets half a vector. */
 static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
 {
   return (baum_i_square){

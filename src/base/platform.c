@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of the operating system. Most code is for POSIX. Two systems differ: Windows has the
- * clocks and threads of POSIX by mingw, but its files have UTF-16 names. WASI has one thread in one
- * process of one user. */
+/* Functions of the operating system. Most code is for POSIX. Two systems differ. On Windows, mingw
+ * provides the clocks and threads of POSIX, but file names are in UTF-16. WASI has one thread in
+ * one process of one user. */
 #include "base/platform.h"
 
 #include <errno.h>
@@ -23,8 +23,8 @@
 
 /* ---- clocks ---- */
 
-/* WASI has no clock for the time of a thread, and the clock of Windows advances in steps of 1/64
- * s. */
+/* WASI has no clock for the CPU time of a thread, and the thread clock of Windows advances in steps
+ * of 1/64 s. */
 #if defined(__wasi__) || defined(_WIN32)
 #undef CLOCK_THREAD_CPUTIME_ID
 #define CLOCK_THREAD_CPUTIME_ID CLOCK_MONOTONIC
@@ -311,33 +311,33 @@ void baum_i_lock_give(baum_i_lock *lock)
   (void)pthread_mutex_unlock(&lock->mutex);
 }
 
-typedef struct hand {
+typedef struct worker {
   pthread_t thread;
   void (*work)(void *user, int k);
   void *user;
   int k;
-  bool at_work;
-} hand;
+  bool is_running;
+} worker;
 
 static void *start(void *self)
 {
-  hand *h = self;
-  h->work(h->user, h->k);
+  worker *w = self;
+  w->work(w->user, w->k);
   return NULL;
 }
 
 void baum_i_threads_run(int count, void (*work)(void *user, int k), void *user)
 {
-  hand *hands = baum_i_alloc((size_t)count, sizeof *hands);
-  for (int k = 1; hands && k < count; k++) {
-    hands[k] = (hand){.work = work, .user = user, .k = k};
-    hands[k].at_work = pthread_create(&hands[k].thread, NULL, start, &hands[k]) == 0;
+  worker *workers = baum_i_alloc((size_t)count, sizeof *workers);
+  for (int k = 1; workers && k < count; k++) {
+    workers[k] = (worker){.work = work, .user = user, .k = k};
+    workers[k].is_running = pthread_create(&workers[k].thread, NULL, start, &workers[k]) == 0;
   }
   work(user, 0);
-  for (int k = 1; hands && k < count; k++) {
-    if (hands[k].at_work) {
-      (void)pthread_join(hands[k].thread, NULL);
+  for (int k = 1; workers && k < count; k++) {
+    if (workers[k].is_running) {
+      (void)pthread_join(workers[k].thread, NULL);
     }
   }
-  baum_i_free(hands);
+  baum_i_free(workers);
 }

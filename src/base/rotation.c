@@ -7,7 +7,7 @@
 
 #include "base/sincos.h"
 
-/* For angles x below this, sin(x) / x is 1 up to rounding. The quotient is not computed then,
+/* For angles x below this, sin(x) / x is 1 up to rounding. The quotient is then not computed,
  * because it could be 0 / 0. */
 static const double TINY = 1e-12;
 
@@ -23,8 +23,8 @@ void baum_i_quaternion_exp(const double rotation[3], double p[4])
   }
 }
 
-/* p and -p represent the same rotation. Of the two, the one with w >= 0 is used, whose angle is at
- * most pi. */
+/* p and -p represent the same rotation. The function uses the sign for which w >= 0, because the
+ * angle is then at most pi. */
 void baum_i_quaternion_log(const double p[4], double rotation[3])
 {
   double sine = sqrt(baum_i_dot3(p + 1, p + 1));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Vectors in space, rotation matrices A (row-major), and unit quaternions p in Hamilton's
- * convention with w as the first number. A and p transform body axes into ground axes: x = A s. The
- * memory for a result must not overlap with arguments.
+ * convention with w as the first number. A and p transform vectors from body to ground axes: x = A
+ * s. The memory of a result must not overlap with the arguments.
  */
 #ifndef BAUM_I_BASE_ROTATION_H
 #define BAUM_I_BASE_ROTATION_H
@@ -99,11 +99,12 @@ void baum_i_quaternion_log(const double p[4], double rotation[3]);
 /* Compute the unit quaternion of a rotation matrix, with w >= 0 (Shepperd 1978). */
 void baum_i_quaternion_of(const double axes[9], double p[4]);
 
-/* Find the principal moments of a symmetric matrix, in ascending order. The rows of `axes` are the
- * principal axes. `axes` is a rotation matrix except for the signs of its rows. */
+/* Find the principal moments of a symmetric matrix, in ascending order. The rows of the rotation
+ * matrix `axes` are the principal axes. */
 void baum_i_principal_axes(const double matrix[9], double moments[3], double axes[9]);
 
-/* Divide a vector by its length, which must not be 0. The squares of its numbers may overflow. */
+/* Divide a vector by its length, which must not be 0. Works even if the squares of its numbers
+ * overflow. */
 void baum_i_normalize3(double x[3]);
 
 /* Set x to a unit vector orthogonal to the unit vector z, and y to the cross product of z and x. */

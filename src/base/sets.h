@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Disjoint sets of numbers from 0 on. parent[i] <= i is a member of the set of i. The smallest
- * member, for which parent[i] is i, represents the set. */
+/* Disjoint sets of the numbers 0, 1, ..., count - 1. parent[i] <= i is a member of the set of i.
+ * The smallest member represents the set; its parent is the member itself. */
 #ifndef BAUM_I_BASE_SETS_H
 #define BAUM_I_BASE_SETS_H
 
@@ -32,7 +32,7 @@ static inline void baum_i_sets_unite(int *parent, int a, int b)
   }
 }
 
-/* Replace parent[] by numbers of the sets, from 0 on, and return how many sets there are. */
+/* Replace parent[i] by the number of the set of i, counted from 0. Return the number of sets. */
 static inline int baum_i_sets_number(int *parent, int count)
 {
   int sets = 0;

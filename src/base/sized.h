@@ -11,11 +11,11 @@
 
 #include <baum/status.h>
 
-/* Tell whether the caller's struct is large enough to hold struct_size. */
+/* Tell whether the caller's struct is not NULL and is large enough to hold struct_size. */
 bool baum_i_takes_sized(const void *out, size_t caller_size);
 
-/* Fail with BAUM_ERR_ARGUMENT if the caller's struct is too small to hold struct_size. The message
- * names the call. */
+/* Fail with BAUM_ERR_ARGUMENT if the caller's struct is NULL or too small to hold struct_size. The
+ * message names the call. */
 baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call);
 
 /* Fail with BAUM_ERR_ARGUMENT unless first <= k < count. `first` is the oldest entry that is still
@@ -25,8 +25,8 @@ baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const ch
 /* Check `size`, the struct_size of a caller's struct. It must be `present`, which is the size in
  * this version, or a possible size in an older version. Sizes in older versions are multiples of
  * sizeof(size_t) and have room for at least two fields. Messages contain the texts `of` and
- * `start`. `of` names the struct and is " of the options", for example, or "". `start` names the
- * call that sets the defaults. */
+ * `start`. `of` names the struct, for example " of the options", or is "". `start` names the call
+ * that sets the defaults. */
 baum_status baum_i_check_struct_size(size_t size, size_t present, const char *call, const char *of,
                                      const char *start);
 
@@ -36,7 +36,7 @@ baum_status baum_i_take_sized(void *to, size_t size, const void *from, const cha
                               const char *of, const char *start);
 
 /* Copy as many bytes of a whole struct as fit into the caller's struct, and set its struct_size.
- * Does nothing if the caller's struct is too small to hold struct_size. */
+ * Does nothing if the caller's struct is NULL or too small to hold struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "base/alloc.h"
 
-enum { LINE = 8, PAGE = 512 }; /* numbers of doubles */
+enum { LINE = 8, PAGE = 512 }; /* in doubles */
 
 static size_t padded(size_t count)
 {

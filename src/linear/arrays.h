@@ -12,8 +12,8 @@ typedef struct baum_i_array {
 } baum_i_array;
 
 /* Allocates zeroed memory for all arrays and sets their pointers. Each array begins on a cache
- * line. The distance from one array to the next is never a whole number of pages, because such
- * arrays would compete for the same sets of the cache. Returns the memory, or NULL when out of
+ * line. The distance from one array to the next is never a whole number of pages, because arrays
+ * whole pages apart would compete for the same cache sets. Returns the memory, or NULL when out of
  * memory. */
 double *baum_i_arrays_create(const baum_i_array *arrays, int count);
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The interface of a solver (backend) of the saddle-point system. To add a solver, write a file
- * with a const struct of these functions, declare the struct below, and use it in kkt.c. A backend
- * only factors and solves. The front end (kkt.c) computes residuals, refines, counts, checks the
- * accuracy and chooses another solver if necessary. None of these functions sets a message. */
+ * that defines a const baum_i_kkt_ops, declare it below, and use it in kkt.c. A backend only
+ * factors and solves. The front end (kkt.c) computes residuals, refines, counts the work, checks
+ * the accuracy and chooses another solver if necessary. None of these functions sets a message. */
 #ifndef BAUM_I_LINEAR_BACKEND_H
 #define BAUM_I_LINEAR_BACKEND_H
 
 #include "linear/kkt.h"
 
-/* How pivots of a factorization are chosen, from cheap to robust. */
+/* How a factorization chooses its pivots, from cheap to robust. */
 typedef enum baum_i_kkt_effort {
   BAUM_I_EFFORT_KEEP,   /* keep the pivots of the last factorization; allocates nothing */
   BAUM_I_EFFORT_CHOOSE, /* choose pivots for the present values */
@@ -23,7 +23,7 @@ typedef struct baum_i_kkt_ops {
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
   /* Factor the matrix, whose values must be finite. `values` and `scale` (see scale.h) do not
-   * change until the last solve. KEEP requires an earlier factorization that succeeded. BAUM_OK,
+   * change until the last solve. KEEP requires that an earlier factorization succeeded. BAUM_OK,
    * BAUM_ERR_SINGULAR (no solve may follow) or BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);

@@ -10,12 +10,12 @@
 #include "linear/arrays.h"
 #include "linear/block_builder.h"
 
-/* The result is refined if the pivot D (S = L D L^T) of any node has a determinant below weak_pivot
- * times the product of the diagonal entries of S at this node. The relative error of the
- * multipliers is about the unit rounding divided by the ratio of determinant and product, and the
- * errors of several small pivots multiply. In long ladder-like mechanisms, pivots decrease with the
- * number of nodes although the system is well-conditioned. With more than many_nodes nodes the
- * limit is therefore lower. */
+/* For the pivot D (S = L D L^T) of a node, the solver computes the ratio of det D to the product of
+ * the diagonal entries of S at this node. The result is refined if the ratio of any node is below
+ * weak_pivot. The relative error of the multipliers is about the unit rounding divided by this
+ * ratio, and the errors of several small pivots multiply. In long ladder-like mechanisms, pivots
+ * decrease with the number of nodes although the system is well-conditioned. With more than
+ * many_nodes nodes the limit is therefore lower. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -143,7 +143,7 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
   return positive;
 }
 
-/* Computes L of M = L L^T (A.-L. Cholesky), row by row. */
+/* Computes the Cholesky factor L of M = L L^T, row by row. */
 static bool factor_one(const double *m, int n, double *l)
 {
   bool positive = true;

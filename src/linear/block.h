@@ -3,16 +3,15 @@
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * The rows of J are paired into *nodes*. If a node has only one row, S has a second row there with
- * the diagonal entry 1, whose multiplier is 0. The columns of J are grouped into *body blocks* of
- * three. A planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L
- * L^T) has as many body blocks as it needs; its unknowns are y = L^T a, for which W is the
- * identity. Body block 0 is the ground, with W = 0. Arrays such as motion[] have three numbers for
- * each body block: first those in v, then those of the ground, then y of the dense bodies. A
- * particle has only two numbers. The third number of its body block is the first number of the next
- * body block. The particle does not change that number, because the third diagonal entry of its W
- * is 0. The 2 x 3 block of J of a node and a body block is a *side* of the node. The sides of a pin
- * are
+ * The rows of J are paired into *nodes*. A node with only one row gets a second row in S, with
+ * diagonal entry 1 and multiplier 0. The columns of J are grouped into *body blocks* of three. A
+ * planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has
+ * as many body blocks as it needs; its unknowns are y = L^T a, for which W is the identity. Body
+ * block 0 is the ground, with W = 0. Arrays such as motion[] have three numbers for each body
+ * block: first those in v, then those of the ground, then y of the dense bodies. A particle has
+ * only two numbers. The third number of its body block is the first number of the next body block.
+ * The particle does not change that number, because the third diagonal entry of its W is 0. A
+ * *side* of a node is its 2 x 3 block of J on one body block. The sides of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -77,17 +76,17 @@ typedef struct baum_i_side_entry {
 
 /* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm`
  * contains the numbers of the two arms on this body: first the arm of the node that is eliminated
- * later, then that of the other node. */
+ * later, then the arm of the other node. */
 typedef struct baum_i_pin_pair {
   int32_t off;
   int32_t arm[2];
   int32_t body_block;
 } baum_i_pin_pair;
 
-/* Two nodes that are coupled through one body block and are not both pins, or are pins that share
- * two bodies. `side` contains the numbers of their sides on it: first the side of the node that is
- * eliminated later, then that of the other node. side[i] >= 0 is the number of a general side, and
- * side[i] < 0 is ~number of the arm of a pin. */
+/* Two nodes that are coupled through one body block. At least one of them is general, or both are
+ * pins whose block another pair sets. `side` contains the numbers of their sides on this body
+ * block: first the side of the node that is eliminated later, then the side of the other node.
+ * side[i] >= 0 is the number of a general side, and side[i] < 0 means the arm ~side[i] of a pin. */
 typedef struct baum_i_full_pair {
   int32_t off;
   int32_t side[2];
@@ -98,14 +97,14 @@ typedef struct baum_i_full_pair {
 typedef struct baum_i_dense_body {
   int mass_block;
   int32_t body_block; /* first body block of this body */
-  int32_t place;      /* index in motion[] of that block, and so of y */
+  int32_t place;      /* index in motion[] of this block, where y starts */
   int factor;         /* start of L in factor[] */
 } baum_i_dense_body;
 
 /* The sides of a node on all body blocks of a dense body. They are consecutive in side[]. */
 typedef struct baum_i_dense_side {
   int32_t body; /* in dense[] */
-  int32_t side; /* first */
+  int32_t side; /* first of these sides */
 } baum_i_dense_side;
 
 /* The numbers of a node, which fill one cache line. */
@@ -138,7 +137,7 @@ typedef struct baum_i_block {
   int motion_size; /* v, ground, and y of dense bodies */
   /* the solution is refined if the smallest ratio of det D to `size` of a node is below this */
   double weak_pivot;
-  bool leaves_v; /* a body block of a dense body or particle uses entries of motion[] after v */
+  bool leaves_v; /* a body block of a dense body or particle may use entries of motion[] after v */
   int hub;       /* mass block with too many sides; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */
@@ -147,7 +146,7 @@ typedef struct baum_i_block {
   baum_i_full_node *fulls;  /* (full_count) */
   int32_t *side_body_block; /* (side_count) */
   /* (side_count x 2) indices in the values of J at which both rows of a side begin; the second is
-   * -1 if there is one row, and both are -1 if entries[] define the side */
+   * -1 if the node has one row, and both are -1 if entries[] define the side */
   int32_t *side_from;
   baum_i_side_entry *entries;    /* (entry_count) */
   baum_i_pin_pair *alike;        /* (alike_count) pairs that set their block of off[] */
@@ -179,8 +178,7 @@ typedef struct baum_i_block {
   double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
   double *pull_low; /* (motion_size) rounding errors of pull[] */
   double *rest;     /* (node_count x 2) r - J a */
-  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in a correction, the previous
-                     * lambda */
+  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in correct(), the last lambda */
 
   double *nothing;    /* (motion_size) zeros */
   const double *from; /* a0 of the present right-hand side: free or nothing */
@@ -256,7 +254,8 @@ typedef struct baum_i_block_kernel {
    * rows. */
   void (*substitute)(baum_i_block *block, double *lambda);
   /* Tells whether every row of r - J a is at rounding level. This level is proportional to the
-   * magnitudes of the terms of J a and, if `beside` (motion_size) is not NULL, of J beside. */
+   * magnitudes of r and of the terms of J a. Unless `beside` (motion_size) is NULL, the terms of J
+   * beside are added. */
   bool (*check)(const baum_i_block *block, const double *beside);
   /* Corrects a and lambda once by the residual in pull[] and rest[]. Returns the largest change of
    * a multiplier, divided by the largest multiplier. */

@@ -15,8 +15,8 @@ typedef struct baum_i_raw_node {
   bool is_pin;
 } baum_i_raw_node;
 
-/* A side before the place of its node is known. `number` has the meaning of side[i] in
- * baum_i_full_pair, but arms are counted in the order of rows instead of places. */
+/* A side before the place of its node is known. `number` means the same as side[i] in
+ * baum_i_full_pair, but numbers arms in the order of rows instead of places. */
 typedef struct baum_i_raw_side {
   int32_t node;
   int32_t body_block;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings of the Schur complement in blocks. Once the order of nodes is known, this file finds
- * which pairs of sides contribute to which block below the diagonal. The first pair that
- * contributes to a block sets it; further pairs add to it.
+/* Couplings of the block Schur complement. Given the order of the nodes, this file lists the pairs
+ * of sides that contribute to each block below the diagonal. The first pair that contributes to a
+ * block sets it; further pairs add to it.
  */
 #include <stdlib.h>
 

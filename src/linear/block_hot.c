@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic of the Schur complement in blocks; block.h has the equations and the storage.
+/* Arithmetic of the block Schur complement; block.h describes the equations and the storage.
  *
  *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_1 c_n c_k^T
  *
  * where G_n is the side of node n on the body block, and W = diag(w_0, w_0, w_1). The factorization
- * is a right-looking L D L^T. With U = S_ik adj(D), every contribution of a pivot is a product with
- * U times 1 / det D, so the processor can divide and multiply at the same time. The right-hand side
- * is eliminated together with the matrix.
+ * S = L D L^T is right-looking. With U = S_ik adj(D), every update by a pivot is a product with U,
+ * times 1 / det D. The processor can therefore divide and multiply at the same time. The right-hand
+ * side is eliminated together with the matrix.
  *
  * Refinement corrects both equations, with a as an independent unknown (J. Demmel, 1997, 2.5). This
  * restores the digits that are lost when J W J^T is computed. With t = W (f - M a - J^T lambda) and
@@ -26,7 +26,7 @@ static const double bad_pivot = 1e-10;
 /* A residual of up to this fraction of its terms is at rounding level. */
 static const double rounding = 0x1p-47;
 
-/* ---- what multipliers do to the motion ---- */
+/* ---- effect of the multipliers on the motion ---- */
 
 /* Subtracts W G^T lambda of both sides G of one pin from the motion. arm and weight have 4 numbers
  * each. */
@@ -69,7 +69,7 @@ BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
   }
 }
 
-/* ---- off the diagonal ---- */
+/* ---- off-diagonal blocks ---- */
 
 /* Sets the blocks of pairs of pins to w_1 n k^T + sign w_0 I, where n and k are the two arms. */
 static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs, int count,
@@ -162,8 +162,8 @@ static inline baum_i_pair solve_pivot(const pivot_step *t)
   return t->inverse * (corners * right - t->d[1] * other);
 }
 
-/* Subtracts the contribution of the coupling at x from the later of the two coupled nodes, which is
- * `to`. Then replaces the coupling by L^T. Returns the coupling as it was before. */
+/* Subtracts the contribution of the coupling at x from `to`, the later of the two coupled nodes.
+ * Then replaces the coupling by L^T. Returns the coupling as it was before. */
 static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i_node *to)
 {
   baum_i_square s = baum_i_load_square(x);
@@ -179,8 +179,8 @@ static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i
   return s;
 }
 
-/* Eliminates the `count` couplings of a node, from x on. `target` lists the blocks that receive the
- * product of each coupling with all couplings before it. */
+/* Eliminates the `count` couplings of a node, starting at x. `target` lists the blocks that receive
+ * the product of each coupling with all couplings before it. */
 static inline void eliminate_many(const pivot_step *t, double *x, const int32_t *later,
                                   ptrdiff_t count, const int32_t *target, baum_i_node *nodes,
                                   double *off)
@@ -275,7 +275,7 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
 }
 
 /* Substitutes from the last node to the first. Each lambda is applied to the motion at once, while
- * the processor already computes the next one. rows (nc) receives lambda; NULL: not wanted. */
+ * the processor already computes the next one. rows (nc) receives lambda unless it is NULL. */
 BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,
@@ -333,8 +333,8 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-/* The terms of J x at two pins for a motion x. The index of the second pin relative to the first is
- * `second`; it is 0 if there is only one pin. */
+/* The terms of J x at two pins for a motion x. `second` is the index of the second pin relative to
+ * the first, or 0 if there is only one pin. */
 typedef struct terms {
   baum_i_four term[4];
 } terms;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solves for other right-hand sides with the factors of the last solution. If correct() of
- * block_hot.c starts from zero motion and the residual (0, r), it solves
+/* Prepares other right-hand sides for the factors of the last solution. From zero motion and the
+ * residual (0, r), correct() of block_hot.c computes
  *
- *   S lambda = -r,   a = -W J^T lambda,   so that J a = r */
+ *   S lambda = -r,   a = -W J^T lambda,   hence J a = r */
 #include "linear/block_pull.h"
 
 #include <string.h>

@@ -17,7 +17,7 @@ static inline baum_i_columns baum_i_load_full(const double *side)
   return (baum_i_columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
 }
 
-/* Loads a side by its number, which may mean an arm (see baum_i_full_pair). The columns of I are
+/* Loads a side by its number, which may denote an arm (see baum_i_full_pair). The columns of I are
  * read from memory, because the instructions that construct them (vmovq between registers as 66 0F
  * D6) may be unknown to valgrind 3.19. */
 static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t number)

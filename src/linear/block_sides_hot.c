@@ -59,9 +59,8 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* Returns the velocities of all body blocks. This is v itself unless some body blocks have numbers
- * outside v. Then it is a copy in pull[], which is otherwise used by refinement only. For a dense
- * body the copy contains L^T v. */
+/* Returns the velocities of all body blocks. The result is v itself if no body block has numbers
+ * outside v. Otherwise it is a copy in pull[], with L^T v for each dense body. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -87,7 +86,7 @@ static const double *gather_velocities(const baum_i_block *b, const double *v)
   return b->pull;
 }
 
-/* Computes one row of a node: sets Phi' = rate - nu and returns r. rate is J v. */
+/* Computes one row of a node from rate = J v: sets Phi' = rate - nu and returns r. */
 static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
 {
   if (r < 0) {
@@ -112,9 +111,9 @@ static inline baum_i_pair times_side(const baum_i_columns *g, const double *x)
   return x[0] * g->c[0] + x[1] * g->c[1] + x[2] * g->c[2];
 }
 
-/* Loads a side. If it is copied from J as a whole, also stores it in side[]. */
-static inline baum_i_columns take_side(const baum_i_block *b, ptrdiff_t side,
-                                       const double *jacobian)
+/* Loads a side. A side that is copied from J as a whole is also stored in side[]. */
+static inline baum_i_columns load_general_side(const baum_i_block *b, ptrdiff_t side,
+                                               const double *jacobian)
 {
   double *to = b->side + 6 * side;
   const int32_t *from = b->side_from + 2 * side;
@@ -134,7 +133,7 @@ static inline baum_i_columns take_side(const baum_i_block *b, ptrdiff_t side,
 static inline void add_side(const baum_i_block *b, ptrdiff_t side, const double *jacobian,
                             const double *velocity, sums *sum)
 {
-  baum_i_columns g = take_side(b, side, jacobian);
+  baum_i_columns g = load_general_side(b, side, jacobian);
   int32_t body_block = b->side_body_block[side];
   int32_t place = b->place[body_block];
   const double *w = b->weight + 2 * (ptrdiff_t)body_block;

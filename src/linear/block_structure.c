@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the structure of the Schur complement in blocks: nodes, sides, couplings, and all indices.
+/* Finds the structure of the block Schur complement: nodes, sides, couplings, and all indices.
  *
  * The rows, in their order, are grouped into nodes with sides. Nodes with sides on the same body
  * block are coupled. The graph of these couplings gives the order of elimination. The position of a
- * node in this order is its *place*, and is its final number. */
+ * node in this order is its *place*, which is also its final number. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,8 +53,9 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* Chooses the body blocks of all bodies. Mass block i belongs to body 1 + i. If it is diagonal, its
- * body block is 1 + i, too, so a planar body and its body block have the same number. */
+/* Chooses the body blocks of all bodies. Mass block i belongs to body 1 + i. If the mass block is
+ * diagonal, its body block is also 1 + i, so a planar body and its body block have the same
+ * number. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
@@ -149,8 +150,8 @@ static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_
   return add_side(u, body_block, *number);
 }
 
-/* Finds or adds the sides of the present node on all body blocks of a dense body. They are added
- * together, so that they are consecutive. */
+/* Finds or adds the sides of the present node on all body blocks of a dense body. New sides are
+ * added together, so that they are consecutive. */
 static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
 {
   int before = u->full_sides.count;
@@ -404,7 +405,7 @@ static baum_status place_nodes(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* ---- all ---- */
+/* ---- the whole structure ---- */
 
 static void give_all(baum_i_block_builder *u)
 {

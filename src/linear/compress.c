@@ -48,7 +48,8 @@ static void sort_by(const baum_i_places *places, bool column, int32_t n, const i
 }
 
 /* Numbers the places in ascending order. Repeated places share a slot. */
-static void assign(const baum_i_places *places, const int32_t *order, const baum_i_compressed *out)
+static void number_places(const baum_i_places *places, const int32_t *order,
+                          const baum_i_compressed *out)
 {
   int32_t used = 0;
   memset(out->start, 0, ((size_t)out->n + 1) * sizeof *out->start);
@@ -79,7 +80,7 @@ baum_status baum_i_compress(baum_i_places *places, int32_t n, baum_i_compressed 
     }
     sort_by(places, false, n, order, out->start, by_row);
     sort_by(places, true, n, by_row, out->start, order);
-    assign(places, order, out);
+    number_places(places, order, out);
   } else {
     baum_i_compressed_clear(out);
   }

@@ -16,12 +16,12 @@ typedef struct baum_i_places {
     int32_t row;
     int32_t column;
   } * list;    /* (count) */
-  bool broken; /* memory has run out, or there are too many for an int32_t */
+  bool broken; /* memory has run out, or the list is too long for an int32_t */
 } baum_i_places;
 
 void baum_i_places_add(baum_i_places *places, int32_t row, int32_t column);
 
-/* The pattern of an n x n matrix: distinct places by columns, rows ascending. */
+/* The pattern of an n x n matrix: the distinct places, column by column, with ascending rows. */
 typedef struct baum_i_compressed {
   int32_t n;
   int32_t *start; /* (n + 1) */

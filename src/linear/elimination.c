@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent
- * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. Graphs
- * of joints are sparse and mostly stay sparse; otherwise the caller uses another solver.
+/* Minimum-degree ordering on the explicit elimination graph (D. J. Rose, 1972), in rounds of
+ * independent nodes (J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each
+ * other. Graphs of joints are sparse and mostly stay sparse; otherwise the caller uses another
+ * solver.
  *
  * A node whose neighbours are already coupled with each other causes no fill, even if its degree is
- * high. Such nodes are eliminated first, so that a round eliminates all ends of a mechanism and not
- * only those of least degree. */
+ * high. These nodes are eliminated first, so that one round eliminates all ends of a mechanism, not
+ * only the ends of least degree. */
 #include "linear/elimination.h"
 
 #include <stdbool.h>
@@ -17,8 +18,8 @@
 #include "linear/vector.h"
 
 /* State of the search. Nodes that are not yet eliminated are in buckets: nodes that cause no fill
- * in the first, the others by degree. Nodes whose neighbour has been eliminated in this round are
- * in `waiting` until the next round. */
+ * in the first, the others by degree. If a neighbour of a node has been eliminated in this round,
+ * the node is in `waiting` until the next round. */
 typedef struct search {
   int count;
   baum_i_vector *coupled; /* (count) neighbours of each node */
@@ -26,7 +27,7 @@ typedef struct search {
   int32_t *next;          /* (count) */
   int32_t *previous;      /* (count) -1: first */
   int32_t *bucket;        /* (count) */
-  int32_t *touched;       /* (count) the last round in which it entered `waiting` */
+  int32_t *touched;       /* (count) the last round in which the node entered `waiting` */
   int32_t *mark;          /* (count) */
   int32_t stamp;
   int32_t round;
@@ -146,7 +147,7 @@ static baum_status eliminate(search *s, int32_t node)
   return s->later.count > s->most ? BAUM_ERR_SINGULAR : BAUM_OK;
 }
 
-static baum_status take_round(search *s, int32_t bucket)
+static baum_status eliminate_round(search *s, int32_t bucket)
 {
   s->round++;
   s->waiting.count = 0;
@@ -161,21 +162,21 @@ static baum_status take_round(search *s, int32_t bucket)
   return BAUM_OK;
 }
 
-static baum_status take_rounds(search *s)
+static baum_status eliminate_in_rounds(search *s)
 {
   while (s->out->count < s->count) {
     int32_t bucket = 0;
     while (s->head[bucket] < 0) {
       bucket++;
     }
-    BAUM_I_TRY(take_round(s, bucket));
+    BAUM_I_TRY(eliminate_round(s, bucket));
   }
   return BAUM_OK;
 }
 
-/* ---- before and after ---- */
+/* ---- start and final order ---- */
 
-static baum_status begin(search *s, const baum_i_graph *graph)
+static baum_status load_graph(search *s, const baum_i_graph *graph)
 {
   for (int i = 0; i < s->count; i++) {
     s->head[i] = -1;
@@ -210,8 +211,8 @@ static int32_t find_depths(const baum_i_elimination *order, const int32_t *later
   return most;
 }
 
-/* Writes the places in the order of falling depth to sorted (count). Places of the same depth keep
- * their order. first (most + 2) is scratch. */
+/* Writes the places in the order of decreasing depth to sorted (count). Places of the same depth
+ * keep their order. first (most + 2) is scratch. */
 static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t *first,
                           int32_t *sorted)
 {
@@ -226,9 +227,9 @@ static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t
   }
 }
 
-/* Moves every node to shortly before the nodes that its elimination changes, so that its numbers
- * are still in the cache then. The fill stays the same, and nodes of the same depth are independent
- * of each other. */
+/* Reorders the nodes so that each comes shortly before the nodes that its elimination changes. The
+ * changed numbers are then still in the cache. The fill stays the same, and nodes of the same depth
+ * are independent of each other. */
 static baum_status order_by_depth(search *s)
 {
   baum_i_elimination *out = s->out;
@@ -284,7 +285,7 @@ static void order_later(search *s)
   }
 }
 
-static baum_status make_room(search *s)
+static baum_status allocate_search(search *s)
 {
   size_t n = (size_t)s->count;
   baum_i_elimination *out = s->out;
@@ -323,12 +324,12 @@ baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_
               .out = out,
               .waiting = {.size = sizeof(int32_t)},
               .later = {.size = sizeof(int32_t)}};
-  baum_status status = make_room(&s);
+  baum_status status = allocate_search(&s);
   if (status == BAUM_OK) {
-    status = begin(&s, graph);
+    status = load_graph(&s, graph);
   }
   if (status == BAUM_OK) {
-    status = take_rounds(&s);
+    status = eliminate_in_rounds(&s);
   }
   if (status == BAUM_OK) {
     status = order_by_depth(&s);

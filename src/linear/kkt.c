@@ -2,7 +2,7 @@
 /* Front end of the saddle-point solvers. It scales, checks accuracy, refines, and requests new
  * pivots or another solver.
  *
- * There is a ladder of factorizations, from cheap to robust:
+ * The factorizations form a ladder, from cheap to robust:
  *
  *   KEEP     keep the pivots of the last factorization
  *   CHOOSE   choose pivots for the present values
@@ -28,8 +28,8 @@ enum { MOST_REFINEMENTS = 3 };
  * counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
 /* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times its value when
- * the pivots were chosen. The rcond of such old pivots is a measure neither of the accuracy nor of
- * the distance from a singular configuration. */
+ * the pivots were chosen. The rcond of such old pivots measures neither the accuracy nor the
+ * distance from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
@@ -67,7 +67,7 @@ struct baum_i_kkt {
   double *scale;
   double *b;
   double *x;
-  double *residual; /* and then the correction computed from it */
+  double *residual; /* then the correction computed from the residual */
   double *size;
 };
 
@@ -111,7 +111,7 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
   return BAUM_OK;
 }
 
-/* Create a solver unless it exists. Returns BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+/* Creates a solver unless it exists. Returns BAUM_OK or BAUM_ERR_MEMORY, without a message. */
 static baum_status make_solver(const baum_i_kkt *kkt, kkt_solver *solver)
 {
   return solver->self ? BAUM_OK : solver->ops->create(kkt->structure, &solver->self);
@@ -223,7 +223,7 @@ static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
   }
   if (status == BAUM_OK && kkt->present->ops->keeps_pivots && present_rcond(kkt) < least_rcond) {
     status =
-      BAUM_ERR_SINGULAR; /* LU would divide by rounding errors, and residuals would not show this */
+      BAUM_ERR_SINGULAR; /* LU would divide by rounding errors, which residuals do not show */
   }
   kkt->quality = judge(kkt, status);
   return status;
@@ -340,7 +340,7 @@ static bool is_divided_by_rounding(const baum_i_kkt *kkt)
   return false;
 }
 
-/* Returns BAUM_ERR_SINGULAR if the residual stays large. */
+/* Returns BAUM_ERR_SINGULAR if the residual stays large or rows contradict each other. */
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
   BAUM_I_TRY(solve_once(kkt));

@@ -4,8 +4,8 @@
  *   [ M   J^T ] [ a      ]   [ f ]
  *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
- * M is block diagonal, and J is a list of dense blocks. Both are given by their row-major blocks
- * with a fixed structure. An omitted row i is replaced by lambda_i = 0. */
+ * M is block diagonal, and J is a list of dense blocks. Both are stored as row-major blocks, whose
+ * structure is fixed. An omitted row i is replaced by lambda_i = 0. */
 #ifndef BAUM_I_LINEAR_KKT_H
 #define BAUM_I_LINEAR_KKT_H
 
@@ -38,8 +38,7 @@ typedef struct baum_i_kkt_structure {
   const baum_i_mass_block *mass_blocks;
   int row_block_count;
   const baum_i_row_block *row_blocks;
-  /* (nc) 1: if rows depend on each other, omit this row rather than one with 0; NULL: no row is
-   * preferred */
+  /* (nc) 1: if rows are dependent, omit this row rather than a row with 0; NULL: no preference */
   const unsigned char *last_rows;
 } baum_i_kkt_structure;
 
@@ -70,8 +69,8 @@ typedef enum baum_i_kkt_choice { BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR 
 
 typedef struct baum_i_kkt baum_i_kkt;
 
-/* The structure's arrays must outlive the solver. Analysis of the structure, which costs more than
- * a factorization, is left to baum_i_kkt_prepare() or the first factorization. */
+/* The structure's arrays must outlive the solver. baum_i_kkt_prepare() or the first factorization
+ * analyses the structure, which costs more than a factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
 /* Analyse the structure, unless this has already been done, so that only new pivots allocate memory
@@ -79,16 +78,17 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
 baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
-/* Factors the matrix of new values, which must not change until the last solve, because residuals
- * are computed from them. Keeps the pivots, and then allocates nothing, unless rcond or the
- * residual requires new pivots. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE. Sets a message only if out of memory, because only the caller knows time and
- * names for a message. */
+/* Factors the matrix of new values. The values must not change until the last solve, because
+ * residuals are computed from them. Keeps the pivots, and then allocates nothing, unless they are
+ * no longer good enough. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE. Sets a message only if out of memory, because only the caller knows the time
+ * and the names for other messages. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
 /* Solves, and refines a and lambda until the residuals of both equations are at rounding level. (a,
- * lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (the residual stays large),
- * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose new pivots or use QR.
+ * lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (no factorization, a residual that stays
+ * large, or contradictory rows), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose new pivots or use
+ * QR.
  */
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
@@ -102,11 +102,11 @@ baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values
 void baum_i_kkt_forget(baum_i_kkt *kkt);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
-/* Returns a cheap estimate of the reciprocal condition number of the present scaled matrix. It is
- * free of units. It is continuous while pivots are kept and jumps when new pivots are chosen. It is
- * 0 without a factorization, or if the rank is not full. */
+/* Returns a cheap estimate of the reciprocal condition number of the present scaled matrix. The
+ * estimate is dimensionless. It is continuous while pivots are kept and jumps when new pivots are
+ * chosen. It is 0 without a factorization, or if the rank is not full. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
-const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr": the last used */
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr": the backend used last */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 
 /* ---- plain products with the blocks, also used by dynamics ---- */
@@ -126,7 +126,7 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 /* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is first multiplied by
  * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
  * its length is at most `tolerance` after orthogonalization against the independent rows before it.
- * independent[i] (nc) receives 1 for the rows of one largest set of independent rows, and 0 for all
+ * independent (nc) receives 1 for the rows of one largest set of independent rows, and 0 for all
  * other rows. Rows with independent[i] != 0 on entry are preferred, then rows with a lower number,
  * but any row is preferred to the structure's last_rows. BAUM_OK, BAUM_ERR_MEMORY,
  * BAUM_ERR_NOT_FINITE. Allocates. */

@@ -2,7 +2,7 @@
 /* Backend "klu": sparse LU of the scaled saddle-point matrix (sparse_lu.h).
  *
  * Factors with kept pivots may be useless, because pivots that were good at an earlier
- * configuration may have become small. This file returns the ratio of the smallest to the largest
+ * configuration may have become small. rcond() returns the ratio of the smallest to the largest
  * pivot. The front end (kkt.c) checks this ratio and the residual.
  *
  * There are two ways to choose pivots. Usually diagonal entries are preferred. Masses, which are
@@ -14,8 +14,8 @@
  *   [ J    -S/w ]
  *
  * and the largest entry is the pivot. Pivots are then entries of J. The condition number is only
- * about 1/sigma, and masses of very different size do not cause cancellation. Such pivots depend on
- * the configuration and have to be chosen more often. */
+ * about 1/sigma, and masses of very different size do not cause cancellation. These pivots depend
+ * on the configuration and must be chosen more often. */
 #include "base/alloc.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"

@@ -110,7 +110,7 @@ static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian)
   }
 }
 
-/* Sets the diagonal: -S, and 1 for an omitted row. */
+/* Sets the diagonal of the constraint rows: 1 for an omitted row, -S for the others. */
 static void fill_shift(const baum_i_pattern *pattern, const double *shift)
 {
   const double *e = pattern->scale + pattern->structure->nv;

@@ -2,8 +2,8 @@
 /* The saddle-point matrix in compressed columns. The pattern is found once; filling allocates
  * nothing.
  *
- * The pattern contains all entries that can be non-zero, even if they are zero now, and the whole
- * diagonal. Rows ascend within a column. The pattern is symmetric. */
+ * The pattern contains all entries that can be non-zero, and the whole diagonal. Rows ascend within
+ * a column. The pattern is symmetric. */
 #ifndef BAUM_I_LINEAR_PATTERN_H
 #define BAUM_I_LINEAR_PATTERN_H
 

@@ -26,9 +26,8 @@ typedef struct peeling {
   const baum_i_kkt_structure *structure;
   const double *jacobian;
   const double *column_scale;
-  int *users;  /* (nv) number of blocks in which a velocity occurs */
-  int *user;   /* (nv) exclusive or of the indices of these blocks: the index itself if there is
-                * only one block */
+  int *users; /* (nv) number of blocks in which a velocity occurs */
+  int *user; /* (nv) bitwise XOR of their indices, which is the index itself if there is only one */
   int *state;  /* (row_block_count) */
   int *stack;  /* (row_block_count) blocks to examine */
   int waiting; /* number of blocks on the stack */
@@ -57,8 +56,8 @@ static void orthogonalize(double *x, double rows[][MOST_COLUMNS], int count, int
   }
 }
 
-/* Loads the entries of the free velocities of row i, after scaling the row to unit length. Returns
- * their number. */
+/* Scales row i to unit length and loads its entries for the free velocities. Returns the number of
+ * these entries. */
 static int load_row(const peeling *p, const baum_i_row_block *block, int i, double *out)
 {
   const double *value = p->jacobian + block->value + i * block->cols;

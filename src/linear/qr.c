@@ -6,12 +6,12 @@
  *   K_w = [ w M   J^T ]
  *         [ J    -S/w ]
  *
- * If the smallest singular value of the scaled J is sigma > w, the smallest singular value of K_w
- * is about sigma, but that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 count
- * as dependent. The solution is the one of least norm among those that minimize the scaled
- * residual. K_w is symmetric, so its range is its row space, and the projection of the basic
- * solution onto the range is the solution of least norm. Accelerations are unique where M is
- * positive definite on ker J; multipliers have the least norm in scaled rows. */
+ * If the smallest singular value of the scaled J is sigma > w, the smallest singular value is about
+ * sigma for K_w, but sigma^2 for K_1. Columns whose remaining norm is at most 1e-13 count as
+ * dependent. Of all vectors that minimize the scaled residual, solve() returns the vector of least
+ * norm. K_w is symmetric, so its range is its row space, and the projection of the basic solution
+ * onto the range has the least norm. Accelerations are unique if M is positive definite on ker J;
+ * multipliers have the least norm in scaled rows. */
 #include <colamd.h>
 #include <math.h>
 #include <string.h>
@@ -123,8 +123,8 @@ static double largest_of(const double *x, int count)
   return largest;
 }
 
-/* Estimates 1 / (|K_w| |K_w^-1|) by inverse iteration, if the rank is full. There are two steps,
- * because one may miss a singular vector. */
+/* Estimates 1 / (|K_w| |K_w^-1|) by inverse iteration, if the rank is full. Takes two steps,
+ * because a single step may miss a singular vector. */
 static double estimate_rcond(qr_backend *qr)
 {
   int n = qr->pattern.n;

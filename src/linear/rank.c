@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the rank of J by sparse QR of J^T with columns scaled to unit length. Of dependent columns
- * the later ones are omitted, so columns are ordered by preference. */
+/* Finds the rank of J by sparse QR of J^T with columns scaled to unit length. The QR omits a column
+ * that depends on earlier columns. Columns are therefore ordered by preference. */
 #include <math.h>
 #include <string.h>
 
@@ -75,7 +75,8 @@ static bool list_entries(const baum_i_kkt_structure *structure, const double *ja
   return true;
 }
 
-/* Lists the structure's last rows last, and otherwise marked rows first. */
+/* Lists the structure's last_rows after all other rows. Within both groups, marked rows come
+ * first. */
 static void order_rows(const baum_i_kkt_structure *structure, const unsigned char *marked,
                        int32_t *order)
 {

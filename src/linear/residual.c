@@ -6,17 +6,17 @@
  *
  *   omega = max_i |b - K x|_i / (|K| |x| + |b|)_i .
  *
- * Each row is compared with itself, so units and masses of very different size do not matter. A row
- * whose denominator consists only of rounding errors of other rows might never pass. After scaling,
- * such rows are compared with the largest row instead (M. Arioli, J. Demmel, I. Duff 1989).
- * baum_i_residual_is_rounding() and baum_i_residual_is_noise() compare rows of relative size eps^2
- * in this way, because such rows remain after one refinement. Only the second of them also compares
- * rows of relative size eps in this way. A residual below eps^2 of the largest row always passes.
- * The reason is that some rows differ from zero only by rounding, such as those of a guide along an
- * axis of the ground, and cannot be solved more accurately. In baum_i_residual_is_noise(), this
- * limit is eps^2 / rcond: no refinement by QR, whose backward error is relative to the largest row,
- * gets below that (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). "The
- * largest row" always means the largest row of the same island.
+ * The residual of a row is compared with the terms of the same row, so units and masses of very
+ * different size do not matter. A row whose denominator consists only of rounding errors of other
+ * rows might never pass. After scaling, it is therefore compared with the largest row (M. Arioli,
+ * J. Demmel, I. Duff 1989). baum_i_residual_is_rounding() does so for rows of relative size eps^2,
+ * which remain after one refinement. baum_i_residual_is_noise() does so for rows of relative size
+ * eps. A residual below eps^2 of the largest row always passes, because some rows differ from zero
+ * only by rounding and cannot be solved more accurately. The rows of a guide along an axis of the
+ * ground are an example. In baum_i_residual_is_noise(), this limit is eps^2 / rcond. Refinement by
+ * QR gets no further, because the backward error of QR is relative to the largest row (N. J.
+ * Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). "The largest row" always
+ * means the largest row of the same island.
  */
 #include "linear/residual.h"
 
@@ -69,7 +69,7 @@ void baum_i_residual_islands_clear(const baum_i_residual_islands *islands)
 
 /* ---- residual ---- */
 
-static void start(int n, const double *b, double *residual, double *size)
+static void start_from_b(int n, const double *b, double *residual, double *size)
 {
   for (int i = 0; i < n; i++) {
     residual[i] = b[i];
@@ -148,7 +148,7 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
                           const double *b, const double *x, double *residual, double *size)
 {
   int nv = structure->nv;
-  start(nv + structure->nc, b, residual, size);
+  start_from_b(nv + structure->nc, b, residual, size);
   subtract_mass(structure, values->mass, x, residual, size);
   subtract_jacobian(structure, values->jacobian, x, residual, size);
   if (values->shift) {

@@ -10,8 +10,8 @@
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 
-/* Islands of the system, which its blocks do not couple. The rows of an island are never compared
- * with those of another, which may be larger by many orders of magnitude. */
+/* The islands of the system: no block of M or J couples two of them. Rows are compared only with
+ * rows of the same island, because other islands may be larger by many orders of magnitude. */
 typedef struct baum_i_residual_islands {
   int count;
   int *of;         /* (n) island of each row */
@@ -23,13 +23,13 @@ baum_status baum_i_residual_islands_find(const baum_i_kkt_structure *structure,
                                          baum_i_residual_islands *out);
 void baum_i_residual_islands_clear(const baum_i_residual_islands *islands);
 
-/* Tells whether each |residual_i| is at most a few units of rounding of its own size_i. False for
- * NaN. */
+/* Tells whether each |residual_i| is at rounding level relative to size_i. Tiny rows are compared
+ * with the largest row of their island (see residual.c). False for NaN. */
 bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
                                  const double *residual, const double *size);
 
-/* The same, but a row whose scaled size is at rounding level of the largest row of its island is
- * compared with that row. rcond: reciprocal condition number of the scaled matrix. */
+/* The same, but "tiny" includes all rows whose scaled size is at rounding level of the largest row
+ * of their island. rcond: reciprocal condition number of the scaled matrix. */
 bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
                               const double *residual, const double *size, double rcond);
 

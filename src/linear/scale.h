@@ -5,8 +5,8 @@
  *   d_j = 1 / sqrt(M_jj)          for velocities,   so that M has a diagonal of about 1,
  *   e_i = 1 / max_j |J_ij| d_j    for constraints,  so that rows of J have entries of about 1,
  *
- * all rounded up to a power of two, so after scaling the diagonal of M is between 1 and 4, and the
- * largest entry of a scaled row is between 1 and 2. If S_ii is not zero, the maximum in e_i
+ * all rounded up to a power of two. After scaling, the diagonal of M is therefore between 1 and 4,
+ * and the largest entry of a row of J is between 1 and 2. If S_ii is not zero, the maximum in e_i
  * includes sqrt(S_ii). A change of units multiplies K by a diagonal matrix from both sides. D
  * changes by the inverse, so D K D does not depend on units, except for the rounding to powers of
  * two. The d_j of a velocity without mass is computed from the rows in which it occurs. */
@@ -21,8 +21,8 @@ void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kk
                           double *scale);
 
 /* Sets weighted (nv + nc) = (root d, e / root). D K D then contains M times root^2, J unchanged,
- * and S divided by root^2. In rows in which S would exceed 1, the factor is less than e / root.
- * root is a power of two, at most 1. */
+ * and S divided by root^2. In a row in which S would be 4 or more, a smaller factor than e / root
+ * keeps S between 1 and 4. root is a power of two, at most 1. */
 void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                         const double *scale, double root, double *weighted);
 

@@ -10,19 +10,20 @@
 #include "base/pair.h"
 #include "linear/arrays.h"
 
-/* The limits of block.c. In space, weak_pivot also has a lower bound, because evaluations in space
- * accept good pivots without a check of the residual. */
+/* The same limits as in block.c. In space, weak_pivot also has a lower bound, because evaluations
+ * in space accept good pivots without a check of the residual. */
 static const double weak_pivot = 1e-3;
 static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
-/* A body is thin if its smallest moment of inertia is below this fraction of the trace of I. Its
- * spin about the axis may be much larger than all other accelerations. */
+/* A body is thin if its smallest moment of inertia is below this fraction of the trace of I. The
+ * angular acceleration about its axis (its spin) may be much larger than all other
+ * accelerations. */
 static const double thin = 2e-5;
 
-/* A body is slender if this moment is below the first fraction of the trace of I. The pivots of its
- * joints may be as small as this fraction. A moment that is raised by `raised` times the trace
- * avoids this. Each refinement then gains about four digits. */
+/* A body is slender if its smallest moment of inertia is below `slender` times the trace of I. The
+ * pivots of its joints may then be as small as this fraction. Raising the moment by `raised` times
+ * the trace avoids this, and each refinement gains about four digits. */
 static const double slender = 1e-8;
 static const double raised = 1e-4;
 
@@ -124,7 +125,7 @@ void baum_i_space_use_force(baum_i_space *space, bool use)
 
 /* ---- masses ---- */
 
-/* Computes L of I = L L^T (A.-L. Cholesky). */
+/* Computes the Cholesky factor L of I = L L^T. */
 static bool factor_tensor(const double tensor[12], double l[9])
 {
   for (int i = 0; i < 3; i++) {
@@ -165,7 +166,7 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
 
 /* ---- slender bodies ---- */
 
-/* Returns the largest diagonal entry of I^-1, and its number. */
+/* Returns the largest diagonal entry of I^-1, and sets *axis to its index. */
 static double weakest_axis(const baum_i_space_body *body, int *axis)
 {
   double most = 0.0;
@@ -264,7 +265,7 @@ bool baum_i_space_has_slender(const baum_i_space *space)
   return found;
 }
 
-/* Replaces I by I + w e e^T, with the axis e, and sets u = w^(1/2) L^-1 e, where L is the factor of
+/* Replaces I by I + w e e^T, where e is the axis. Sets u = w^(1/2) L^-1 e, where L is the factor of
  * the new tensor. */
 static void raise_moment(baum_i_space_body *body, double u[4])
 {
@@ -274,7 +275,7 @@ static void raise_moment(baum_i_space_body *body, double u[4])
   for (int i = 0; i < 12; i++) {
     tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
   }
-  (void)whiten(tensor, body); /* cannot fail, because I has a factor */
+  (void)whiten(tensor, body); /* cannot fail, because I is positive definite */
   set_spin(body);
   for (int k = 0; k < 3; k++) {
     u[k] = sqrt(weight) * body->spin[k];
@@ -354,8 +355,8 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
 
 enum { MOST = BAUM_I_SPACE_ROWS };
 
-/* Add G W G^T to the lower triangle of s, for a part G (E or R) of three columns and a diagonal
- * matrix W. s[j] is column j of the triangle. */
+/* Adds G W G^T to the lower triangle of s. G is a part (E or R) of three columns, and W is
+ * diagonal. s[j] is column j of the triangle. */
 BAUM_I_INLINE void add_products(const double *part, const double w[3], bool tall,
                                 double s[MOST][MOST])
 {

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solves the saddle-point system of mechanisms in space by its Schur complement S (block.h does so
- * for planar mechanisms):
+/* Solves the saddle-point system of mechanisms in space by its Schur complement S (for planar
+ * mechanisms, see block.h):
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * A *node* is one joint, or up to six of its rows; omitted rows belong to no node. Rotations are
- * *whitened*: with the tensor I = L L^T, the unknowns of a body are the acceleration x of its
- * origin, for which W is 1 / m, and y = L^T w', for which W is 1. Here w' is the angular
- * acceleration. The rows of a node on one body are a *side* [E | R] of n x 3 blocks: E on x, R =
- * (rows on w') L^-T on y. Then
+ * A *node* is one joint, or up to six of its rows. Omitted rows belong to a node only if the layout
+ * marks their row block as `whole`. Rotations are *whitened*: with the tensor I = L L^T, the
+ * unknowns of a body are the acceleration x of its origin, for which W is 1 / m, and y = L^T w',
+ * for which W is 1. Here w' is the angular acceleration. The entries of J for one node and one body
+ * form a *side* [E | R] of two n x 3 blocks: E multiplies x, and R = (columns for w') L^-T
+ * multiplies y. Then
  *
  *   S_nk = +- sum over shared bodies of E_n E_k^T / m + R_n R_k^T
  *
  * The first three rows of many joints make two points coincide. Their E is +I or -I, and E of the
- * rows that compare directions is 0. Such a side is *lean*: only R is stored. A planar body is a
- * body whose W is 0 for the third entry of x and for the first two of y. Body 0 is the ground, W =
- * 0.
+ * rows that compare directions is 0. A side with this E is *lean*: only R is stored. For a planar
+ * body, W is 0 for the third entry of x and for the first two entries of y. Body 0 is the ground,
+ * with W = 0.
  *
  * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
  * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
@@ -28,7 +29,7 @@
 
 enum { BAUM_I_SPACE_ROWS = 6, BAUM_I_SPACE_MOTION = 8 /* x, 0, y, 0 of a body */ };
 
-/* What the columns of a body are. */
+/* The kind of a body determines its columns. */
 typedef enum baum_i_space_kind {
   BAUM_I_SPACE_BODY,
   BAUM_I_SPACE_PARTICLE,
@@ -40,24 +41,25 @@ typedef enum baum_i_space_kind {
 typedef struct baum_i_space_layout {
   const baum_i_kkt_structure *structure;
   const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
-  /* (row_block_count) -1 unless the first three rows, or the two rows of a planar pin, make points
-   * coincide and all other rows compare directions; then the number of the body whose E is -I (0:
-   * ground) */
+  /* (row_block_count) If the first three rows, or the two rows of a planar pin, make points
+   * coincide and all other rows compare directions: the number of the body whose E is -I (0:
+   * ground). Otherwise -1. */
   const int *pinned;
   /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
-   * that its size is that of the joint */
+   * that the node has as many rows as the joint */
   const unsigned char *whole;
   const unsigned char *omitted; /* (nc) */
   const unsigned char *moments; /* (nc) non-zero: the multiplier is a moment, otherwise a force */
   const unsigned char *fixed;   /* (mass_block_count) non-zero: a = 0 */
-  double length; /* [m] characteristic length, to compare accelerations of origins with angular
-                  * ones, and forces with moments */
+  /* [m] characteristic length, to compare accelerations of origins with angular accelerations, and
+   * forces with moments */
+  double length;
 } baum_i_space_layout;
 
 typedef struct baum_i_space_node {
   int32_t rows;                   /* n */
   int32_t row[BAUM_I_SPACE_ROWS]; /* rows of the system */
-  uint32_t omitted;               /* a bit for each row of zeros */
+  uint32_t omitted;               /* bit i is set if row i is omitted and therefore zero */
   int32_t row_block;
   int32_t at;    /* start of its numbers in nodes[]: lambda, r, D */
   int32_t place; /* start of its vectors in rest[] */
@@ -76,7 +78,7 @@ typedef struct baum_i_space_side {
   int32_t from[BAUM_I_SPACE_ROWS];
 } baum_i_space_side;
 
-/* Two nodes that share a body: first the one that is eliminated later. */
+/* Two nodes that share a body. The node that is eliminated later comes first. */
 typedef struct baum_i_space_pair {
   int32_t to;   /* start of their block in off[] */
   int32_t adds; /* 0: the first pair of this block, which sets it */
@@ -87,15 +89,15 @@ typedef struct baum_i_space_pair {
   int32_t turn[2];
 } baum_i_space_pair;
 
-/* A coupling of a node with one that is eliminated later. */
+/* A coupling of a node with a node that is eliminated later. */
 typedef struct baum_i_space_coupling {
   int32_t later;
   int32_t at; /* start of its block in off[] */
 } baum_i_space_coupling;
 
 /* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.
- * `det` contains the determinant of the first block, and that of the second block after the
- * elimination of the first. */
+ * `det` contains the determinant of the first block, and the determinant of the second block after
+ * the elimination of the first. */
 typedef struct baum_i_space_measure {
   double det[2];
   double size[2]; /* products of the diagonal entries of S */
@@ -105,7 +107,7 @@ typedef struct baum_i_space_measure {
 typedef struct baum_i_space_body {
   double weight[4];   /* 1 / m, three times (planar: twice), and 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
-  double inertia[12]; /* I likewise */
+  double inertia[12]; /* I, stored likewise */
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of a thin body, otherwise 0 */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
@@ -115,7 +117,7 @@ typedef struct baum_i_space_body {
   bool thin;          /* the moment of inertia about `axis` is small */
   int32_t first;      /* its first column */
   int32_t size;
-  const int32_t *slots; /* (size) the place of each of its columns in [E | R] */
+  const int32_t *slots; /* (size) column of [E | R] for each of its columns */
 } baum_i_space_body;
 
 typedef struct baum_i_space {
@@ -162,13 +164,13 @@ typedef struct baum_i_space {
   double *nothing; /* zeros */
   double *pull;    /* W (f - M a - J^T lambda) */
   double *pull_low;
-  /* (body_count x 4) u of slender bodies, otherwise 0. The solver uses the inertia I + L u u^T L^T
-   * in place of I, with its factor L. Refinement removes the effect of this change. */
+  /* (body_count x 4) u of slender bodies, otherwise 0. The solver replaces I by L L^T = I + L u u^T
+   * L^T. Refinement removes the effect of this change. */
   double *lack;
   double *spins;  /* (body_count) change of the spin of slender bodies by the last refinement */
   double *units;  /* (numbers_of_rows) factors that convert multipliers to forces */
-  bool is_raised; /* the inertia of a body is replaced */
-  bool has_thin;  /* a body is thin */
+  bool is_raised; /* the inertia of at least one body is raised */
+  bool has_thin;  /* at least one body is thin */
   double *rest;   /* (numbers_of_rows) r - J a */
   double *rest_low;
   const double *from; /* a0 of the present right-hand side: free or nothing */
@@ -192,8 +194,9 @@ static inline int baum_i_space_pivot(int rows)
   return 2 * baum_i_space_vector(rows);
 }
 
-/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections,
- * whose right-hand side is (0, r), do not: the metric of the raised inertia suits them as well. */
+/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections
+ * have the right-hand side (0, r) and do not need it, because any positive definite metric suits
+ * them. */
 static inline bool baum_i_space_must_refine(const baum_i_space *space)
 {
   return space->is_raised && space->load == space->force;
@@ -213,8 +216,8 @@ baum_status baum_i_space_find_islands(baum_i_space *space);
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
 /* The first function tells whether there are bodies so slender that their pivots may be too small.
- * The second one raises the moments of inertia of these bodies about their axes. The third one
- * restores one of them. */
+ * The second function raises the moments of inertia of these bodies about their axes. The third
+ * function restores the moment of one body. */
 bool baum_i_space_has_slender(const baum_i_space *space);
 void baum_i_space_raise_slender(baum_i_space *space);
 void baum_i_space_restore_slender(baum_i_space *space, int body);
@@ -242,7 +245,7 @@ typedef struct baum_i_space_sides_kernel {
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
 
-/* Hot functions for the factorization, as those of baum_i_block_kernel. */
+/* Hot functions for the factorization, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_factor_kernel {
   void (*couple)(baum_i_space *space);
   baum_i_pivots (*eliminate)(baum_i_space *space);
@@ -259,20 +262,21 @@ typedef struct baum_i_space_residual_kernel {
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_plain;
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
-/* Hot functions for the solution, as those of baum_i_block_kernel. */
+/* Hot functions for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
-  /* Returns the largest acceleration of a body that the multipliers of one joint cause, divided by
-   * the largest acceleration of all bodies of the island. Spins of thin bodies about their axes are
-   * also divided by the spin itself. If this quotient is large, digits have cancelled. */
+  /* Returns the largest acceleration of a body that the multipliers of one node cause, divided by
+   * the largest acceleration of all bodies of the island. The spin of a thin body is instead
+   * divided by its resulting spin, if that is larger. If this quotient is large, digits have
+   * cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
-  /* Prepares correct(): computes r - J a in working precision. Of the residual of the equations of
-   * motion, only the part of slender bodies is computed. */
+  /* Prepares correct(): computes r - J a in working precision. The residual of the equations of
+   * motion contains only the effect of raised inertia. */
   void (*find_rest)(baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest change of the multipliers or of the
-   * accelerations, relative to those of the island, but at least 1 if refinement does not converge
-   * quickly for a slender body. */
+   * accelerations, relative to their largest values in the island. If refinement does not converge
+   * quickly for a slender body, returns at least 1. */
   double (*correct)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);

@@ -3,7 +3,7 @@
  *
  *   lambda2 = Z b2' - U2^T lambda_i,  lambda1 = P b1 - U1^T lambda_i - Y lambda2.
  *
- * Refinement is that of block_hot.c. */
+ * Refinement is described in block_hot.c. */
 #include <math.h>
 #include <string.h>
 
@@ -54,8 +54,8 @@ BAUM_I_INLINE void scatter(const baum_i_space *b, const baum_i_space_node *node,
   }
 }
 
-/* Multiplies each of the n columns of U, entry by entry, by lambda of a later node, and adds the
- * products to sum[c] for column c. The entries of sum[c] add up to entry c of U^T lambda. */
+/* Multiplies each column c of U, entry by entry, by lambda of a later node, and adds the products
+ * to sum[c]. The entries of sum[c] add up to entry c of U^T lambda. */
 BAUM_I_INLINE void add_products(int n, const double *u, const double *later, bool tall,
                                 baum_i_four sum[8])
 {
@@ -70,7 +70,7 @@ BAUM_I_INLINE void add_products(int n, const double *u, const double *later, boo
   }
 }
 
-/* Substitutes backward at node k of n rows; returns its lambda. */
+/* Substitutes backward at node k, which has n rows. Returns its lambda. */
 BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
 {
   bool tall = n > 4;
@@ -109,7 +109,7 @@ BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
   return lambda;
 }
 
-static void put_rows(const baum_i_space *b, const baum_i_space_node *node, double *lambda)
+static void copy_lambda(const baum_i_space *b, const baum_i_space_node *node, double *lambda)
 {
   const double *from = b->nodes + node->at;
   for (int i = 0; i < node->rows; i++) {
@@ -134,7 +134,7 @@ static void backward(const baum_i_space *b)
 static void read_lambda(const baum_i_space *b, double *lambda)
 {
   for (int k = 0; k < b->node_count; k++) {
-    put_rows(b, &b->list[k], lambda);
+    copy_lambda(b, &b->list[k], lambda);
   }
 }
 
@@ -305,12 +305,12 @@ static double largest(four x)
   return larger_of(two[0], two[1]);
 }
 
-static double share(double x, double y)
+static double ratio(double x, double y)
 {
   return x > 0.0 ? x / y : 0.0;
 }
 
-/* The largest accelerations of origins, and angular accelerations without spins of thin bodies. */
+/* The largest accelerations of origins, and angular accelerations except spins of thin bodies. */
 typedef struct peaks {
   four moves;
   four turns;
@@ -330,7 +330,7 @@ BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
   return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
 }
 
-/* `thin` must be a compile-time constant, here and below: whether any body is thin. */
+/* `thin` tells whether any body is thin. It must be a compile-time constant. */
 BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
                             peaks most)
 {
@@ -339,7 +339,7 @@ BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn,
   return (peaks){larger(move, most.moves), larger(angular, most.turns)};
 }
 
-/* Returns the largest acceleration in units of 1/s^2. Those of origins are divided by the
+/* Returns the largest acceleration in units of 1/s^2. Accelerations of origins are divided by the
  * characteristic length, so that the result does not depend on the unit of length. */
 static double size_of(const baum_i_space *b, peaks of)
 {
@@ -378,8 +378,7 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
   return most;
 }
 
-/* Returns the sum of the magnitudes of the spins that the multipliers of one side cause. They may
- * nearly cancel. */
+/* Returns the sum of the magnitudes of the spins that one side causes, which may nearly cancel. */
 BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side *side,
                                  column lambda, bool tall)
 {
@@ -396,7 +395,7 @@ BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side 
 }
 
 /* Returns the largest spin of a thin body that the multipliers of one node cause, relative to the
- * whole spin or to `size`. */
+ * whole spin or to `size`, whichever is larger. */
 BAUM_I_INLINE double largest_spin(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                                   double size)
 {
@@ -407,7 +406,7 @@ BAUM_I_INLINE double largest_spin(const baum_i_space *b, const baum_i_space_node
     const baum_i_space_body *body = &b->bodies[side->body];
     if (body->thin) {
       double whole = fabs(spin_of(body, b->motion + (ptrdiff_t)MOTION * side->body + 4));
-      most = larger_of(share(pushed_spin(b, side, lambda, tall), larger_of(whole, size)), most);
+      most = larger_of(ratio(pushed_spin(b, side, lambda, tall), larger_of(whole, size)), most);
     }
   }
   return most;
@@ -428,7 +427,7 @@ BAUM_I_INLINE double amplify(const baum_i_space *b, int island, bool thin)
       spins = larger_of(largest_spin(b, node, tall, size), spins);
     }
   }
-  return larger_of(share(size_of(b, pushes), size), spins);
+  return larger_of(ratio(size_of(b, pushes), size), spins);
 }
 
 static double amplification(const baum_i_space *b)
@@ -499,17 +498,17 @@ static double add_changes(const baum_i_space *b, int island)
       sizes = larger(baum_i_four_of(sum.high * unit.high), sizes);
     }
   }
-  return share(largest(changes), largest(sizes));
+  return ratio(largest(changes), largest(sizes));
 }
 
-/* If joints do not hold a slender body about its axis, its raised moment of inertia makes all
- * changes of its spin much too small, and they do not decrease. Changes below NOISE times the
- * accelerations may be rounding errors. */
+/* If no joint keeps a slender body from spinning about its axis, the raised moment of inertia makes
+ * all changes of the spin much too small, and the changes do not decrease. Changes below NOISE
+ * times the accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 
-/* Returns the change of the spin of a thin body, relative to the spin or to the accelerations of
- * its island, or 1 if the body is slender and the changes do not decrease quickly. */
+/* Returns the change of the spin of a thin body, relative to the spin or to `others`, whichever is
+ * larger. Returns 1 if the body is slender and the changes do not decrease quickly. */
 static double change_of_spin(const baum_i_space *b, int t, const double *before, double others)
 {
   const baum_i_space_body *body = &b->bodies[t];
@@ -521,10 +520,11 @@ static double change_of_spin(const baum_i_space *b, int t, const double *before,
   bool slender = baum_i_space_must_refine(b) && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
   bool slow = slender && change > SLOWEST * b->spins[t] && change > NOISE * size;
   b->spins[t] = change;
-  return slow ? 1.0 : share(change, size);
+  return slow ? 1.0 : ratio(change, size);
 }
 
-/* Returns the largest change of accelerations of an island, relative to the largest one. */
+/* Returns the largest change of an acceleration in an island, relative to its largest
+ * acceleration. */
 BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const double *before,
                                       bool thin)
 {
@@ -542,7 +542,7 @@ BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const d
       spins = larger_of(change_of_spin(b, *t, before, size), spins);
     }
   }
-  return larger_of(share(size_of(b, changes), size), spins);
+  return larger_of(ratio(size_of(b, changes), size), spins);
 }
 
 static double correct(baum_i_space *b)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings and factorization of the Schur complement of mechanisms in space; space_block.h has the
- * equations and the storage.
+/* Couplings and factorization of the Schur complement of mechanisms in space; space_block.h
+ * describes the equations and the storage.
  *
- * The factorization is a right-looking L D L^T by nodes. The pivot of a node is divided into a
- * first block of up to three rows and a second one with the rest,
+ * The factorization S = L D L^T is right-looking, node by node. The pivot of a node is divided into
+ * a first block of up to three rows and a second block with the other rows,
  *
  *   D = [ D1  C ; C^T  D2 ],  P = D1^-1,  Y = P C,  Z = (D2 - C^T Y)^-1,
  *
@@ -27,9 +27,9 @@ typedef baum_i_space_column column;
  * entries of S. */
 static const double bad_pivot = 1e-12;
 
-/* ---- off the diagonal ---- */
+/* ---- off-diagonal blocks ---- */
 
-/* Computes E_i E_k^T / m + R_i R_k^T. n: rows of the earlier node. */
+/* Computes E_i E_k^T / m + R_i R_k^T. n: number of rows of the earlier node. */
 BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *pair, int n,
                                bool tall, bool lean)
 {
@@ -104,8 +104,8 @@ static void couple(baum_i_space *b)
 
 /* ---- factor ---- */
 
-/* The pivot of the node that is eliminated. Of symmetric matrices only the lower triangles are
- * stored, row by row. */
+/* The pivot of the node being eliminated. A symmetric matrix is stored as its lower triangle, row
+ * by row. */
 typedef struct pivot {
   double p[6];
   double c[3][3]; /* C, column by column */
@@ -152,7 +152,7 @@ BAUM_I_INLINE double pivot_entry(const double *d, int n, int row, int col)
   return row < 4 ? d[4 * col + row] : d[4 * n + 2 * (col - 4) + row - 4];
 }
 
-/* Factors D of a node of n rows. */
+/* Factors D of a node with n rows. */
 BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *t, double det[2])
 {
   int n1 = n < 3 ? n : 3;
@@ -192,7 +192,7 @@ BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *
 }
 
 /* Stores the factors in place of D, and (P b1, Z b2') in place of b. */
-BAUM_I_INLINE void keep_pivot(int n, const pivot *t, double *d, double *b)
+BAUM_I_INLINE void store_factors(int n, const pivot *t, double *d, double *b)
 {
   int n1 = n < 3 ? n : 3;
   int n2 = n - n1;
@@ -226,7 +226,8 @@ BAUM_I_INLINE void keep_pivot(int n, const pivot *t, double *d, double *b)
 
 /* Subtracts X' U^T from a block of off[] or, if `is_pivot`, from D of the later node. Here x is X'
  * of one coupling, and u is U of an earlier coupling or, for D, of the same one. D is symmetric, so
- * rows 4 and 5 of D are stored only for columns 4 and 5. n: rows of the eliminated node. */
+ * rows 4 and 5 of D are stored only for columns 4 and 5. n: number of rows of the eliminated
+ * node. */
 BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, const double *u,
                                     int columns, bool is_pivot, double *to)
 {
@@ -250,7 +251,7 @@ BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, cons
 }
 
 /* Subtracts the contribution of the coupling at `off` from the later node, and replaces the
- * coupling by U. x receives X'. rows: of the later node. */
+ * coupling by U. x receives X'. rows: number of rows of the later node. */
 BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, bool tall,
                                  double *node, column x[MOST])
 {
@@ -294,8 +295,8 @@ BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, b
   subtract_product(n, x, tall, off, rows, true, node + (tall ? 16 : 8));
 }
 
-/* Eliminates one coupling f of a node, and multiplies it with the couplings e before it. Returns
- * the next target. */
+/* Eliminates coupling f of a node, and multiplies it with the couplings e before it. Returns the
+ * next target. */
 BAUM_I_INLINE const int32_t *eliminate_coupling(int n, const baum_i_space *b, const pivot *t,
                                                 const baum_i_space_coupling *first,
                                                 const baum_i_space_coupling *f, int rows, bool tall,
@@ -310,7 +311,7 @@ BAUM_I_INLINE const int32_t *eliminate_coupling(int n, const baum_i_space *b, co
   return target;
 }
 
-/* Eliminates node k of n rows. */
+/* Eliminates node k, which has n rows. Returns the next target. */
 BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
                                             const int32_t *target)
 {
@@ -331,7 +332,7 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
       target = eliminate_coupling(n, b, &t, first, f, rows, false, target);
     }
   }
-  keep_pivot(n, &t, d, numbers);
+  store_factors(n, &t, d, numbers);
   return target;
 }
 

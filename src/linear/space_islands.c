@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Islands of the solver of space: bodies that nodes connect. Solutions are judged for each island,
- * because islands may differ by large factors in mass, size and acceleration. */
+/* Islands of a mechanism in space: groups of bodies that nodes connect. The solver judges each
+ * island separately, because islands may differ by large factors in mass, size and acceleration. */
 #include "base/alloc.h"
 #include "base/sets.h"
 #include "linear/space_block.h"
@@ -10,7 +10,7 @@ static bool moves(const baum_i_space *b, int32_t body)
   return body > 0 && !b->bodies[body].fixed;
 }
 
-/* Returns the first body of a node that moves, or another body if none does. */
+/* Returns the first moving body of a node, or its last body if none moves. */
 static int32_t first_moving(const baum_i_space *b, const baum_i_space_node *node)
 {
   const baum_i_space_side *side = &b->side_list[node->first_side];
@@ -41,15 +41,15 @@ static void unite_bodies(const baum_i_space *b, int *parent)
   }
 }
 
-/* Sorts `count` items by their islands. start (islands + 1) receives the first item of each
- * island. */
+/* Sorts `count` items by their islands. start (islands + 1) receives the index in sorted[] of the
+ * first item of each island. */
 static void sort(const int *island_of, int count, int islands, int32_t *start, int32_t *sorted)
 {
   for (int i = 0; i < count; i++) {
     start[island_of[i]]++;
   }
   for (int i = 0; i < islands; i++) {
-    start[i + 1] += start[i]; /* the end of island i is at i */
+    start[i + 1] += start[i]; /* start[i] is now the end of island i */
   }
   for (int i = count - 1; i >= 0; i--) {
     sorted[--start[island_of[i]]] = i;

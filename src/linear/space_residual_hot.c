@@ -60,7 +60,7 @@ BAUM_I_INLINE void transpose(const four x[3], four rows[4])
 #endif
 }
 
-static void begin(baum_i_space *b)
+static void begin_motion(baum_i_space *b)
 {
   bool raised = baum_i_space_must_refine(b);
   for (int t = 0; t < b->body_count; t++) {
@@ -132,7 +132,7 @@ BAUM_I_INLINE void subtract_node(baum_i_space *b, const baum_i_space_node *node,
 
 static void find_residual(baum_i_space *b)
 {
-  begin(b);
+  begin_motion(b);
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     if (node->rows > 4) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the nodes of mechanisms in space whose sides come from the blocks of J:
  *
- *   R = (rows on w') L^-T,   D = sum over sides of E E^T / m + R R^T,
+ *   R = (columns of J for w') L^-T,   D = sum over sides of E E^T / m + R R^T,
  *   J a0 - r = sum over sides of E x0 + R y0, minus r */
 #include <string.h>
 
@@ -30,7 +30,7 @@ static void set_force(baum_i_space *b, const double *force)
 }
 
 /* Copies E and R of a side from the rows of J. Columns that the body does not have stay 0. */
-static void take_side(const baum_i_space *b, const baum_i_space_node *node,
+static void copy_side(const baum_i_space *b, const baum_i_space_node *node,
                       const baum_i_space_side *side, const double *jacobian)
 {
   const baum_i_row_block *rows = &b->structure->row_blocks[node->row_block];
@@ -128,7 +128,7 @@ static void set_node(const baum_i_space *b, int k, const baum_i_block_rows *at)
   baum_i_space_column sum = {baum_i_four_zero(), {0.0, 0.0}};
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
     const baum_i_space_side *side = &b->side_list[s];
-    take_side(b, node, side, at->jacobian);
+    copy_side(b, node, side, at->jacobian);
     add_side(b, side, n, d, &sum);
   }
   sum = baum_i_column_subtract(sum, rest, 1.0, true);

@@ -12,7 +12,8 @@
 /* Limits on sides and couplings, as in block_structure.c. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
-/* Where the three constant parts of lean sides are in sides[]: E = I, E = -I and E = 0. */
+/* sides[] begins with the constant parts E = I and E = -I of lean sides, which start at POSITIVE
+ * and NEGATIVE and end at CONSTANTS. */
 enum { POSITIVE = 0, NEGATIVE = 20, CONSTANTS = 40 };
 
 typedef struct builder {
@@ -102,7 +103,7 @@ static baum_status add_sides(builder *u, const baum_i_row_block *rows, baum_i_sp
   return BAUM_OK;
 }
 
-/* Tells whether the points of a joint coincide in the first rows of the node. */
+/* Tells whether the first rows of the node make the points of the joint coincide. */
 static bool is_lean(const builder *u, const baum_i_row_block *rows, const baum_i_space_node *node)
 {
   int points = rows->rows < 3 ? rows->rows : 3;
@@ -223,8 +224,8 @@ static int rounded(int count)
   return (count + 3) / 4 * 4;
 }
 
-/* Numbers of D, or of its factors: three columns of a 3 x 3 inverse, and for each further row one
- * column of Y and one of the second inverse. */
+/* Returns the number of entries of D or of its factors: three columns of a 3 x 3 inverse, and for
+ * each further row one column of Y and one column of the second inverse. */
 static int pivot_numbers(int rows)
 {
   return rows > 3 ? 12 + 8 * (rows - 3) : 12;
@@ -358,7 +359,7 @@ static baum_status make_pairs(builder *u)
   return BAUM_OK;
 }
 
-/* The f-th coupling of a node is multiplied with all its couplings before it. */
+/* The f-th coupling of a node is multiplied with all earlier couplings of this node. */
 static baum_status make_targets(builder *u)
 {
   baum_i_space *b = u->space;
@@ -374,7 +375,7 @@ static baum_status make_targets(builder *u)
   return BAUM_OK;
 }
 
-/* ---- all ---- */
+/* ---- the whole structure ---- */
 
 static void give_all(builder *u)
 {

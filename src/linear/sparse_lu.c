@@ -15,13 +15,13 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* New pivots are chosen if klu_rcond has fallen to this fraction of its value when the present
+/* New pivots are chosen if klu_rcond has fallen below this fraction of its value when the present
  * pivots were chosen. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* not const, because KLU requires this, but KLU does not change them */
+  int32_t *columns; /* not const for the signatures of KLU, but never changed */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;

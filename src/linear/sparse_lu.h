@@ -22,7 +22,7 @@ baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int
                                     baum_i_sparse_lu **out);
 void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
 
-/* Factors the matrix. Keeps the last pivots, and then allocates nothing, as long as they are good.
+/* Factors the matrix. As long as the last pivots are good, keeps them and allocates nothing.
  * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
@@ -31,8 +31,8 @@ baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 #define BAUM_I_USUAL_THRESHOLD 0.001
 
 /* The two parts of factoring, for a caller that decides when pivots are chosen. _keep() requires
- * pivots chosen earlier and returns BAUM_OK, even if they have become useless, or
- * BAUM_ERR_SINGULAR. _choose() returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * pivots chosen earlier. It returns BAUM_OK or BAUM_ERR_SINGULAR; BAUM_OK does not exclude that the
+ * pivots have become useless. _choose() returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
 baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values);
 baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold);
 

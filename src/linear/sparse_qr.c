@@ -63,8 +63,8 @@ typedef struct front {
   int32_t *end;   /* (columns) number of rows that begin with this or an earlier column */
   /* (columns) number of reflections up to and including this column */
   int32_t *done;
-  int32_t *row;  /* (rows) component of a vector (m) on which this row acts */
-  double *tau;   /* (columns) tau of its reflection */
+  int32_t *row;  /* (rows) index of each row in vectors of length m */
+  double *tau;   /* (columns) tau of the reflection of each column */
   double *value; /* (rows x columns) row-major */
 } front;
 
@@ -87,7 +87,7 @@ struct baum_i_sparse_qr {
 
 /* ---- structure ---- */
 
-/* Data that are needed only at creation. */
+/* Data needed only while the structure is found. */
 typedef struct plan {
   const baum_i_sparse_columns *pattern;
   int32_t *memory;   /* memory of the six arrays below, (n) each */
@@ -216,7 +216,7 @@ static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
   }
   for (int32_t k = qr->n - 1; k >= 0; k--) {
     front *f = &qr->fronts[p->front_of[k]];
-    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column is met first */
+    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the first column found is the top column */
     int32_t up = p->parent[k] == NONE ? NONE : p->front_of[p->parent[k]];
     if (up != NONE && up != p->front_of[k]) {
       f->parent = up;

@@ -24,10 +24,11 @@ baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const 
                                     baum_i_sparse_qr **out);
 void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is allowed */
 
-/* Factors finite values, in the order of pattern->row, and returns the rank. A column is dependent
- * if its norm is at most `tolerance` after orthogonalization against the independent columns before
- * it. independent (columns), which may be NULL, receives 1 or 0. This and the two functions below
- * allocate nothing. */
+/* Factors the matrix with the given values, which must be finite and in the order of pattern->row.
+ * Returns the rank. A column is dependent if its norm is at most `tolerance` after
+ * orthogonalization against the independent columns before it. Unless it is NULL, independent
+ * (columns) receives 1 for independent columns and 0 for the others. This function and the two
+ * functions below allocate nothing. */
 int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
                                 unsigned char *independent);
 

@@ -23,7 +23,7 @@ static inline void baum_i_twofold_subtract_product(baum_i_twofold *sum, double x
 {
   double product = x * y;
 #ifdef BAUM_I_WIDE
-  __asm__("" : "+x"(product)); /* the compiler must not fuse it with the addition */
+  __asm__("" : "+x"(product)); /* prevents the compiler from fusing the product with the addition */
 #endif
   sum->low -= fma(x, y, -product);
   baum_i_twofold_add(sum, -product);

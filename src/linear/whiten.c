@@ -6,11 +6,11 @@
 
 #include "base/alloc.h"
 
-/* A tensor is whitened if the elimination of other axes leaves less than this fraction of one of
- * its diagonal entries. */
+/* A tensor is whitened if, in its Cholesky factorization, less than this fraction of a diagonal
+ * entry remains. */
 static const double SLENDER = 1e-4;
 
-/* The velocities of a body in space; those from FIRST_TURN are angular. */
+/* A body in space has SIZE velocities; the velocities from FIRST_TURN on are angular. */
 enum { SIZE = 6, FIRST_TURN = 3 };
 
 typedef struct white_body {
@@ -126,7 +126,8 @@ void baum_i_whitening_destroy(baum_i_whitening *whitening)
 
 /* ---- set ---- */
 
-/* Tells whether angular velocities are coupled with each other, but not with the other three. */
+/* Tells whether angular velocities are coupled with each other, but not with the translational
+ * velocities. */
 static bool has_full_tensor(const double *m)
 {
   bool coupled = false;
@@ -200,7 +201,7 @@ static bool set_mass(baum_i_whitening *w)
   return any;
 }
 
-/* Replaces the columns of slender bodies by J L^-T, whose rows are L^-1 times those of J. */
+/* Replaces the columns of slender bodies in J by J L^-T: each row j of J becomes (L^-1 j^T)^T. */
 static void set_jacobian(const baum_i_whitening *w)
 {
   for (int b = 0; b < w->structure->row_block_count; b++) {

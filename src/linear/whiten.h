@@ -12,8 +12,8 @@
 
 typedef struct baum_i_whitening baum_i_whitening;
 
-/* *out is NULL if no mass block can be that of a body in space. The structure's arrays must outlive
- * the result. BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+/* *out is NULL if no mass block has the size of a body in space. The structure's arrays must
+ * outlive the result. BAUM_OK or BAUM_ERR_MEMORY, without a message. */
 baum_status baum_i_whitening_create(const baum_i_kkt_structure *structure, baum_i_whitening **out);
 void baum_i_whitening_destroy(baum_i_whitening *whitening); /* NULL is allowed */
 
