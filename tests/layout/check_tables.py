@@ -5,8 +5,9 @@ usage: check_tables.py [--write] PROJECT FORMULATIONS BENCH_FORMULATIONS
 
 The program compares the tables in docs/measured.md (examples/formulations) and
 docs/theory/formulations.md (tests/bench/bench_formulations) with what these programs print. Times
-are not compared. Counts must agree within 5 %, and other numbers within a factor of 3, because the
-rounding of a processor may decide about single steps. Numbers below 1e-12 are rounding errors and
+are not compared. Counts must agree within 12 %, and other numbers within a factor of 3, because
+rounding may decide about single steps: between builds with and without optimization, the counts of
+IDA differ by up to 9 %. Numbers below 1e-12 are rounding errors and
 are not compared. With --write, everything except times is copied into the documents.
 """
 
@@ -14,7 +15,7 @@ import re
 import subprocess
 import sys
 
-COUNT, FACTOR, ROUNDING = 0.05, 3.0, 1e-12
+COUNT, FACTOR, ROUNDING = 0.12, 3.0, 1e-12
 NUMBER = re.compile(r"(?<![\w.-])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 WALL = 3  # the column of docs/measured.md that contains times
 PROBLEMS = {"pendulum A01, 10 s": "pendulum, 10 s", "free slider-crank, 0.2 s: 5 turns": "free slider-crank, 0.2 s",
