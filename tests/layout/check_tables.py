@@ -7,8 +7,8 @@ The program compares the tables in docs/measured.md (examples/formulations) and
 docs/theory/formulations.md (tests/bench/bench_formulations) with what these programs print. Times
 are not compared. Counts must agree within 12 %, and other numbers within a factor of 3, because
 rounding may decide about single steps: between builds with and without optimization, the counts of
-IDA differ by up to 9 %. Numbers below 1e-12 are rounding errors and
-are not compared. With --write, everything except times is copied into the documents.
+IDA differ by up to 9 %. Numbers below 1e-12 are rounding errors and are not compared. With --write,
+everything except times is copied into the documents.
 """
 
 import re
