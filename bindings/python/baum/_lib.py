@@ -125,7 +125,7 @@ def default(struct: type[Struct]) -> Struct:
 
 
 def text(value: bytes) -> str:
-    """Convert a text of the library to a string, with the names of this package."""
+    """Convert a text of the library to a string, and replace C names by names of this package."""
     return in_python(value.decode(errors="replace"))
 
 

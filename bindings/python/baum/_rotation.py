@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts orientations and inertia tensors from the forms that users may give to those of the
-library."""
+"""Convert orientations and inertia tensors from the forms in which users may give them to the forms
+that the library uses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-# Allowed deviation of a matrix from a rotation. Numbers that were typed by hand have such errors.
+# Largest deviation of a matrix from a rotation. Numbers that were typed by hand are often rounded.
 ROUNDING = 1e-6
 
 
@@ -89,7 +89,7 @@ def _of_matrix(r: Array) -> Array:
 
 
 def matrix(quaternions: Array) -> Array:
-    """Rotation matrices (... x 3 x 3) of unit quaternions (... x 4), w first."""
+    """Return the rotation matrices (... x 3 x 3) of unit quaternions (... x 4), w first."""
     w, x, y, z = np.moveaxis(quaternions, -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],

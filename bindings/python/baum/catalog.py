@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ready mechanisms whose motion is known.
+"""A catalogue of mechanisms whose motion is known.
 
     from baum import catalog
 

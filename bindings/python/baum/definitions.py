@@ -2,7 +2,8 @@
 """Convert definitions of elements from keyword arguments to structs of the library, and back.
 
 An argument that is None leaves its field at the default. When an existing definition is changed,
-None leaves the field at its present value. NaN is different from None: it means "not given".
+None leaves the field at its present value. NaN is different from None: it is passed to the library,
+where it means "not given".
 """
 
 from __future__ import annotations

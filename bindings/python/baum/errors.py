@@ -65,7 +65,7 @@ class Error(Exception):
     run: if simulate() or sample() has failed, a Run with the samples recorded before the failure;
         otherwise None.
 
-    str(error) is the message of the library, with the names of this package.
+    str(error) is the message of the library, in which names of this package replace C names.
     """
 
     def __init__(self, status: int, message: str) -> None:

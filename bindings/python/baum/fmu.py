@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 MODEL = "baum_fmu"  # the name of the binary in every FMU
 SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
-# Options that an FMU does not support. The simulator sets the start time.
+# Options that an FMU does not support. The program that runs the FMU sets the start time.
 REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
 
 
@@ -54,7 +54,7 @@ class _Place(ctypes.Structure):
 
 def _library_file() -> Path:
     """Return the file of the loaded library. If the path of the library has no folder, the dynamic
-    loader has searched for it, and this function asks the loader."""
+    loader has searched for the file, and this function asks the loader where it is."""
     if os.path.dirname(library) or sys.platform == "win32":
         return Path(library)
     found = _Place()
@@ -64,7 +64,7 @@ def _library_file() -> Path:
 
 def _binary() -> tuple[str, Path]:
     """Return the path of the binary in an FMU, and the file of the binary on this system. This file
-    is in the folder of the library, or in the folder baum there."""
+    is in the folder of the library, or in its subfolder baum."""
     system, suffix = SYSTEMS.get(sys.platform, ("linux", ".so"))
     machine = platform.machine().lower()
     inside = f"binaries/{MACHINES.get(machine, machine)}-{system}/{MODEL}{suffix}"
@@ -93,7 +93,7 @@ def _licenses() -> Iterator[tuple[str, bytes]]:
 
 
 def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options that differ from their defaults, as fmu.json contains them."""
+    """Return the options that differ from their defaults, in the form that fmu.json needs."""
     from .simulation import make_options
 
     for name in REFUSED:
@@ -115,7 +115,8 @@ def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _channel(channel: Channel) -> dict[str, Any]:
-    """Return a channel as fmu.json contains it. Bodies and joints are given by their numbers."""
+    """Return a channel in the form that fmu.json needs. Bodies and joints are given by their
+    numbers."""
     struct = channel.struct
     found: dict[str, Any] = {"quantity": struct.quantity, "point": list(struct.point)}
     for family in ("body", "joint"):
@@ -205,7 +206,7 @@ def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mecha
             if field == "orientation":
                 w, x, y, z = present
                 rotated = {element: {field: (-x, w, z, -y)}}
-                list(mechanism._kept_when_moved(rotated))  # refuses elements that need it
+                list(mechanism._kept_when_moved(rotated))  # raises ValueError if it is needed
     return mechanism.thawed(**changes)
 
 

@@ -214,8 +214,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages keep what they show. If the run waits and this was its last view,
-        the run continues."""
+        """End the view. Its pages keep what they show. If the run is paused and this was its last
+        view, the run continues."""
         self._server.end()
         self._server.thread.join(5)
 
@@ -229,7 +229,7 @@ def open_view(
     paused: bool,
     browser: bool,
 ) -> View:
-    from ._server import Server  # the modules that it imports are large
+    from ._server import Server  # imported late, because it imports large modules
 
     live.frame = Frame(simulation.time, simulation.q)
     server = Server(live, owner, simulation.mechanism, title, traces)

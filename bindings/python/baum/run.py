@@ -320,7 +320,7 @@ class Run:
         """Plot channels over time with Matplotlib, such as run.plot("slider.velocity").
 
         channels: by default all recorded channels except q and v.
-        axes: Matplotlib axes to draw into, one for each unit; by default those of a new figure.
+        axes: Matplotlib axes to draw into, one for each unit; by default new axes in a new figure.
 
         Returns the axes, one for each unit. Raises KeyError for a channel that was not recorded,
         and ImportError without Matplotlib.

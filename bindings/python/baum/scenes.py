@@ -29,8 +29,8 @@ LISTS = {"bodies": "body", "joints": "joint", "forces": "force"}
 
 
 def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
-    """Return the names of the fields of a definition that hold a function or `user`, with their
-    addresses."""
+    """For each field of a definition that holds a function or a `user` object, return the name of
+    the field and the address in it."""
     for name, kind in struct._fields_:
         if kind in callbacks.SHELLS:
             address = ctypes.cast(getattr(struct, name), ctypes.c_void_p).value
@@ -255,8 +255,8 @@ def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]
 
 
 def _set_functions(mechanism: Mechanism, element: Any, usual: str, functions: Functions) -> None:
-    """Replace the placeholders of an element by functions. usual: the name that the element has by
-    default."""
+    """Replace the placeholders of an element by functions. usual: the name of the element if the
+    scene gives none."""
     own = element.get("name", usual)
     changes: dict[str, Any] = {}
     for field, name in _hook_fields(element):

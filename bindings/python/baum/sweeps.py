@@ -284,12 +284,13 @@ def sweep(
     progress: True shows a bar. A function receives the number of finished runs and the number of
         all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
         the status STOP_CANCELLED.
-    file: a file that keeps finished runs, so that a sweep that was interrupted continues when it is
-        called again. The file of another sweep is refused with ValueError. The file is a pickle;
-        open only files that you trust.
+    file: a file that keeps finished runs, so that a sweep that was interrupted continues when you
+        call sweep() again. The file of another sweep is refused with ValueError. The file is a
+        pickle; open only files that you trust.
 
-    A run that fails does not stop the other runs. Raises TypeError, ValueError or KeyError for
-    parameters that do not exist.
+    A run that fails does not stop the other runs. Raises KeyError for an element that does not
+    exist, TypeError for a field that does not exist or a value that is not a number, and ValueError
+    for a name or a shape that is wrong.
     """
     columns = _columns(parameters)
     rows = _rows(columns, samples, count)
