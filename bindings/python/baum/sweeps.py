@@ -288,9 +288,9 @@ def sweep(
         call sweep() again. The file of another sweep is refused with ValueError. The file is a
         pickle; open only files that you trust.
 
-    A run that fails does not stop the other runs. Raises KeyError for an element that does not
-    exist, TypeError for a field that does not exist or a value that is not a number, and ValueError
-    for a name or a shape that is wrong.
+    A run that fails does not stop the other runs. Raises KeyError if the element of a parameter
+    does not exist, TypeError if its field does not exist, and TypeError or ValueError if its values
+    have a wrong form.
     """
     columns = _columns(parameters)
     rows = _rows(columns, samples, count)
