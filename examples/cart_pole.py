@@ -46,7 +46,7 @@ def one_period() -> tuple[Array, Array]:
     # The columns of slope belong to the position of the cart, the tilt and u.
     slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # derivatives of the forces
     slope[0, 2] = 1
-    rates = np.zeros((5, 5))  # d/dt (x, u) = rates @ (x, u), because u is constant
+    rates = np.zeros((5, 5))  # d/dt (x, u) = rates @ (x, u), with constant u
     rates[:2, 2:4] = np.eye(2)
     rates[2:4, [0, 1, 4]] = np.linalg.solve(mass, slope)
     whole: Array = np.eye(5)

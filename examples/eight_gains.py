@@ -17,7 +17,8 @@ from support.report import Report
 H = 2e-4  # [s]
 TIMES = H * np.arange(round(8 * np.pi / OMEGA / H) + 1.0)  # [s] four revolutions
 ENLARGED = 10  # factor by which the violations are enlarged
-PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]  # [m] crank axles
+# [m] positions of the cranks' axles
+PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]
 
 
 def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:

@@ -7,7 +7,7 @@
  * angle, which is in radians. */
 #include "slider_crank_reference.h"
 
-enum { SETTINGS = 3, SHOWN = 1 }; /* a coarse setting, the one in the table, and a fine one */
+enum { SETTINGS = 3, SHOWN = 1 }; /* 0: coarse, 1: in the table, 2: fine */
 
 typedef enum tuning { STEP, RTOL } tuning;
 

@@ -39,7 +39,8 @@ def rocker_angle(t: Array) -> Array:
     """Return the exact angle of the rocker [rad]. The catalogue contains this mechanism, with a
     coupler that does not rotate about its own axis, and its motion is known in closed form."""
     q = catalog.reference("rssr", t).q
-    found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))  # x, w of the rocker
+    # q[:, 17] and q[:, 18] are w and x of the rocker's quaternion.
+    found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))
     return found
 
 

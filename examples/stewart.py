@@ -4,7 +4,7 @@
 The inverse kinematics is a formula: the lengths of the legs follow from the pose of the platform.
 The program computes these lengths for a circular motion, and drives the legs by splines through
 them. The forward kinematics has no simple formula. The library finds the pose of the platform from
-the lengths of the legs by assembly, also from rough guesses."""
+the lengths of the legs by assembly, even from rough guesses."""
 
 import sys
 

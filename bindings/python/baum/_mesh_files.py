@@ -60,8 +60,8 @@ def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
-    """Return the number and the words of each line that has words. A backslash at the end of a line
-    joins it with the next line."""
+    """Yield the line number and the words of each line that is not empty. A backslash at the end of
+    a line joins it with the next line."""
     words: list[str] = []
     for number, line in enumerate(io.StringIO(data.decode("utf-8", "replace")), 1):
         line = line.strip()

@@ -76,8 +76,8 @@ def quaternion(value: Any, label: str) -> Array:
 
 def _of_matrix(r: Array) -> Array:
     """Return the quaternion p of a rotation matrix, with w >= 0 (Shepperd 1978). The matrix
-    determines p p^T. The row of this product with the largest diagonal entry is a multiple of p,
-    which is then normalized."""
+    determines p p^T. Every row of p p^T is a multiple of p. The row with the largest diagonal entry
+    is normalized."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)

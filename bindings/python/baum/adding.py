@@ -300,8 +300,8 @@ class Adding:
         """Add a pinion of body_b that rolls on a rack of body_a without slipping.
 
         The axis is the direction of the rack, and body_b's point is the centre of the pinion. The
-        joint has one row [m], displacement - radius (angle_b - angle_a) - offset, where
-        displacement is the distance from body_a's point to body_b's point along the axis.
+        joint has one row [m]: displacement - radius (angle_b - angle_a) - offset. The displacement
+        is measured from body_a's point to body_b's point along the axis.
 
         axis, point, point_a, point_b: as in translational().
         radius: radius of the pitch circle [m]. It is positive if the rack is to the left of the
@@ -326,8 +326,8 @@ class Adding:
         """Add a pair of gears: two wheels, body_a and body_b, roll on each other. A carrier holds
         their axles.
 
-        The joint has one row [m], radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) -
-        offset, where angle_c is the angle of the carrier.
+        The joint has one row [m]: radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) -
+        offset. angle_c is the angle of the carrier.
 
         radius_a, radius_b: radii of the pitch circles [m]; negative for a ring with internal teeth.
         carrier: the body that carries both wheels, by default ground.
@@ -408,7 +408,7 @@ class Adding:
         ratio: in the unit of b per unit of a.
         offset: in the unit of b, [rad] or [m]. By default the offset is such that the design
             configuration satisfies the row.
-        law(a): f(a), its first and its second derivative. It replaces ratio and offset.
+        law(a): f(a), its first and its second derivative. The law replaces ratio and offset.
         user: the last argument of a compiled function.
         coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
         """
@@ -436,8 +436,8 @@ class Adding:
             angle.
         rate: first derivative at t = 0 [rad/s] or [m/s].
         acceleration: second derivative, constant [rad/s^2] or [m/s^2].
-        law(t): the value, its first and its second derivative at the time t [s]. It replaces the
-            three numbers.
+        law(t): the value, its first and its second derivative at the time t [s]. The law replaces
+            value, rate and acceleration.
         user: the last argument of a compiled function.
         coordinate: which coordinate of the joint; "first" is the first one in the list below.
 
@@ -543,8 +543,9 @@ class Adding:
         stiffness: [N/m].
         damping: [N s/m].
         free_length: length without force [m], by default the distance in the design configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
-            replaces the three numbers above. The spring then has no potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
+            law replaces stiffness, damping and free_length. The spring then has no potential
+            energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
             False.
         user: the last argument of a compiled function.
@@ -571,7 +572,8 @@ class Adding:
         damping: [N m s/rad].
         free_angle: angle without torque [rad], by default the angle in the design configuration.
         law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
-            rate. It replaces the three numbers above. The spring then has no potential energy.
+            rate. The law replaces stiffness, damping and free_angle. The spring then has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
@@ -598,8 +600,8 @@ class Adding:
         free_value: value without force [rad] or [m], by default the value in the design
             configuration.
         law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
-            respect to both arguments. It replaces the three numbers above. The spring then has no
-            potential energy.
+            respect to both arguments. The law replaces stiffness, damping and free_value. The
+            spring then has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())

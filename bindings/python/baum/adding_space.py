@@ -447,8 +447,7 @@ class AddingInSpace:
         their axes. The angle between the axes may have any value below 180 degrees. The joint has
         four rows: three for the points [m] and one for the rotation [-].
 
-        axis, axis_b: directions of the shafts, as in spatial_revolute(). All other arguments are
-            also as in spatial_revolute().
+        axis, axis_b: directions of the shafts. All arguments are given as in spatial_revolute().
         """
         return self._add(Joint, "spatial_constant_velocity", locals())
 
@@ -506,9 +505,9 @@ class AddingInSpace:
         damping: [N s/m].
         free_length: length up to which the cable is slack [m], by default the length in the design
             configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
-            replaces the other numbers, and must return zeros where the cable is slack. The cable
-            then has no potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
+            law replaces stiffness, damping, free_length and transition, and must return zeros where
+            the cable is slack. The cable then has no potential energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.
@@ -566,8 +565,8 @@ class AddingInSpace:
         Points and axes are given as for joints; axis is the z axis of the bushing.
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing
-            on body_a, and the last three to the rotation vector of body_b relative to body_a
-            [rad], whose length must stay below pi.
+            on body_a. The last three rows belong to the rotation vector of body_b relative to
+            body_a [rad]. The length of the rotation vector must stay below pi.
         """
         return self._add(Force, "spatial_bushing", locals())
 

@@ -2,12 +2,12 @@
 """Wrap functions of the user so that the library can call them.
 
 A Python function receives arguments such as (t, q), (t, q, v) or a point, and returns its result.
-This module wraps such a function in another one, called the shell, which has the signature
-that the library calls. The shell passes q and v as read-only arrays, which are valid only during
-the call. It checks the returned value and writes it to the memory of the library. If the function
-raises an exception, the shell keeps the exception and stops the present call of the library. The
-exception is raised when this call has returned. A force function whose definition names inputs
-receives their present values after v, as floats.
+This module wraps such a function in another one, called the shell, which has the signature that the
+library expects. The shell passes q and v as read-only arrays, which are valid only during the call.
+It checks the returned value and writes it to the memory of the library. If the function raises an
+exception, the shell keeps the exception and stops the present call of the library. The exception is
+raised when this call has returned. A force function whose definition names inputs receives their
+present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
 function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
@@ -41,7 +41,7 @@ Write = Callable[[int, Any], None]
 
 class _Views(dict[int, Array]):
     """Arrays that share memory with the library, one for each address. Creating an array is
-    expensive. The library uses few addresses, so an array is kept and used again for the same
+    expensive. The library uses few addresses, so each array is stored and reused for its
     address."""
 
     def __init__(self, shape: Shape, writeable: bool) -> None:

@@ -217,7 +217,7 @@ def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
 
 
 def warn(warning: Warning) -> None:
-    """Issue a warning. Python reports it at the line outside this package that made the call."""
+    """Issue a warning. Python then shows the line of the user's program that made the call."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == PACKAGE:
         level, frame = level + 1, frame.f_back

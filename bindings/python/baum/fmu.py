@@ -116,7 +116,7 @@ def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _channel(channel: Channel) -> dict[str, Any]:
     """Return a channel in the form that fmu.json needs. Bodies and joints are given by their
-    numbers."""
+    indices."""
     struct = channel.struct
     found: dict[str, Any] = {"quantity": struct.quantity, "point": list(struct.point)}
     for family in ("body", "joint"):
@@ -195,8 +195,8 @@ def _description(
 
 
 def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
-    """Copy a mechanism. In the copy, the points of joints on bodies that parameters move are given
-    in body axes, as after Mechanism.copy(). The joints thus keep their places on these bodies."""
+    """Copy a mechanism. If a parameter can move a body, the copy gives the points of joints on this
+    body in body axes, as Mechanism.copy() does. The joints thus keep their places on the body."""
     changes: dict[str, dict[str, Any]] = {}
     for name in parameters:
         element, _, field = name.rpartition(".")

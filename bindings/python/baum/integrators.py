@@ -2,8 +2,9 @@
 """Integrators by name, and the stability of Baumgarte's gains with them.
 
 The functions stability...() take an integrator or its name. All of them raise ValueError for a name
-that does not exist, and TypeError for values that are not numbers. Some integrators have no region
-of stability, such as "cvode_bdf" and "rattle". For these, most of the functions raise baum.Error.
+that does not exist, and TypeError for values that are not numbers. Some integrators, such as
+"cvode_bdf" and "rattle", have no region of stability. For these integrators, most of the functions
+raise baum.Error.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ class Integrator:
     name: its name for the argument `integrator`.
     order: order of accuracy; 0 if it varies.
     fixed_step: whether the method takes `step`.
-    variable_step: whether the method takes `rtol`. If it takes both, give a run one of the two;
-        "kinematics" takes neither.
+    variable_step: whether the method takes `rtol`. If it takes both, give a run either `step` or
+        `rtol`. "kinematics" takes neither.
     formulations: names of the formulations that it offers. The first one is the default.
     """
 

@@ -56,8 +56,8 @@ NO_FRAME = Frame(0.0, np.empty(0))
 class Live:
     """What a run and its views share: the newest frame, and whether the run is paused.
 
-    The progress function that the library calls is call(). The user's progress function is
-    `function`; it is called every `interval` seconds during the present call.
+    The method call() is the progress function that the library calls. The user's progress function
+    is `function`. During the present call, it is called every `interval` seconds.
     """
 
     def __init__(self, interval: float) -> None:

@@ -518,8 +518,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         q: None for the design configuration, "assembled" for the assembled
             configuration at t = 0, or positions q (nq) of a frozen mechanism [m], [rad].
 
-        A notebook shows the returned picture. Its method save("x.svg") writes it; "x.pdf" and
-        "x.png" need Matplotlib.
+        A notebook shows the returned picture. Its method save("x.svg") writes it to a file. The
+        suffixes .pdf and .png need Matplotlib.
 
         Red lines show where the constraints of a joint are violated. They connect points that
         should coincide, a point with the line, plane or curve on which it should be, and the tips
@@ -543,7 +543,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         computed elsewhere, or several runs joined together. To show one run, use Run.page().
 
         t: times (n) [s], rising or falling.
-        q: positions (n x nq). They are shown as they are, with their constraint violations.
+        q: positions (n x nq). The page shows them unchanged, including their constraint violations.
         path: file to write.
         traces: paths to draw, as in Run.page().
         plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the

@@ -74,8 +74,8 @@ def sensitivities(
     for each number of a parameter give two difference quotients, with different steps. Richardson's
     extrapolation from both gives the derivative, and their difference shows how certain it is.
 
-    parameters: the values at which the derivatives are computed, by "element.field", such as
-        {"rod.mass": 0.2}. An orientation cannot be a parameter.
+    parameters: a dict from "element.field" to the value at which the derivatives are computed, such
+        as {"rod.mass": 0.2}. An orientation cannot be a parameter.
     relative_step: change of a number, relative to its value. A 0 in a vector changes by as much as
         the largest number of the vector.
     steps: absolute changes of some parameters, which replace relative_step. A parameter that is 0

@@ -511,7 +511,8 @@ class Simulation(_calls.Closing):
 
     @property
     def events(self) -> list[Event]:
-        """A list of the events that have happened so far. It contains at most the last 1024."""
+        """A list of the events that have happened so far. It contains at most the last 1024
+        events."""
         count = lib.baum_simulation_event_count(self._owner.address)
         record = _abi.baum_event_record()
         happened = []
@@ -719,7 +720,7 @@ class Simulation(_calls.Closing):
     @property
     def near_singular(self) -> list[NearSingular]:
         """A list of the intervals in which the run was near a singular configuration. It contains
-        at most the first 64."""
+        at most the first 64 intervals."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()

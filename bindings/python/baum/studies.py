@@ -477,9 +477,9 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, this is
-        true also from perturbed starts and over twice the time span; otherwise `why` says so.
-        Raises baum.Error if there is no such setting."""
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
+        stays within this limit also from perturbed starts and over twice the time span. If not,
+        `why` says so. Raises baum.Error if there is no such setting."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:

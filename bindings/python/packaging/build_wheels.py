@@ -135,7 +135,8 @@ def unpack() -> Path:
 
 
 def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> dict[str, object]:
-    """Return CMake variables for a target. The tools of the target become commands in `folder`."""
+    """Return CMake variables for a target. Write commands for the target's compiler, ar and ranlib
+    into `folder`."""
     zig = Path(run(python, "-c", "import ziglang; print(ziglang.__path__[0])").strip()) / "zig"
     folder.mkdir(parents=True, exist_ok=True)
     for name, words in {"cc": f"cc -target {target.zig}", "ar": "ar", "ranlib": "ranlib"}.items():
@@ -144,13 +145,13 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     licenses = [zig.with_name("LICENSE")]
     if target.system == "Windows":
         licenses.append(zig.with_name("lib") / "libc" / "mingw" / "COPYING")
-    # Small packages: the linker omits the functions that baum does not use, and on Linux the tables
-    # for C++ exceptions, which C does not need, are omitted.
+    # These flags make the packages small. The linker omits the functions that baum does not use. On
+    # Linux, the tables for C++ exceptions are omitted, because C does not need them.
     flags = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
     if target.system == "Linux":
         flags += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
-    # Hot files are compiled with -O3. Code for Windows is larger. With -O2 the package would have
-    # 1.7 MB; with -Os runs take 3 to 15 % longer.
+    # Hot files are compiled with -O3. Code for Windows is larger: with -O2 its package would have
+    # 1.7 MB. With -Os, runs take 3 to 15 % longer.
     optimize = "-Os" if target.system == "Windows" else "-O2"
     link = "-s -Wl,-dead_strip" if target.system == "Darwin" else "-s -Wl,--gc-sections"
     return {
