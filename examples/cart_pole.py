@@ -41,7 +41,8 @@ def mechanism() -> baum.Mechanism:
 
 def one_period() -> tuple[Array, Array]:
     """Return A and b of one period of the linear model, x_next = A x + b u. The state x consists of
-    the position of the cart, the tilt of the pole to the right, and their velocities."""
+    the position of the cart, the tilt of the pole to the right, and their velocities. The input u
+    is the force on the cart."""
     mass = np.array([[CART + POLE, POLE * HALF], [POLE * HALF, INERTIA]])
     # The columns of slope belong to the position of the cart, the tilt and u.
     slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # derivatives of the forces

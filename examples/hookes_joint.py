@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two shafts that meet at an angle, connected by Hooke's joint (a universal joint), and the same
-shafts connected by a constant-velocity joint. If the first shaft rotates steadily, the second one
-does so only with the constant-velocity joint."""
+"""Two shafts meet at an angle. In one mechanism Hooke's joint (a universal joint) connects them,
+and in another mechanism a constant-velocity joint does. If the first shaft rotates steadily, the
+second one does so only with the constant-velocity joint."""
 
 import sys
 from pathlib import Path

@@ -31,7 +31,7 @@ def slider_at(angle: Array) -> Array:
 
 
 def axes_along(x: Array) -> Array:
-    """Return three perpendicular axes as columns. The first one is along x."""
+    """Return three perpendicular axes as columns. The first axis points along the vector x."""
     first = x / np.linalg.norm(x)
     second = np.cross((0, 0, 1), first)
     second = second / np.linalg.norm(second)

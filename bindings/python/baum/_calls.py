@@ -36,8 +36,8 @@ STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 def raise_later(error: BaseException | None) -> None:
-    """Keep the exception of a callback. The exception stops the present call of the library, and is
-    raised when this call has returned."""
+    """Store the exception of a callback. The exception stops the present call of the library, and
+    is raised when this call has returned."""
     _here.error = error
 
 

@@ -389,8 +389,8 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Keep a point of body_a from moving along an axis that is fixed in body_a, relative to
-        body_b. For a skate, the axis is perpendicular to the sides of the blade.
+        """Prevent a point of body_a from moving relative to body_b along an axis that is fixed in
+        body_a. For a skate, the axis is perpendicular to the sides of the blade.
 
         The joint has one row at velocity level [m/s]: the velocity of the point along the axis is
         zero. The joint does not keep the point on a surface. Give either `point` or point_a.

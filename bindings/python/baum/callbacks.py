@@ -5,8 +5,8 @@ A Python function receives arguments such as (t, q), (t, q, v) or a point, and r
 This module wraps such a function in another one, called the shell, which has the signature that the
 library expects. The shell passes q and v as read-only arrays, which are valid only during the call.
 It checks the returned value and writes it to the memory of the library. If the function raises an
-exception, the shell keeps the exception and stops the present call of the library. The exception is
-raised when this call has returned. A force function whose definition names inputs receives their
+exception, the shell stores the exception and stops the present call of the library. The exception
+is raised when this call has returned. A force function whose definition names inputs receives their
 present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
@@ -265,7 +265,7 @@ def _answer_nan(error: BaseException, out: int, count: int) -> None:
 
 
 def _answer(error: BaseException) -> int:
-    """Keep an exception, and return the status that tells the library about it."""
+    """Store an exception, and return the status that tells the library about it."""
     asks_again = isinstance(error, Retry)
     _calls.raise_later(None if asks_again else error)
     lib.baum_fail(Status.ERR_CALLBACK, repr(error).encode(errors="replace"))

@@ -131,7 +131,8 @@ def _channel(channel: Channel) -> dict[str, Any]:
 
 
 def _numbered(name: str, count: int) -> list[str]:
-    """Name the numbers of a parameter or the columns of a channel, like Run.to_dict()."""
+    """Return names for the numbers of a parameter or for the columns of a channel, as Run.to_dict()
+    does."""
     return [name] if count == 1 else [f"{name}[{k}]" for k in range(count)]
 
 
@@ -206,7 +207,8 @@ def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mecha
             if field == "orientation":
                 w, x, y, z = present
                 rotated = {element: {field: (-x, w, z, -y)}}
-                list(mechanism._kept_when_moved(rotated))  # raises ValueError if it is needed
+                # Raise ValueError if an element needs the present orientation of the body.
+                list(mechanism._kept_when_moved(rotated))
     return mechanism.thawed(**changes)
 
 
@@ -249,7 +251,7 @@ def export(
     copy.freeze()
     layout = Layout(copy, [copy.channel(one) for one in outputs])
     with copy.simulation(method, **options) as run:
-        run.get(*layout.channels.values())  # fails here if the FMU could not be simulated
+        run.get(*layout.channels.values())  # raises an error if the FMU could not run
     read = _inputs(mechanism, copy, inputs)
     variables = [_Variable("time", "independent", "continuous")]
     variables += [_Variable(one.name, "input", "continuous", one.initial) for one in read]

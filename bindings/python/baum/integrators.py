@@ -22,7 +22,7 @@ from .typing import Array, ArrayLike, Scalar
 
 
 def names(enum: type[IntEnum], prefix: str) -> dict[str, int]:
-    """Return the values of an enum of the library by their names in lower case."""
+    """Return a dict from the names of an enum of the library, in lower case, to their values."""
     return {value.name[len(prefix) :].lower(): value for value in enum}
 
 

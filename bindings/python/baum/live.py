@@ -91,7 +91,7 @@ class Live:
         return bool(self.function(t))
 
     def is_silent(self, seconds: float) -> bool:
-        """Whether the library will not call call() within this time [s]."""
+        """Whether the library does not use call() within this time [s]."""
         return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:
@@ -214,8 +214,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages keep what they show. If the run is paused and this was its last
-        view, the run continues."""
+        """End the view. Its pages continue to show the last frame. If the run is paused and this
+        was its last view, the run continues."""
         self._server.end()
         self._server.thread.join(5)
 

@@ -309,8 +309,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @property
     def characteristic_length(self) -> float:
-        """The length [m] to which tolerances are relative. It is NaN if it was not set and the
-        mechanism is not frozen. You can set it before freezing."""
+        """The length [m] to which tolerances are relative. You can set it before freezing. If you
+        do not, it is NaN until the mechanism is frozen."""
         value = ctypes.c_double()
         _calls.make(lib.baum_mechanism_get_characteristic_length, self.handle, ctypes.byref(value))
         return value.value

@@ -190,7 +190,7 @@ class Run:
         """The mechanism as a JSON text, also after pickling; see Mechanism.scene()."""
         if self._pickled is not None:
             return self._pickled.scene
-        assert self._mechanism is not None  # a run has its mechanism or was pickled
+        assert self._mechanism is not None  # a run without its mechanism was pickled
         return self._mechanism.scene()
 
     def __array__(self, *how: Any, **also: Any) -> NoReturn:

@@ -16,7 +16,7 @@ from .typing import Array, ArrayLike, ChannelLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-# Changes of a number in its four runs, as multiples of the step.
+# Each number is changed in four runs. These are the changes, as multiples of its step.
 CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
 UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
 LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
@@ -76,8 +76,8 @@ def sensitivities(
 
     parameters: a dict from "element.field" to the value at which the derivatives are computed, such
         as {"rod.mass": 0.2}. An orientation cannot be a parameter.
-    relative_step: change of a number, relative to its value. A 0 in a vector changes by as much as
-        the largest number of the vector.
+    relative_step: change of a number, relative to its value. If a number in a vector is 0, its
+        change is relative to the largest number of the vector.
     steps: absolute changes of some parameters, which replace relative_step. A parameter that is 0
         needs such a change.
     times, method, record, reduce, executor, options: as in baum.sweep().

@@ -573,9 +573,9 @@ class Simulation(_calls.Closing):
         at_once: bool = False,
         end: float | None = None,
     ) -> Status:
-        """Call a function that advances the run. `end` is the time at which it will end, if that is
-        known. arguments() returns the arguments for the work that has not been done yet. at_once is
-        True if the call is known to be short."""
+        """Call a function that advances the run. `end` is the time at which the call will end, if
+        this time is known. arguments() returns the arguments for the work that has not been done
+        yet. at_once is True if the call is known to be short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)

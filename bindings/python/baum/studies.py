@@ -58,7 +58,7 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(), which are passed as
+    """Options for Mechanism.simulate() and Mechanism.simulation(). If they are named `best`, write
     m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
