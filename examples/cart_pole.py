@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A cart swings a hanging pole up and balances it. A controller reads the coordinates of the joints
-and sets the force on the cart every millisecond. While the pole hangs, the force increases the
-energy of the pole until it suffices to stand upright. Near the upright position, state feedback
-takes over. The feedback is designed for the linear model. At the end, the motion must therefore
-decay at the slowest rate of this design. The energy changes only by the work of the force."""
+and sets the force on the cart every millisecond. At first, the force increases the energy of the
+pole until the pole can reach the upright position. Near the upright position, state feedback takes
+over. The feedback is designed for the linear model, with given decay rates. At the end, the motion
+must therefore decay at the slowest of these rates. The energy changes only by the work of the
+force."""
 
 import sys
 from pathlib import Path
@@ -14,8 +15,8 @@ from baum.typing import Array
 from support.report import Report
 
 CART, POLE, LENGTH, GRAVITY = 1.0, 0.2, 0.6, 9.81  # [kg], [kg], [m], [m/s^2]
-HALF, INERTIA = LENGTH / 2, POLE * LENGTH**2 / 3  # [m], [kg m^2] moment of inertia about the pin
-PERIOD, STEPS, COUNT = 1e-3, 2, 9000  # [s] of the controller; steps per period; periods
+HALF, INERTIA = LENGTH / 2, POLE * LENGTH**2 / 3  # [m], [kg m^2] about the pin
+PERIOD, STEPS, COUNT = 1e-3, 2, 9000  # [s]; steps per period; number of periods
 DECAY = (1.5, 6, 7, 8)  # [1/s] decay rates of the closed loop, in the linear model
 NEAR = 0.35  # [rad] tilt at which the state feedback takes over
 
@@ -40,11 +41,13 @@ def mechanism() -> baum.Mechanism:
 
 def one_period() -> tuple[Array, Array]:
     """Return A and b of one period of the linear model, x_next = A x + b u. The state x consists of
-    the position of the cart, the tilt of the pole to the right, and their velocities."""
+    the position of the cart, the tilt of the pole to the right, and their velocities. The input u
+    is the force on the cart."""
     mass = np.array([[CART + POLE, POLE * HALF], [POLE * HALF, INERTIA]])
-    slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # forces differentiated by (x, u)
+    # The columns of slope belong to the position of the cart, the tilt and u.
+    slope = np.array([[0, 0, 0], [0, POLE * GRAVITY * HALF, 0]])  # derivatives of the forces
     slope[0, 2] = 1
-    rates = np.zeros((5, 5))  # the time derivative of (x, u) is rates (x, u), with constant u
+    rates = np.zeros((5, 5))  # d/dt (x, u) = rates @ (x, u), with constant u
     rates[:2, 2:4] = np.eye(2)
     rates[2:4, [0, 1, 4]] = np.linalg.solve(mass, slope)
     whole: Array = np.eye(5)
@@ -64,7 +67,7 @@ def feedback_gains() -> Array:
 
 def swing_up(x: Array) -> float:
     """Return the force [N] that gives the cart an acceleration at which the energy of the pole
-    approaches that of the upright position."""
+    approaches its value in the upright position."""
     place, tilt, speed, rate = x
     s, c, moment = np.sin(tilt), np.cos(tilt), POLE * HALF
     energy = INERTIA * rate**2 / 2 + moment * GRAVITY * (c - 1)  # [J] 0 if upright and at rest
@@ -108,10 +111,10 @@ def main() -> int:
 
     print(f"the state feedback takes over at {times[caught]:.3f} s")
     print(f"farthest {abs(x[:, 0]).max():.2f} m, largest force {abs(u).max():.1f} N")
-    late = caught + round(4 / PERIOD)  # the other terms of the motion have decayed
+    late = caught + round(4 / PERIOD)  # the faster modes of the motion have decayed
     decay = np.log(x[late, :2] / x[-1, :2]) / (times[-1] - times[late])
     report.expect("decay of cart and tilt, off by [1/s]", abs(decay - DECAY[0]).max(), 1e-5)
-    # The force is constant during a period.
+    # The force is constant during a period, so its work is force times displacement.
     work = u[:-1] @ np.diff(x[:, 0]) + u[-1] * (s.get("rail.coordinate")[0] - x[-1, 0])
     change = s.get("energy").sum() - before
     print(f"work of the force {work:.4f} J")

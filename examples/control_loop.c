@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A control loop. Every millisecond a controller reads the angle and the speed of the crank of a
  * slider-crank, and sets the torque of the motor. It keeps the speed constant, even when a brake is
- * switched on. An interval consists of ten steps of fixed length, which allocate no memory, so its
- * computing time is bounded. A table shows the wall times of the intervals. */
+ * switched on. Each of these intervals consists of ten steps of fixed length. These steps allocate
+ * no memory, so the computing time of an interval is bounded. A table shows the wall times of the
+ * intervals. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -22,16 +23,16 @@ typedef struct loop {
   baum_input_id motor;
   baum_input_id brake;
   double crank[2];     /* [rad] angle and [rad/s] angular velocity */
-  double work;         /* [J] done by the motor and (negative) by the brake */
+  double work;         /* [J] net work of motor and brake; the brake's is negative */
   double longest;      /* [s] longest wall time of an interval */
-  double longest_step; /* [s] largest value, over all intervals, of the mean wall time of a step */
+  double longest_step; /* [s] largest mean wall time of a step in an interval */
   /* Element k counts the intervals that take 2^k to 2^(k+1) us. The last element counts all longer
    * intervals. */
   long histogram[BINS];
 } loop;
 
-/* Adds a load of 1 N m on the crank and an input that multiplies it, so that the input is the
- * torque. */
+/* Adds a load of 1 N m on the crank, and an input that multiplies this load. The value of the input
+ * is therefore the torque in N m. */
 static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, const char *name)
 {
   baum_planar_load_def load = baum_planar_load_def_default();

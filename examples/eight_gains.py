@@ -17,7 +17,8 @@ from support.report import Report
 H = 2e-4  # [s]
 TIMES = H * np.arange(round(8 * np.pi / OMEGA / H) + 1.0)  # [s] four revolutions
 ENLARGED = 10  # factor by which the violations are enlarged
-PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]  # [m] of the cranks
+# [m] positions of the cranks' axles
+PLACES = [(x, y) for y in (0, -0.4, -0.8, -1.2) for x in (0, 0.95)]
 
 
 def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:
@@ -26,7 +27,7 @@ def simulate(m: baum.Mechanism, gains: baum.Gains) -> tuple[Array, Array]:
     joints = [element for element in m if isinstance(element, baum.Joint)]
     record = [joint.phi for joint in joints]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", baum.Warning)  # some gains are marginal
+        warnings.simplefilter("ignore", baum.Warning)  # some gains are marginally stable
         run = m.simulate(
             TIMES, "euler", step=H, formulation="baumgarte", gains=gains, record=record
         )
@@ -57,7 +58,8 @@ def main() -> int:
     driven, shown = slider_crank(), eight_slider_cranks()
     runs = {name: simulate(driven, gains) for name, gains in GAINS.items()}
     exact = driven.simulate(TIMES, "kinematics").q
-    # Positions by time, body, slider-crank and coordinate, which is their order in `shown`.
+    # The indices of q are time, body, slider-crank and coordinate. This is the order of the
+    # positions in `shown`.
     q = np.stack([(exact + ENLARGED * (q - exact)).reshape(-1, 3, 3) for q, _ in runs.values()], 2)
     q[..., :2] += PLACES
     q = q.reshape(len(TIMES), -1)

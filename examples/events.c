@@ -10,7 +10,7 @@ enum { BOUNCES = 8, KICKS = 3 };
 
 static const double LENGTH = 1.0;      /* [m] of a uniform rod of 1 kg */
 static const double ANGLE = 1.0;       /* [rad] initial angle */
-static const double STOP = 0.0;        /* [rad] straight below the pin */
+static const double STOP = 0.0;        /* [rad] angle of the stop, below the pin */
 static const double RESTITUTION = 0.9; /* [-] speed after a bounce / speed before it */
 
 typedef struct pendulum {
@@ -60,9 +60,9 @@ static baum_simulation *start(const pendulum *p)
 
 /* ---- events: times that the run finds ---- */
 
-/* Returns the duration [s] of a quarter of a swing of the given amplitude:
- * K(sin(angle / 2)) sqrt(2 l / (3 g)), with K computed by the arithmetic-geometric mean
- * (Abramowitz, Stegun 1964, 17.6.3). */
+/* Returns the duration [s] of a quarter of a swing of the given amplitude. For a uniform rod of
+ * length l it is K(sin(angle / 2)) sqrt(2 l / (3 g)). The arithmetic-geometric mean gives the
+ * complete elliptic integral K (Abramowitz, Stegun 1964, 17.6.3). */
 static double quarter(double angle)
 {
   double a = 1.0;
@@ -96,8 +96,8 @@ static void bounce(baum_simulation *run)
 }
 
 /* Compares the bounces with the exact times. A bounce multiplies the kinetic energy by
- * RESTITUTION^2. In the next swing this energy becomes potential energy, which is proportional to 1
- * - cos(angle) and thus gives the amplitude. */
+ * RESTITUTION^2. In the next swing this energy becomes potential energy. The potential energy is
+ * proportional to 1 - cos(angle), so it gives the amplitude. */
 static double tell_bounces(baum_simulation *run)
 {
   static const example_column columns[] = {{"bounce", "bounce", 'd', 0},

@@ -13,10 +13,11 @@ from support.report import Report
 
 LENGTH = 1.0  # [m] of a uniform rod of 1 kg
 ANGLE = 1.0  # [rad] initial angle
-STOP = 0.0  # [rad] straight below the pin
+STOP = 0.0  # [rad] angle of the stop, straight below the pin
 RESTITUTION = 0.9  # speed after a bounce / speed before it
 BOUNCES = 8
-KICKS = (1.0, 10.0), (1.05, 0.0), (2.0, 10.0), (2.05, 0.0), (3.0, 10.0), (3.05, 0.0)  # s, N m
+# Times [s], and the torque [N m] from each of them on.
+KICKS = (1.0, 10.0), (1.05, 0.0), (2.0, 10.0), (2.05, 0.0), (3.0, 10.0), (3.05, 0.0)
 
 
 def pendulum() -> baum.Mechanism:
@@ -32,7 +33,8 @@ def pendulum() -> baum.Mechanism:
 
 def quarter(angle: float) -> float:
     """Return the duration [s] of a quarter of a swing of the given amplitude. It is K(sin(angle /
-    2)) sqrt(2 l / (3 g)), and the arithmetic-geometric mean gives K."""
+    2)) sqrt(2 l / (3 g)) for a uniform rod of length l. The arithmetic-geometric mean gives the
+    complete elliptic integral K."""
     a, b = 1.0, np.cos(angle / 2)
     for _ in range(8):
         a, b = (a + b) / 2, np.sqrt(a * b)
@@ -41,8 +43,8 @@ def quarter(angle: float) -> float:
 
 def exact_times() -> Array:
     """Return the exact times of the bounces. A bounce multiplies the kinetic energy by
-    RESTITUTION^2. In the next swing this energy becomes potential energy, which is proportional to
-    1 - cos(angle) and thus gives the amplitude."""
+    RESTITUTION^2. In the next swing this energy becomes potential energy. The potential energy is
+    proportional to 1 - cos(angle), so it gives the amplitude."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
     times: Array = quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])

@@ -19,8 +19,8 @@ GRAVITY = 9.81  # [m/s^2]
 SPAN = 3.0  # [s]
 
 DISC = inertia.cylinder(MASS, RADIUS, THICKNESS, axis="z")
-AXIAL = DISC[2, 2]
-ACROSS = inertia.shift(DISC, MASS, (0, 0, ARM))[0, 0]  # about the joint
+AXIAL = DISC[2, 2]  # [kg m^2] moment of inertia about the axle
+ACROSS = inertia.shift(DISC, MASS, (0, 0, ARM))[0, 0]  # [kg m^2] across the axle, about the joint
 
 COLUMNS = {
     "t": ("t [s]", "5.2f"),
@@ -33,8 +33,8 @@ COLUMNS = {
 
 def steady_spin() -> float:
     """Return the angular velocity about the axle [rad/s] at which the top precesses steadily. With
-    p = PRECESSION and n = TILT, it follows from AXIAL spin p - ACROSS p^2 cos(n) = MASS GRAVITY
-    ARM."""
+    p = PRECESSION and n = TILT, the result `spin` satisfies AXIAL spin p - ACROSS p^2 cos(n) = MASS
+    GRAVITY ARM."""
     weight = MASS * GRAVITY * ARM
     return float((weight + ACROSS * PRECESSION**2 * np.cos(TILT)) / (AXIAL * PRECESSION))
 

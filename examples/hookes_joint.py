@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two shafts that meet at an angle, connected by Hooke's joint (a universal joint), and the same
-shafts connected by a constant-velocity joint. If the first shaft rotates steadily, the second one
-does so only with the constant-velocity joint."""
+"""Two shafts meet at an angle. In one mechanism Hooke's joint (a universal joint) connects them,
+and in another mechanism a constant-velocity joint does. If the first shaft rotates steadily, the
+second one does so only with the constant-velocity joint."""
 
 import sys
 from pathlib import Path
@@ -12,10 +12,10 @@ from baum import inertia
 from baum.typing import Array
 from support.report import Report
 
-BEND = np.radians(35)  # between the shafts
-RATE = 2 * np.pi  # [rad/s] of the first shaft
+BEND = np.radians(35)  # [rad] angle between the shafts
+RATE = 2 * np.pi  # [rad/s] angular velocity of the first shaft
 LENGTH = 0.3  # [m] of a shaft
-INTO, OUT = np.array([1.0, 0, 0]), np.array([np.cos(BEND), np.sin(BEND), 0])  # along the shafts
+INTO, OUT = np.array([1.0, 0, 0]), np.array([np.cos(BEND), np.sin(BEND), 0])  # unit vectors
 
 COLUMNS = {
     "angle": ("first shaft [deg]", "9.1f"),
@@ -26,8 +26,8 @@ COLUMNS = {
 
 
 def shafts(joint: str) -> baum.Mechanism:
-    """Build both shafts. They meet at the origin. The second shaft is held by the joint and at its
-    far end, so no row is redundant."""
+    """Build both shafts. They meet at the origin. The joint and a support at its far end hold the
+    second shaft, so no row is redundant."""
     m = baum.Mechanism(gravity=(0, 0, 0))
     first_tensor = inertia.cylinder(2, radius=0.02, length=LENGTH, axis="x")
     first = m.spatial_body("first", mass=2, inertia=first_tensor, position=-LENGTH / 2 * INTO)
@@ -51,8 +51,8 @@ def shafts(joint: str) -> baum.Mechanism:
 
 
 def ratio(m: baum.Mechanism, times: Array) -> tuple[baum.Run, Array]:
-    """Simulate the shafts. Return the run, and the speed of the second shaft / that of the
-    first."""
+    """Simulate the shafts. Return the run, and the angular velocity of the second shaft divided by
+    that of the first shaft."""
     run = m.simulate(times, "kinematics")
     speed: Array = run["second.velocity"][:, 3:] @ OUT / RATE
     return run, speed

@@ -12,8 +12,8 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-# [m] Jansen's thirteen lengths. The hip is at (-a, -l) from the axle of the crank, which has the
-# length m.
+# [m] Jansen's thirteen lengths. The length of the crank is m. Relative to the axle of the crank,
+# the hip is at (-a, -l).
 LENGTH = SimpleNamespace(
     **{"a": 0.38, "b": 0.415, "c": 0.393, "d": 0.401, "e": 0.558, "f": 0.394, "g": 0.367},
     **{"h": 0.657, "i": 0.49, "j": 0.5, "k": 0.619, "l": 0.078, "m": 0.15},
@@ -90,7 +90,7 @@ def main() -> int:
     report = Report("jansen_leg", folder="write the page and the drawing into this folder")
     page = Path(report.options.folder or ".") / "jansen_leg.html"
     m = mechanism()
-    turn = 200  # samples
+    turn = 200  # samples per revolution
     times = np.arange(3 * turn) * 2 * np.pi / OMEGA / turn
     run = m.simulate(times, "kinematics", record=["motor.effort"])
     feet = [m["left foot"], m["right foot"]]
@@ -107,7 +107,7 @@ def main() -> int:
         down = path[:, 1] < path[:, 1].min() + 0.02
         print(f"{foot.name}: down for {down.mean():.0%} of a turn, {np.ptp(path[down, 0]):.2f} m")
         report.expect(f"{foot.name}: a turn / the part on the ground", 1 / down.mean(), 2)
-    # Nothing dissipates energy.
+    # No energy is dissipated, so the mean torque over whole revolutions is 0.
     report.expect("mean torque of the motor [N m]", abs(run["motor.effort"].mean()), 1e-9)
     return report.end()
 

@@ -88,7 +88,8 @@ def main() -> int:
     report.expect("its acceleration, off by [m/s^2]", error[2], 1e-9)
     turned = m.simulate(turning_times(), "kinematics")["ram.velocity"][:, 0]
     report.expect("velocity where the ram reverses [m/s]", abs(turned).max(), 1e-11)
-    # The trapezoidal rule gives means of these periodic values that are exact except for rounding.
+    # These values are periodic, so the trapezoidal rule gives their means exactly, up to rounding
+    # errors.
     work = OMEGA * effort[1:].mean() * times[-1]
     lost = DAMPING * (ram[1, 1:] ** 2).mean() * times[-1]
     report.expect("work of the motor minus loss in oil [J]", abs(work - lost), 1e-9 * lost)

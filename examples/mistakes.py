@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Three typical modelling mistakes: a wrong point, a wrong axis and a wrong length, each in a
-four-bar linkage. The program writes pictures, in which red lines show the joint that is open."""
+four-bar linkage. The program writes pictures, in which red lines show which joint is open."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def wrong_axis() -> baum.Mechanism:
 
 
 def open_joints(svg: str) -> list[str]:
-    """Return the joints that have a red line in a picture."""
+    """Return the names of the joints for which a picture shows red lines."""
     groups = xml.etree.ElementTree.fromstring(svg)
     return sorted({group[0].text or "" for group in groups if group[1].get("stroke") == RED})
 

@@ -11,8 +11,8 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-LONG, SIDE, CRANK = 1.0, 0.5, 0.35  # [m] rods at the fixed point, sides of the rhombus, crank
-SWING, RATE = 1.0, 2 * np.pi  # [rad] amplitude of the crank, [rad/s]
+LONG, SIDE, CRANK = 1.0, 0.5, 0.35  # [m] long rods, sides of the rhombus, crank
+SWING, RATE = 1.0, 2 * np.pi  # [rad] amplitude, [rad/s] angular frequency of the crank
 LINE = (LONG**2 - SIDE**2) / (2 * CRANK)  # [m] x of the straight line
 RODS = {
     "crank": ("Q", "C"),

@@ -40,10 +40,10 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* Computes the exact motion. The angle is measured from the lowest point. With s = sin(angle / 2)
- * and k^2 = 1/2 the solution is s = k sn(K - sqrt(g/l) t, k). The arithmetic-geometric mean (agm)
- * gives the elliptic function sn (Abramowitz, Stegun 1964, 16.4) and K = pi / (2 agm(1, sqrt(1 -
- * k^2))). */
+/* Computes the exact motion. The angle is measured from the lowest point. With s = sin(angle / 2),
+ * k^2 = 1/2 and the length l of the rod, the solution is s = k sn(K - sqrt(g/l) t, k). The
+ * arithmetic-geometric mean (agm) gives the elliptic function sn (Abramowitz, Stegun 1964, 16.4)
+ * and K = pi / (2 agm(1, sqrt(1 - k^2))). */
 static void exact(double t, double *x, double *y)
 {
   enum { LEVELS = 6 };

@@ -32,8 +32,8 @@ def pendulum() -> baum.Mechanism:
 
 
 def period() -> float:
-    """Return the period [s] of swings from -90 to 90 degrees. It is 4 K(k) sqrt(l/g) with k^2 =
-    1/2, and the arithmetic-geometric mean gives K."""
+    """Return the period [s] of swings from -90 to 90 degrees. It is 4 K(k) sqrt(l/g) with k^2 = 1/2
+    and the length l. The arithmetic-geometric mean gives the complete elliptic integral K."""
     a, b = 1.0, np.sqrt(0.5)
     for _ in range(6):
         a, b = (a + b) / 2, np.sqrt(a * b)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A planetary gear with two inputs: a motor drives the sun, another one the ring. The output is the
-arm that carries three planets. At first the ring is at rest. Then it rotates backwards, until the
-arm stands still. The angular velocities are compared with Willis' equation, and the torques with
-the equilibrium of the planets."""
+"""A planetary gear with two inputs: one motor drives the sun, and another motor drives the ring.
+The output is the arm that carries three planets. At first the ring is at rest. Then it rotates
+backwards, until the arm stands still. The angular velocities are compared with Willis' equation,
+and the torques with the equilibrium of the planets."""
 
 import sys
 import warnings
@@ -14,7 +14,7 @@ from support.report import Report
 
 SUN, PLANET = 0.03, 0.02  # [m] radii of the pitch circles
 ARM, RING = SUN + PLANET, SUN + 2 * PLANET
-SPEED, LOAD = 10.0, 6.0  # [rad/s] of the sun, [N m] torque that opposes the arm
+SPEED, LOAD = 10.0, 6.0  # [rad/s] of the sun, [N m] torque on the arm, against its motion
 BEGIN, END, SPAN = 1.0, 2.0, 3.0  # [s] the ring accelerates from BEGIN to END
 BACK = -SPEED * SUN / RING  # [rad/s] of the ring at the end
 
@@ -52,7 +52,7 @@ def main() -> int:
     print(m.mobility().text)
     times = np.linspace(0, SPAN, 301)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", baum.RedundantRowsWarning)  # one planet would be enough
+        warnings.simplefilter("ignore", baum.RedundantRowsWarning)  # two planets are redundant
         run = m.simulate(times, "kinematics", record=["sun motor.effort", "ring motor.effort"])
     page = Path(report.options.folder or ".") / "planetary_gear.html"
     sun, ring, arm, planet = (

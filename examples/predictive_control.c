@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Predictive control: a controller tries torques on the run itself. Every two milliseconds it saves
  * the run, simulates one revolution of the crank with each of two torques, and restores the saved
- * run after each trial. It then chooses the torque whose mean speed is closer to the set point.
- * Saving and restoring allocate no memory. With a one-step method and the block solver, the run
- * continues as if there had been no trial. */
+ * run after each trial. It then chooses the torque with which the mean speed is closer to the set
+ * point. Saving and restoring allocate no memory. With a one-step method and the block solver, the
+ * run continues as if there had been no trial. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -86,8 +86,8 @@ int main(int argc, char **argv)
   options.integrator = baum_semi_implicit_euler();
   options.step = STEP;
   CHECK(baum_simulation_create(mechanism, &options, &p.run));
-  CHECK(
-    baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* sufficient for every state of the run */
+  /* The capacity is sufficient for every state of the run. */
+  CHECK(baum_simulation_save(p.run, NULL, 0, &p.capacity));
   p.buffer = malloc(p.capacity);
   if (!p.buffer) {
     return EXIT_FAILURE;

@@ -3,14 +3,14 @@
  * velocities of its contact point. The disc therefore has three degrees of freedom of velocity, but
  * five of position: it can roll to every place, and arrive there with every heading.
  *
- * The first disc rolls steadily on a circle. If b is the elevation of its axis, W the angular
- * velocity of its heading, and A and C are the moments of inertia across and along the axis, the
- * angular velocity n about the axis must satisfy
+ * The first disc rolls steadily on a circle. Let b be the elevation of its axis, W the angular
+ * velocity of its heading, m its mass, R its radius, and A and C its moments of inertia across and
+ * along the axis. Then the angular velocity n about the axis must satisfy
  *
  *   n W cos b (C + m R^2) = A W^2 sin b cos b - m g R sin b
  *
- * The second disc rolls faster and wobbles. For both, the program prints the coefficient of
- * friction that the ground needs, and checks the energy. */
+ * The second disc rolls faster and wobbles. For both discs, the program prints the coefficient of
+ * friction that prevents slipping, and checks the energy. */
 #include <string.h>
 
 #include <baum/baum.h>
@@ -72,14 +72,14 @@ static disc build(double rate)
   return d;
 }
 
-/* The largest differences from the laws during a run, and the range of the tilt. */
+/* The largest deviations from the expected motion during a run, and the range of the tilt. */
 typedef struct findings {
   double circle;   /* [m] distance of the centre from its place on the circle */
-  double energy;   /* [J] */
+  double energy;   /* [J] change */
   double slip;     /* [m/s] velocity of the contact point */
-  double friction; /* [-] largest coefficient that the ground needs */
-  double lowest;   /* [rad] tilt */
-  double highest;
+  double friction; /* [-] largest coefficient of friction that is needed */
+  double lowest;   /* [rad] smallest tilt */
+  double highest;  /* [rad] largest tilt */
 } findings;
 
 static findings simulate(const disc *d, double rate)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A spatial four-bar (RSSR): a driven crank about the z axis moves a rocker about an axis in
 another direction, through a coupler with a spherical joint at each end. The coupler can rotate
-about its own axis without moving the other bodies. If a massless rod replaces it, the mechanism
-has no degree of freedom and its motion follows by kinematics."""
+about its own axis without moving the other bodies. If a massless rod replaces the coupler, no
+degree of freedom remains, and the motion follows from the constraints alone."""
 
 import sys
 
@@ -39,12 +39,13 @@ def rocker_angle(t: Array) -> Array:
     """Return the exact angle of the rocker [rad]. The catalogue contains this mechanism, with a
     coupler that does not rotate about its own axis, and its motion is known in closed form."""
     q = catalog.reference("rssr", t).q
-    found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))  # x and w of its quaternion
+    # q[:, 17] and q[:, 18] are w and x of the rocker's quaternion.
+    found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))
     return found
 
 
 def axes_along(x: Array) -> Array:
-    """Return three perpendicular axes as columns. The first one is along x."""
+    """Return three perpendicular axes as columns. The first axis points along the vector x."""
     first = x / np.linalg.norm(x)
     second = np.cross((0, 0, 1), first)
     second = second / np.linalg.norm(second)
@@ -52,8 +53,8 @@ def axes_along(x: Array) -> Array:
 
 
 def mechanism(with_coupler: bool) -> baum.Mechanism:
-    """Build the mechanism. The crank is along x. Each joint is given by its point in ground
-    axes."""
+    """Build the mechanism. At the start the crank points along x. Each joint is given by its point
+    in ground axes."""
     start = np.zeros(1)
     a, b = crank_end(start)[0], rocker_end(rocker_angle(start))[0]
     m = baum.Mechanism(up="z")

@@ -3,9 +3,9 @@
 # usage: sh examples/run.sh [NAME...]
 #
 # Installs missing packages, builds the release library and runs the named examples, by default all.
-# For each example it writes files into out/: what the example prints (.txt), its tables (.json, and
-# .dat for gnuplot), their figures (.png), drawings (.svg), and pages of studies and of mechanisms
-# in motion (.html).
+# For each example it writes files into out/: the text that the example prints (.txt), its tables
+# (.json, and .dat for gnuplot), figures of these tables (.png), drawings (.svg), and pages that show
+# studies or moving mechanisms (.html).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh

@@ -4,9 +4,10 @@
  * Euler, with eight sets of Baumgarte's gains.
  *
  * Phi_3 can be predicted. One step of Euler from the exact motion causes a violation d of Phi_3 and
- * a violation e of Phi_3'. Violations of earlier steps follow equation (6). Together this gives the
- * recursion Phi_3+ = Phi_3 + h Phi_3' + d, Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) +
- * e, whose characteristic equation is (19). */
+ * a violation e of Phi_3'. Violations of earlier steps follow equation (6) of the paper. Together
+ * this gives a recursion from one step to the next, where + marks the values after a step of length
+ * h: Phi_3+ = Phi_3 + h Phi_3' + d, Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e. Its
+ * characteristic equation is equation (19) of the paper. */
 #include "slider_crank_model.h"
 
 enum { STEPS = 10000, TURN = 419, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
@@ -16,7 +17,7 @@ static const double H = 1e-4; /* [s] */
 /* The exact motion at every step, with which the runs are compared. */
 static struct {
   double t[STEPS + 1];
-  double x[STEPS + 1]; /* of the slider */
+  double x[STEPS + 1]; /* [m] x of the slider */
   double d[STEPS + 1]; /* violation of Phi_3 that one step of Euler causes */
   double e[STEPS + 1]; /* violation of Phi_3' that one step of Euler causes */
 } exact;
@@ -88,7 +89,7 @@ static double surprise(int set)
   return difference / expected;
 }
 
-/* One run. @return its counters */
+/* Simulates with one set of gains. @return the counters of the run */
 static baum_counters simulate(const slider_crank *s, baum_gains gains, int set)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -193,7 +194,7 @@ int main(int argc, char **argv)
          "predicted     by the recursion of (19); steady: by the library, for gains >= 0.1/h\n\n",
          SLIDER_CRANK_SPEED, H, STEPS);
   example_table("gain_sets", columns, 11, true);
-  double steady = 0.0; /* the library's prediction for the last set */
+  double steady = 0.0; /* max|Phi| / the library's prediction, for the last set */
   for (int set = 0; set < SETS; set++) {
     baum_gains gains = {.rule = sets[set].rule, .value = {sets[set].value[0], sets[set].value[1]}};
     baum_counters counters = simulate(&s, gains, set);

@@ -16,7 +16,7 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-R, L, E = 0.153, 0.306, 0.05  # [m] crank, rod, height of the guide
+R, L, E = 0.153, 0.306, 0.05  # [m] lengths of crank and rod, height of the guide
 OMEGA = 150.0  # [rad/s]
 H = 1e-4  # [s]
 
@@ -83,7 +83,7 @@ def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> No
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # violations have decayed after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # violations decay within half of the run
             report.expect(f"{name}: last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("largest Phi_3 with / without gains", largest / said["none"]["max_phi3"], 0.1)
@@ -94,7 +94,7 @@ def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> No
 
 
 def plot(path: str, runs: dict[str, baum.Run]) -> None:
-    """Plots Phi_3 over time, each set in a separate diagram."""
+    """Plot Phi_3 over time, in one diagram for each set of gains."""
     import matplotlib.pyplot as plt
 
     figure, frames = plt.subplots(4, 2, sharex=True, figsize=(9, 9), layout="constrained")
@@ -111,7 +111,7 @@ def main() -> int:
     m, times = slider_crank(), H * np.arange(10001.0)
     print(f"{m}: {m.mobility()}\nexplicit Euler, h = {H:g} s, crank at {OMEGA:g} rad/s for 1 s\n")
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", baum.Warning)  # the table shows marginal gains
+        warnings.simplefilter("ignore", baum.Warning)  # the table shows which gains are marginal
         results = {name: simulate(m, gains, times) for name, gains in GAINS.items()}
     runs = {name: run for name, (run, _) in results.items()}
     said = {name: row for name, (_, row) in results.items()}

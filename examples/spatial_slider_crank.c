@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank in space. The crank rotates about the z axis. The slider moves along x, on a line
- * that is beside and above the crank. With these joints the mechanism has one degree of freedom:
+/* A slider-crank in space. The crank rotates about the z axis. The slider moves on a line parallel
+ * to x, which lies beside and above the crank. With these joints the mechanism has one degree of
+ * freedom:
  *
  *   ground - revolute - crank - spherical - rod - universal - slider - prismatic - ground
  *
@@ -75,7 +76,7 @@ static baum_body_id add_slider(slider_crank *s, const double at[3])
   return id;
 }
 
-/* ---- joints, each by its point and axis in ground axes ---- */
+/* ---- joints, each given by its point and axis in ground axes ---- */
 
 static void add_joints(slider_crank *s, const double a[3], const double b[3])
 {

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A slider-crank in space. The crank rotates about the z axis. The slider moves along x, on a line
-that is beside and above the crank. The crank is released at 20 rad/s. The position of the slider
-follows from the angle of the crank in closed form, and the energy must stay constant."""
+"""A slider-crank in space. The crank rotates about the z axis. The slider moves on a line parallel
+to x, which lies beside and above the crank, at y = BESIDE and z = ABOVE. The crank is released at
+20 rad/s. The position of the slider follows from the angle of the crank in closed form, and the
+energy must stay constant."""
 
 import sys
 
@@ -30,7 +31,7 @@ def slider_at(angle: Array) -> Array:
 
 
 def axes_along(x: Array) -> Array:
-    """Return three perpendicular axes as columns. The first one is along x."""
+    """Return three perpendicular axes as columns. The first axis points along the vector x."""
     first = x / np.linalg.norm(x)
     second = np.cross((0, 0, 1), first)
     second = second / np.linalg.norm(second)

@@ -11,7 +11,7 @@ enum { CELLS = 22, STEPS = 1500, NQ = 9, NC = 8, OUTLINE = 2000 };
 
 static const double H = 1e-5 / 150.0; /* [s] the crank rotates by 1e-5 rad in a step */
 static const double OFF = 1e-6;       /* [m, rad] initial error of every coordinate */
-static const double FAR = 1e3;        /* bound of the violation / initial violation */
+static const double FAR = 1e3;        /* largest allowed violation / initial violation */
 static const double LEVELS[] = {1.0, 0.9, 0.75, 0.5, 0.25};
 
 typedef const baum_integrator *integrator_fn(void);
@@ -44,8 +44,8 @@ static baum_simulation *start(const bench *b, const baum_integrator *integrator,
   return run;
 }
 
-/* Makes the start of the simulations: the assembled initial configuration, with every coordinate
- * moved by a different small amount. */
+/* Makes the initial state of the simulations: it is the assembled initial configuration, with every
+ * coordinate moved by a different small amount. */
 static bench make_bench(void)
 {
   bench out = {.mechanism = slider_crank_build(false).mechanism};
@@ -104,7 +104,8 @@ static bool predicted_stable(const baum_integrator *integrator, double alpha_h, 
   return z.stability == BAUM_STABLE;
 }
 
-/* Writes the contours into one table. @return the largest alpha h and beta^2 h^2 of the region */
+/* Writes the contours into one table, and the largest alpha h and beta^2 h^2 of the region into
+ * `most`. */
 static void draw_outlines(const baum_integrator *integrator, double most[2])
 {
   static const example_column columns[] = {{"radius", "spectral radius [-]", 'f', 2},
@@ -160,7 +161,8 @@ static bool at_boundary(const window *w, int i, int j)
 }
 
 /* Simulates all points of the grid and writes them to the files. @return the number of points where
- * simulation and prediction differ */
+ * simulation and prediction differ. Adds those that are not next to the predicted boundary to
+ * `astray`. */
 static int compare(const bench *b, const window *w, int *astray)
 {
   static const example_column columns[] = {{"alpha_h", "alpha h [-]", 'f', 4},
@@ -227,8 +229,9 @@ static void show(const summary *all)
   }
 }
 
-/* Simulates explicit Euler with Taylor's gains. Theory gives z^2 = -1: a violation has the same
- * value after every fourth step, and does not decay. @return its relative change in 1000 steps */
+/* Simulates explicit Euler with Taylor's gains. In theory, the roots satisfy z^2 = -1: a violation
+ * has the same value after every fourth step, and does not decay. @return its relative change in
+ * 1000 steps */
 static double taylor(const bench *b)
 {
   static const example_column columns[] = {{"step", "step", 'd', 5}, {"phi", "Phi_1 [m]", 'e', 3}};

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Stewart platform: six legs of variable length move a platform in all six directions.
+"""A Stewart platform: six legs of variable length move a platform in all six degrees of freedom.
 
 The inverse kinematics is a formula: the lengths of the legs follow from the pose of the platform.
 The program computes these lengths for a circular motion, and drives the legs by splines through
 them. The forward kinematics has no simple formula. The library finds the pose of the platform from
-the lengths of the legs by assembly, also from rough guesses."""
+the lengths of the legs by assembly, even from rough guesses."""
 
 import sys
 
@@ -14,13 +14,13 @@ from baum import inertia
 from baum.typing import Array
 from support.report import Report
 
-FEET = np.radians([-15, 15, 105, 135, 225, 255])  # directions of the legs' feet on the ground
-BALLS = np.radians([-45, 45, 75, 165, 195, 285])  # directions of their balls on the platform
+FEET = np.radians([-15, 15, 105, 135, 225, 255])  # directions of the feet of the legs on the ground
+BALLS = np.radians([-45, 45, 75, 165, 195, 285])  # directions of their ball joints on the platform
 FOOT_RADIUS, BALL_RADIUS, HEIGHT = 1.0, 0.6, 1.0  # [m]
-CIRCLE, TILT, PERIOD = 0.15, 0.12, 2.0  # [m], [rad], [s] of the motion
-COMMANDS = 200  # values of each length in a period
+CIRCLE, TILT, PERIOD = 0.15, 0.12, 2.0  # [m] radius, [rad] tilt, [s] period of the motion
+COMMANDS = 200  # number of prescribed values of each length in a period
 PLATFORM, LOWER, UPPER = 50.0, 4.0, 2.0  # [kg] masses of the platform and of the parts of a leg
-STARTS = 100
+STARTS = 100  # number of guesses for the forward kinematics
 
 COLUMNS = {
     "t": ("t [s]", "5.2f"),
@@ -46,8 +46,8 @@ def wanted_pose(t: float) -> tuple[Array, Array]:
 
 
 def legs(position: Array, axes: Array) -> Array:
-    """Return the vectors (6 x 3) from the feet to the balls. Their norms are the lengths of the
-    legs: this is the inverse kinematics."""
+    """Return the vectors (6 x 3) from the feet to the ball joints. This is the inverse kinematics,
+    because the norms of these vectors are the lengths of the legs."""
     ends: Array = position + on_circle(BALL_RADIUS, BALLS) @ axes.T
     return ends - on_circle(FOOT_RADIUS, FEET)
 
@@ -71,7 +71,8 @@ def lengths(pose: Array) -> Array:
 
 
 def add_leg(m: baum.Mechanism, k: int, foot: Array, leg: Array) -> baum.Joint:
-    """Add leg k, which is a vector from its foot, in two parts. Return the joint between them."""
+    """Add leg k as two bodies, and return the joint between them. leg: the vector from its foot to
+    its ball joint."""
     along: Array = leg / np.linalg.norm(leg)
     across: Array = np.cross(np.array([1.0, 0, 0]), along)  # second axis of the universal joint
     across = across / np.linalg.norm(across)
@@ -146,12 +147,13 @@ def main() -> int:
     off = m.simulate(between, "kinematics", start_time=between[0])["platform.pose"][:, :3]
     off -= np.array([wanted_pose(t)[0] for t in between])
     report.expect("platform between commands, off by [m]", abs(off).max(), 1e-8)
-    # There is no friction, so the actuators do no work in a period. The trapezoidal rule is very
-    # accurate for periodic values.
+    # There is no friction, so the actuators do no work in a period. The power is periodic, so the
+    # trapezoidal rule gives the work very accurately.
     work = (efforts * rates).sum(axis=1)[1:].mean() * PERIOD
     report.expect("work of the actuators [J]", abs(work), 1e-10)
 
-    # Forward kinematics: every body is up to 0.1 m and 0.2 rad out of place, about each axis.
+    # Forward kinematics from guesses: each body is out of place by up to 0.1 m along every axis and
+    # up to 0.2 rad about it.
     random = np.random.default_rng(1)
     most = np.tile([0.1, 0.1, 0.1, 0.2, 0.2, 0.2], 13)
     errors = []

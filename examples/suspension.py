@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A quarter of a car on a test rig, seen from the front. It consists of a wheel on double wishbones
-and a strut. A plate under the tyre moves like a bump in the road. The program writes a drawing, and
-a page that shows the motion."""
+"""A quarter of a car on a test rig, seen from the front. Double wishbones and a strut connect the
+wheel to the chassis. A plate under the tyre moves up and down, as if the wheel ran over a bump in
+the road. The program writes a drawing, and a page that shows the motion."""
 
 import sys
 from pathlib import Path
@@ -17,7 +17,7 @@ CHASSIS, HUB = np.array([0.05, 0.6]), np.array([0.6, 0.33])
 INNER_LOWER, OUTER_LOWER = np.array([0.12, 0.3]), np.array([0.52, 0.24])
 INNER_UPPER, OUTER_UPPER = np.array([0.2, 0.54]), np.array([0.49, 0.52])
 STRUT_TOP, STRUT_FOOT = np.array([0.27, 0.8]), np.array([0.37, 0.2625])
-RADIUS, WIDTH, GREY = 0.33, 0.2, "#c3cad1"  # [m] of the tyre, and its colour
+RADIUS, WIDTH, GREY = 0.33, 0.2, "#c3cad1"  # [m] of the tyre; its colour
 MASSES = {
     "chassis": 350,
     "lower wishbone": 5,
@@ -25,8 +25,8 @@ MASSES = {
     "wheel": 35,
     "plate": 20,
 }  # [kg]
-TYRE = 2e5  # [N/m] its stiffness
-BUMP, BEGIN, DURATION = 0.06, 0.5, 0.25  # [m], [s]
+TYRE = 2e5  # [N/m] stiffness of the tyre
+BUMP, BEGIN, DURATION = 0.06, 0.5, 0.25  # [m] height, [s] start and duration of the bump
 
 
 def road(t: float) -> tuple[float, float, float]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study of accuracy and cost in Python. The mechanism is the slider-crank without a driver, whose
-crank is released at 150 rad/s. The program then runs the settings that the study recommends."""
+crank is released at 150 rad/s. After the study, the program simulates with the settings that the
+study recommends."""
 
 import sys
 

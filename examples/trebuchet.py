@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A trebuchet throws a stone in three phases. First the sling drags the stone along a trough. An
-event on the force of the trough finds the time at which the stone lifts off. Then the stone swings
-in the sling, until it moves upward at 45 degrees and the sling opens. Finally the stone flies. Each
-phase has a mechanism of its own, with the same bodies but other joints, and begins in the last
-state of the previous phase."""
+"""A trebuchet throws a stone in three phases. First the sling drags the stone along a trough. The
+stone lifts off when the force of the trough on the stone becomes zero, and an event finds this
+time. Then the stone swings in the sling, until it moves upward at 45 degrees and the sling opens.
+Finally the stone flies. Each phase has a mechanism of its own, with the same bodies but other
+joints, and begins in the last state of the previous phase."""
 
 import sys
 from pathlib import Path
@@ -17,9 +17,9 @@ from support.report import Report
 HEIGHT, SHORT, LONG, HANGER, SLING = 1.5, 0.4, 1.6, 0.3, 1.4  # [m]
 BEAM, WEIGHT, STONE = 12.0, 120.0, 1.0  # [kg]
 GRAVITY = 9.81  # [m/s^2]
-START = np.arcsin(HEIGHT / LONG)  # [rad] of the beam: its long end is on the ground
+START = np.arcsin(HEIGHT / LONG)  # [rad] angle of the beam when its long end is on the ground
 RELEASE = np.tan(np.radians(45))  # slope of the velocity at the release
-SAMPLE = 0.01  # [s]
+SAMPLE = 0.01  # [s] time between two samples
 
 
 def bodies() -> baum.Mechanism:
@@ -53,7 +53,7 @@ def add_sling(m: baum.Mechanism) -> None:
 
 
 def phase(m: baum.Mechanism, before: Optional[baum.Simulation]) -> baum.Simulation:
-    """Start a phase in the state in which the phase before has ended."""
+    """Start a phase in the last state of the previous phase, if there is one."""
     s = m.simulation("rk8", rtol=1e-10)
     if before is not None:
         s.set_state(before.time, before.q, before.v)

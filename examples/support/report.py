@@ -2,8 +2,8 @@
 """Functions that the Python examples share: tables, checks, and a JSON file that contains both. An
 example fails if one of its checks fails.
 
-The JSON file has the same form as that of the C examples: "name": {"columns": {key: title}, "rows":
-[{key: value}]}, "checks", "ok".
+The JSON file has the same form as the files that the C examples write: "name": {"columns": {key:
+title}, "rows": [{key: value}]}, "checks", "ok".
 """
 
 import argparse
@@ -28,7 +28,8 @@ class Report:
     def table(
         self, name: str, columns: dict[str, tuple[str, str]], rows: Iterable[Sequence[Any]]
     ) -> None:
-        """Print and keep a table. columns: key -> (title, format); rows: lists of values."""
+        """Print a table, and store it for the JSON file. columns: key -> (title, format); rows:
+        lists of values."""
         widths = {
             key: max(len(title), len(self._text(form, -1.0 if "s" not in form else "")))
             for key, (title, form) in columns.items()
@@ -64,7 +65,7 @@ class Report:
         )
 
     def counters(self, counters: Counters) -> None:
-        """Print and keep the cost of a run."""
+        """Print the cost of a run, and store it for the JSON file."""
         kept = {
             key: getattr(counters, key)
             for key in ("steps", "evaluations", "rejected", "factorizations")
@@ -73,13 +74,13 @@ class Report:
         self._tables["counters"] = kept
 
     def expect(self, name: str, value: Any, limit: float) -> None:
-        """Check that value <= limit; NaN fails."""
+        """Check that value <= limit. The check fails for NaN."""
         ok = bool(value <= limit)
         print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")
         self._checks.append({"name": name, "value": self._number(value), "limit": limit, "ok": ok})
 
     def end(self) -> int:
-        """Write the file. Returns the exit code."""
+        """Write the JSON file, and return the exit code."""
         ok = all(check["ok"] for check in self._checks)
         if self.options.json:
             with open(self.options.json, "w", encoding="utf-8") as file:

@@ -10,8 +10,8 @@
     run = m.freeze().simulate(times, "rk4", step=1e-3, record=["circle.phi", "energy"])
     run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
 
-The package searches for the C library in its own folder, in the build tree, in the `lib` of the
-virtual environment, and on the path of the system's loader. If the environment variable
+The package searches for the C library in its own folder, in the build tree, in the folder `lib` of
+the virtual environment, and on the path of the system's loader. If the environment variable
 BAUM_LIBRARY is set, it names the file to load.
 """
 
@@ -82,7 +82,8 @@ library_version = _lib.version
 
 
 def __getattr__(name: str) -> Any:
-    # The catalogue is a separate library, which may be missing.
+    # The catalogue is a separate library, which may be missing. It is therefore imported only when
+    # it is used.
     if name == "catalog":
         return importlib.import_module(".catalog", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command. Returns 0, or 1 after an error, whose message it prints."""
+    """Run a command and return 0. If an error occurs, print its message and return 1."""
     options = _parser().parse_args(arguments)
     try:
         options.call(options)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How this package calls the C library: statuses, exceptions of callbacks, Ctrl-C, and one thread
-at a time.
+"""Call the C library. This module converts statuses, raises the exceptions of callbacks, lets
+Ctrl-C stop a call, and allows only one thread at a time to use an object.
 
 Python handles signals in the main thread, between two of its instructions. If the main thread made
 a long call of the library, Ctrl-C would have no effect before the end of this call. If the call
@@ -36,8 +36,8 @@ STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
 def raise_later(error: BaseException | None) -> None:
-    """Keep the exception of a callback. The exception stops the present call of the library, and is
-    raised when this call has returned."""
+    """Store the exception of a callback. The exception stops the present call of the library, and
+    is raised when this call has returned."""
     _here.error = error
 
 
@@ -182,7 +182,8 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
 
 
 def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
-    """Ask a call to stop, and wait until it has stopped. Discard a call that has not begun."""
+    """Discard a call that has not begun. Ask any other call to stop, and wait until it has
+    stopped."""
     try:
         if task.claim():
             return
@@ -246,7 +247,8 @@ class Handle:
         """Call a function with this object as its first argument. Everything else is as in
         make()."""
         # dict.setdefault() marks the object as used, and is atomic. If Ctrl-C interrupts this code,
-        # the mark can be removed safely, whereas a lock that was being acquired could not.
+        # the mark tells whether this call owns the object, and can be removed safely. A lock would
+        # not tell this if Ctrl-C came while it was being acquired.
         me = object()
         try:
             while self._users.setdefault("now", me) is not me:

@@ -10,7 +10,8 @@ MOST = 30  # largest number of rows
 
 
 def table(caption: str, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """Make an HTML table of at most MOST rows. Texts are escaped, and numbers have four digits."""
+    """Make an HTML table of at most MOST rows. Texts are escaped, and numbers have four significant
+    digits."""
     rows = list(rows)
     lines = [_row("th", header), *(_row("td", row) for row in rows[:MOST])]
     if len(rows) > MOST:

@@ -26,7 +26,8 @@ PACKAGE = Path(__file__).resolve().parent
 
 
 def _folders() -> Iterator[Path]:
-    """Folders where the library may be: this package, the build tree, the virtual environment."""
+    """Return the folders where the library may be: this package, the build tree, the virtual
+    environment."""
     yield PACKAGE
     tree = PACKAGE.parents[2]
     if (tree / "include" / "baum" / "baum.h").exists():
@@ -36,7 +37,8 @@ def _folders() -> Iterator[Path]:
 
 
 def _candidates() -> Iterator[str]:
-    """Paths and names to try, in order. BAUM_LIBRARY is the only one when it is set."""
+    """Return the paths and names to try, in order. If BAUM_LIBRARY is set, only the file that it
+    names is tried."""
     named = os.environ.get("BAUM_LIBRARY")
     if named:
         yield named
@@ -125,7 +127,7 @@ def default(struct: type[Struct]) -> Struct:
 
 
 def text(value: bytes) -> str:
-    """Convert a text of the library to a string, with the names of this package."""
+    """Convert a text of the library to a string, and replace C names by names of this package."""
     return in_python(value.decode(errors="replace"))
 
 

@@ -17,7 +17,7 @@ from .typing import Array
 
 Triangles = NDArray[np.int32]
 LARGEST = 1 << 27  # [byte] largest size of a file
-LIMIT = 200_000  # most triangles of a mesh, equal to BAUM_OUTLINE_MAX_TRIANGLES
+LIMIT = 200_000  # largest number of triangles, equal to BAUM_OUTLINE_MAX_TRIANGLES
 HEAD, RECORD = 84, 50  # [byte] sizes of the header of a binary STL file and of one triangle
 RECORDS = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -60,8 +60,8 @@ def _numbers(words: list[str], where: str) -> tuple[float, float, float]:
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
-    """Return the number and the words of each line that has words. A backslash at the end of a line
-    joins it with the next line."""
+    """Yield the line number and the words of each line that is not empty. A backslash at the end of
+    a line joins it with the next line."""
     words: list[str] = []
     for number, line in enumerate(io.StringIO(data.decode("utf-8", "replace")), 1):
         line = line.strip()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts orientations and inertia tensors from the forms that users may give to those of the
-library."""
+"""Convert orientations and inertia tensors from the forms in which users may give them to the forms
+that the library uses."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-# Allowed deviation of a matrix from a rotation. Numbers that were typed by hand have such errors.
+# Largest deviation of a matrix from a rotation. Numbers that were typed by hand are often rounded.
 ROUNDING = 1e-6
 
 
@@ -76,8 +76,8 @@ def quaternion(value: Any, label: str) -> Array:
 
 def _of_matrix(r: Array) -> Array:
     """Return the quaternion p of a rotation matrix, with w >= 0 (Shepperd 1978). The matrix
-    determines p p^T. The row of this product with the largest diagonal entry is a multiple of p,
-    which is then normalized."""
+    determines p p^T. Every row of p p^T is a multiple of p. The row with the largest diagonal entry
+    is normalized."""
     turned = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
     outer = np.empty((4, 4))
     outer[0, 0] = 1.0 + np.trace(r)
@@ -89,7 +89,7 @@ def _of_matrix(r: Array) -> Array:
 
 
 def matrix(quaternions: Array) -> Array:
-    """Rotation matrices (... x 3 x 3) of unit quaternions (... x 4), w first."""
+    """Return the rotation matrices (... x 3 x 3) of unit quaternions (... x 4), w first."""
     w, x, y, z = np.moveaxis(quaternions, -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],

@@ -155,7 +155,7 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         self.end_headers()
 
     def _stream(self) -> None:
-        """Send the newest frame again and again, until the page or the view is closed."""
+        """Send the newest frame repeatedly, until the page or the view is closed."""
         self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 16)
         self._server.live.enter()
         try:

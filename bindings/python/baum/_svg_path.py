@@ -11,9 +11,9 @@ import numpy as np
 
 from .typing import Array
 
-CURVE = 16  # line segments of a Bezier curve
-ARC = math.radians(5)  # [rad] largest angle of a line segment of an arc
-LIMIT = 100_000  # points of a path
+CURVE = 16  # number of line segments that replace a Bezier curve
+ARC = math.radians(5)  # [rad] largest angle that one line segment of an arc spans
+LIMIT = 100_000  # largest number of points of a path
 
 _NUMBER = re.compile(r"[\s,]*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)", re.ASCII)
 _FLAG = re.compile(r"[\s,]*([01])")
@@ -33,7 +33,7 @@ class _Reader:
         return ValueError(f"SVG path, character {self.place + 1}: {why}")
 
     def take(self, pattern: re.Pattern[str]) -> str | None:
-        """Return the next word if it fits a pattern, otherwise None."""
+        """Return the next word if it matches a pattern, otherwise None."""
         found = pattern.match(self._text, self.place)
         if found is None:
             return None
@@ -85,7 +85,8 @@ def _arc(a: complex, numbers: list[float], b: complex) -> list[complex]:
     grown = max(abs(half), 1.0)  # if the ellipse is too small to reach b, it is enlarged
     rx, ry, half = rx * grown, ry * grown, half / grown
     side = math.sqrt(max(1 - abs(half) ** 2, 0.0)) * (1 if large == sweep else -1)
-    # Coordinates relative to a, scaled and rotated such that the ellipse is a unit circle.
+    # `half` and `centre` are relative to a, and scaled and rotated such that the ellipse becomes a
+    # unit circle.
     centre = half - side * 1j * half / abs(half)
     if not cmath.isfinite(centre):
         raise OverflowError
@@ -122,7 +123,7 @@ class _Pen:
             return
         if (
             command == "M" or self._closed
-        ):  # begin a subpath; without M, it begins where the last subpath began
+        ):  # begin a subpath; without M, begin it where the last one began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self._before = self.count
@@ -165,7 +166,7 @@ def polygons(text: str) -> list[Array]:
             raise reader.error("a command is wanted, such as M or L")
         if (
             word is None
-        ):  # numbers without a command repeat the last one; after M, they are end points of lines
+        ):  # numbers alone repeat the last command; after M, they are end points of lines
             word = {"M": "L", "m": "l"}.get(command, command)
         if not command and word not in "Mm":
             raise reader.error("a path begins with M")

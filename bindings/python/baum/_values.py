@@ -48,8 +48,8 @@ def truth(value: Any, label: str) -> bool:
 
 
 def there_are(names: Iterable[str], given: Any) -> str:
-    """Return the part of a message that lists the known names, and names the one that is most
-    similar to an unknown name."""
+    """Return the part of a message that lists the known names, and suggests the one that is most
+    similar to the given name."""
     known = list(names)
     more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
     near = difflib.get_close_matches(str(given), known, 1)

@@ -151,7 +151,7 @@ class Adding:
         held: True if assembly must not move these coordinates.
         inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
-            this.
+            False.
         user: the last argument of compiled functions, an address or an object of ctypes.
 
         If the positions are not a vector, for example if they are a unit quaternion, give these
@@ -183,8 +183,8 @@ class Adding:
     ) -> Joint:
         """Add a revolute joint (pin): a point of body_a and a point of body_b coincide.
 
-        The joint has two rows [m]. Its coordinate is angle_b - angle_a [rad]. Give either `point`,
-        or both point_a and point_b.
+        The joint has two rows [m]. Its coordinate is the angle of body_b minus the angle of body_a,
+        angle_b - angle_a [rad]. Give either `point`, or both point_a and point_b.
 
         point: the common point in the design configuration, in ground axes [m].
         point_a, point_b: the points in the axes of body_a and body_b [m].
@@ -206,14 +206,15 @@ class Adding:
         """Add a translational joint (slider): body_b slides along an axis of body_a and does not
         rotate relative to body_a.
 
-        The joint has two rows [m], [rad]. Its coordinate is the displacement from body_a's point to
-        body_b's point along the axis [m]. Give either `point`, or both point_a and point_b.
+        The joint has two rows: one in [m] and one in [rad]. Its coordinate is the displacement from
+        body_a's point to body_b's point along the axis [m]. Give either `point`, or both point_a
+        and point_b.
 
         point: the common point in the design configuration, in ground axes [m].
         point_a, point_b: the points in the axes of body_a and body_b [m].
         axis: direction of the axis. It is in ground axes if `point` is given, otherwise in the axes
             of body_a.
-        angle: the constant value of angle_b - angle_a [rad], by default that of the design
+        angle: the constant value of angle_b - angle_a [rad], by default the value in the design
             configuration.
         """
         return self._add(Joint, "planar_translational", locals())
@@ -249,11 +250,12 @@ class Adding:
     ) -> Joint:
         """Add a weld: two bodies do not move relative to each other.
 
-        The joint has three rows [m], [m], [rad]. Give either `point`, or both point_a and point_b.
+        The joint has three rows: two in [m] and one in [rad]. Give either `point`, or both point_a
+        and point_b.
 
         point: the common point in the design configuration, in ground axes [m].
         point_a, point_b: the points in the axes of body_a and body_b [m].
-        angle: the constant value of angle_b - angle_a [rad], by default that of the design
+        angle: the constant value of angle_b - angle_a [rad], by default the value in the design
             configuration.
         """
         return self._add(Joint, "planar_fixed", locals())
@@ -298,14 +300,15 @@ class Adding:
         """Add a pinion of body_b that rolls on a rack of body_a without slipping.
 
         The axis is the direction of the rack, and body_b's point is the centre of the pinion. The
-        joint has one row [m], displacement - radius (angle_b - angle_a) - offset, where
-        displacement is the distance from body_a's point to body_b's point along the axis.
+        joint has one row [m]: displacement - radius (angle_b - angle_a) - offset. The displacement
+        is measured from body_a's point to body_b's point along the axis.
 
         axis, point, point_a, point_b: as in translational().
         radius: radius of the pitch circle [m]. It is positive if the rack is to the left of the
             pinion, seen in the direction of the axis, and negative if the rack is to the right. For
             the axis (1, 0), right means below.
-        offset: the offset in the row [m]. By default the row is 0 in the design configuration.
+        offset: the offset in the row [m]. By default it makes the row 0 in the design
+            configuration.
         """
         return self._add(Joint, "planar_rack_and_pinion", locals())
 
@@ -320,14 +323,16 @@ class Adding:
         carrier: BodyLike | None = None,
         offset: Scalar | None = None,
     ) -> Joint:
-        """Add a pair of gears: two wheels, body_a and body_b, that roll on each other on a carrier.
+        """Add a pair of gears: two wheels, body_a and body_b, roll on each other. A carrier holds
+        their axles.
 
-        The joint has one row [m], radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) -
-        offset, where angle_c is the angle of the carrier.
+        The joint has one row [m]: radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) -
+        offset. angle_c is the angle of the carrier.
 
         radius_a, radius_b: radii of the pitch circles [m]; negative for a ring with internal teeth.
         carrier: the body that carries both wheels, by default ground.
-        offset: the offset in the row [m]. By default the row is 0 in the design configuration.
+        offset: the offset in the row [m]. By default it makes the row 0 in the design
+            configuration.
         """
         return self._add(Joint, "planar_gear", locals())
 
@@ -346,14 +351,14 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a. The joint has one
         row.
 
-        Choose F such that the length of its gradient is about 1 near the curve. F is then about the
-        distance from the curve. Give either `point`, or both point_a and point_b.
+        Choose F such that the length of its gradient is about 1 near the curve. F is then
+        approximately the distance from the curve. Give either `point`, or both point_a and point_b.
 
         curve(xy): the numbers F [m], F_x, F_y, F_xx, F_xy, F_yy at the point xy [m]. The
             coordinates xy are in the axes of body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
-        point_a, point_b: the origin of the curve and the point of body_b, in the axes of the bodies
-            [m].
+        point_a, point_b: the origin of the curve in the axes of body_a, and the point of body_b in
+            the axes of body_b [m].
         user: the last argument of a compiled function.
         """
         return self._add(Joint, "planar_curve", locals())
@@ -368,8 +373,8 @@ class Adding:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Let a point of body_a move only along a blade that is fixed in body_a, such as a skate or
-        a wheel seen from above.
+        """Let a point of body_a move only along a blade that is fixed in body_a. Examples are a
+        skate, and a wheel in a plane that is seen from above.
 
         The joint has one row at velocity level [m/s]: the velocity of the point across the blade is
         zero. Give either `point` or point_a.
@@ -401,9 +406,9 @@ class Adding:
         joint a screw. A coupling with a law can describe a cam.
 
         ratio: in the unit of b per unit of a.
-        offset: in the unit of b, [rad] or [m]. By default the design configuration
-            satisfies the row.
-        law(a): f(a), its first and its second derivative. It replaces ratio and offset.
+        offset: in the unit of b, [rad] or [m]. By default the offset is such that the design
+            configuration satisfies the row.
+        law(a): f(a), its first and its second derivative. The law replaces ratio and offset.
         user: the last argument of a compiled function.
         coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
         """
@@ -427,13 +432,14 @@ class Adding:
         / 2, or law(t).
 
         value: value at t = 0 [rad] or [m]. If the design configuration has another value, assembly
-            moves the bodies: a crank that is drawn at an angle needs this angle as value.
+            moves the bodies. To keep a crank at the angle of the design configuration, give this
+            angle.
         rate: first derivative at t = 0 [rad/s] or [m/s].
         acceleration: second derivative, constant [rad/s^2] or [m/s^2].
-        law(t): the value, its first and its second derivative at the time t [s]. It replaces the
-            three numbers.
+        law(t): the value, its first and its second derivative at the time t [s]. The law replaces
+            value, rate and acceleration.
         user: the last argument of a compiled function.
-        coordinate: which coordinate of the joint; "first" is the first one in this list.
+        coordinate: which coordinate of the joint; "first" is the first one in the list below.
 
         - Revolute joints have "angle".
         - Translational joints, pins in a slot, prismatic joints and points on a line have
@@ -484,8 +490,9 @@ class Adding:
         rows: number of constraints.
         phi(t, q): Phi (rows).
         jacobian(t, q): the Jacobian J (rows x nv).
-        nu(t, q): -dPhi/dt (rows).
-        gamma(t, q, v): gamma, the right-hand side of J a = gamma (rows).
+        nu(t, q): minus the partial derivative of Phi with respect to t (rows).
+        gamma(t, q, v): gamma, the right-hand side of the equation J a = gamma for the accelerations
+            a (rows).
         user: the last argument of compiled functions.
 
         Only phi is required. If you do not give the other functions, the library computes them by
@@ -495,8 +502,9 @@ class Adding:
         the derivatives, or give compiled functions, which can be addresses, ctypes function
         pointers, or Numba's cfunc.
 
-        velocity_level: the constraints are J v = nu without a Phi (non-holonomic), such as a wheel
-        that does not slip. jacobian is then required, and phi must be None:
+        velocity_level: True if the constraints are non-holonomic: they are J v = nu, and there is
+            no Phi. Examples are a skate, and a wheel that does not slip. jacobian is then required,
+            and phi must be None:
 
         >>> import math, baum
         >>> m = baum.Mechanism(gravity=(0, 0, 0))
@@ -535,10 +543,11 @@ class Adding:
         stiffness: [N/m].
         damping: [N s/m].
         free_length: length without force [m], by default the distance in the design configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
-            replaces the three numbers above. The spring then has no potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
+            law replaces stiffness, damping and free_length. The spring then has no potential
+            energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
-            this.
+            False.
         user: the last argument of a compiled function.
         """
         return self._add(Force, "planar_spring", locals())
@@ -561,9 +570,10 @@ class Adding:
 
         stiffness: [N m/rad].
         damping: [N m s/rad].
-        free_angle: angle without torque [rad], by default that of the design configuration.
+        free_angle: angle without torque [rad], by default the angle in the design configuration.
         law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
-            rate. It replaces the three numbers above. The spring then has no potential energy.
+            rate. The law replaces stiffness, damping and free_angle. The spring then has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
@@ -587,10 +597,11 @@ class Adding:
             continuous over several revolutions.
         stiffness: [N m/rad] or [N/m].
         damping: [N m s/rad] or [N s/m].
-        free_value: value without force [rad] or [m], by default that of the design configuration.
+        free_value: value without force [rad] or [m], by default the value in the design
+            configuration.
         law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
-            respect to both arguments. It replaces the three numbers above. The spring then has no
-            potential energy.
+            respect to both arguments. The law replaces stiffness, damping and free_value. The
+            spring then has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())
@@ -632,19 +643,19 @@ class Adding:
     ) -> Force:
         """Add a generalized force on one body or on several bodies.
 
-        The arguments q and v of the functions are the coordinates of these bodies. nv is the number
-        of their velocities.
+        The arguments q and v of the functions are the positions and velocities of these bodies. nv
+        is the number of these velocities.
 
-        force(t, q, v): the generalized force (nv). For a planar body it consists of x, y [N] and a
-            moment [N m]. For a spatial body it consists of a force x, y, z in ground axes and a
-            moment x, y, z in body axes. The force acts at the centre of mass.
+        force(t, q, v): the generalized force (nv). For a planar body it consists of a force x, y
+            [N] and a moment [N m]. For a spatial body it consists of a force x, y, z in ground axes
+            and a moment x, y, z in body axes. The force acts at the centre of mass.
         force_q, force_v: derivatives of the force with respect to q and v (nv x nv). By default the
             library computes them by differences.
         potential(t, q): potential energy of the force [J].
         inputs: inputs whose values the functions receive as further arguments after v. With
             inputs=["torque"] the library calls force(t, q, v, torque).
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
-            this.
+            False.
         user: the last argument of compiled functions.
         """
         return self._add(Force, "user_force", locals())
@@ -656,7 +667,7 @@ class Adding:
         motor.
 
         Loads and force functions refer to inputs. Every run and every workspace starts with the
-        value `initial`, and keeps it until its method set_input() changes it.
+        value `initial`, and keeps it until you call its method set_input().
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')

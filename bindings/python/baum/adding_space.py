@@ -26,11 +26,11 @@ class AddingInSpace:
 
     A point is given by its coordinates x, y, z [m]. The place of a joint is given by `point` in
     ground axes, in the design configuration, or by `point_a` and `point_b` in the axes of the
-    bodies. `axis` is a direction on body_a, and `axis_b` the corresponding direction on body_b.
-    Both may have any length except 0. They are in ground axes if `point` is given, otherwise in the
-    axes of the bodies. By default, `axis_b` coincides with `axis` in the design configuration.
-    Spatial joints and springs can also connect planar bodies and planar particles. These stay in
-    the plane z = 0.
+    bodies. `axis` is a direction on body_a, and `axis_b` is the corresponding direction on body_b.
+    These two vectors may have any length except 0. They are in ground axes if `point` is given,
+    otherwise in the axes of the bodies. By default, `axis_b` coincides with `axis` in the design
+    configuration. Spatial joints and springs can also connect planar bodies and planar particles.
+    These stay in the plane z = 0.
     """
 
     if TYPE_CHECKING:
@@ -127,9 +127,9 @@ class AddingInSpace:
         """Add a revolute joint (hinge) in space: body_b rotates about an axis of body_a.
 
         The joint has five rows: three let the points of both bodies coincide [m], and two make
-            their axes parallel [-]. The coordinate of the joint is the angle of body_b relative to
-            body_a about the axis [rad]. It is 0 in the design configuration, and a run counts its
-            revolutions. Give either `point`, or both point_a and point_b.
+        their axes parallel [-]. The coordinate of the joint is the angle of body_b relative to
+        body_a about the axis [rad]. It is 0 in the design configuration. During a run it is
+        continuous over several revolutions. Give either `point`, or both point_a and point_b.
 
         point: the common point in the design configuration, in ground axes [m].
         point_a, point_b: the points in the axes of body_a and body_b [m].
@@ -181,10 +181,9 @@ class AddingInSpace:
         axis.
 
         The joint has four rows: two make the axes of both bodies parallel [-], and two keep
-            body_b's point on the axis through body_a's point [m]. The joint has two coordinates:
-            "displacement" is the displacement from body_a's point to body_b's point along the axis
-            [m], and "angle" is the angle about the axis [rad], which is 0 in the design
-            configuration.
+        body_b's point on the axis through body_a's point [m]. The joint has two coordinates:
+        "displacement" is the displacement from body_a's point to body_b's point along the axis [m],
+        and "angle" is the angle about the axis [rad], which is 0 in the design configuration.
 
         point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         """
@@ -206,9 +205,9 @@ class AddingInSpace:
         to body_a.
 
         The joint has five rows: two make the axes of both bodies parallel [-], two keep body_b's
-            point on the axis through body_a's point [m], and one prevents a rotation about the axis
-            [-]. The coordinate of the joint is the displacement from body_a's point to body_b's
-            point along the axis [m].
+        point on the axis through body_a's point [m], and one prevents a rotation about the axis
+        [-]. The coordinate of the joint is the displacement from body_a's point to body_b's point
+        along the axis [m].
 
         point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         """
@@ -231,9 +230,9 @@ class AddingInSpace:
         plane.
 
         The joint has three rows: two make the normals of both bodies parallel [-], and one keeps
-            body_b's point in the plane [m]. The joint has three coordinates: "x" and "y" are the
-            displacements from body_a's point to body_b's point in the plane [m], and "angle" is the
-            angle about the normal [rad], which is 0 in the design configuration.
+        body_b's point in the plane [m]. The joint has three coordinates: "x" and "y" are the
+        displacements from body_a's point to body_b's point in the plane [m], and "angle" is the
+        angle about the normal [rad], which is 0 in the design configuration.
 
         point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         x_axis: direction of x. It is in ground axes if `point` is given, otherwise in the axes of
@@ -333,7 +332,7 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         user: Any = None,
     ) -> Joint:
-        """Keep a point of body_b on a curve that is fixed in body_a, as a bead on a wire.
+        """Keep a point of body_b on a curve that is fixed in body_a, like a bead on a wire.
 
         Two surfaces F(x, y, z) = 0 and G(x, y, z) = 0 intersect in the curve. The joint has two
         rows, F and G [m]. Choose F and G such that the lengths of their gradients are about 1 near
@@ -344,8 +343,8 @@ class AddingInSpace:
             F_yz, F_zz, and then the same ten numbers of G. The coordinates xyz are in the axes of
             body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
-        point_a, point_b: the origin of the curve and the point of body_b, in the axes of the bodies
-            [m].
+        point_a, point_b: the origin of the curve in the axes of body_a, and the point of body_b in
+            the axes of body_b [m].
         user: the last argument of a compiled function.
         """
         return self._add(Joint, "spatial_curve", locals())
@@ -372,9 +371,9 @@ class AddingInSpace:
         radius: largest radius of the disc [m], positive.
         body_a: the body of the plane, by default ground.
         point_a: a point of the plane in the axes of body_a [m].
-        normal: normal of the plane in the axes of body_a. It points to the disc.
+        normal: normal of the plane in the axes of body_a. It points towards the disc.
         centre: centre of the disc in the axes of body_b [m].
-        axis_b: axis of the disc in the axes of body_b.
+        axis_b: direction of the disc's axis, in the axes of body_b.
         rim_radius: radius of the circular cross-section of the rim [m], from 0 to `radius`. With 0
             the disc is thin, and with `radius` it is a sphere.
         """
@@ -390,15 +389,15 @@ class AddingInSpace:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Keep a point of body_a from moving along an axis that is fixed in body_a, relative to
-        body_b. An example is a skate, whose axis is perpendicular to the sides of its blade.
+        """Prevent a point of body_a from moving relative to body_b along an axis that is fixed in
+        body_a. For a skate, the axis is perpendicular to the sides of the blade.
 
         The joint has one row at velocity level [m/s]: the velocity of the point along the axis is
-        zero. It does not keep the point on a surface. Give either `point` or point_a.
+        zero. The joint does not keep the point on a surface. Give either `point` or point_a.
 
         axis: direction in which the point does not move. It is in ground axes if `point` is given,
-            otherwise in the axes of body_a. The planar knife_edge() has the direction of the blade
-            instead.
+            otherwise in the axes of body_a. In the planar knife_edge(), `axis` is the direction of
+            the blade instead.
         point: the point in the design configuration, in ground axes [m].
         point_a: the point in the axes of body_a [m].
         body_b: the body on which the blade slides, by default ground.
@@ -445,10 +444,10 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
     ) -> Joint:
         """Connect two shafts that meet at a point and rotate with equal angular velocities about
-        their axes, at any angle between the axes below 180 degrees. The joint has four rows: three
-        for the points [m] and one for the rotation [-].
+        their axes. The angle between the axes may have any value below 180 degrees. The joint has
+        four rows: three for the points [m] and one for the rotation [-].
 
-        axis, axis_b: axes of the shafts. All other arguments are as for other joints.
+        axis, axis_b: directions of the shafts. All arguments are given as in spatial_revolute().
         """
         return self._add(Joint, "spatial_constant_velocity", locals())
 
@@ -491,8 +490,8 @@ class AddingInSpace:
         user: Any = None,
         transition: Scalar | None = None,
     ) -> Force:
-        """Add a cable, rope or tendon that runs along straight lines through points of bodies, and
-        slides through them without friction. It only pulls.
+        """Add a cable, rope or tendon. It runs in straight lines from one point to the next, slides
+        over these points without friction, and can only pull. The points are fixed in bodies.
 
         With the stretch s = length - free_length, the tension is stiffness s + damping
         w(s / transition) (d/dt length) if s and this sum are positive, otherwise 0. The function
@@ -504,11 +503,11 @@ class AddingInSpace:
         points: x, y, z of each point in the axes of its body [m].
         stiffness: [N/m].
         damping: [N s/m].
-        free_length: length up to which the cable is slack [m], by default that of the design
+        free_length: length up to which the cable is slack [m], by default the length in the design
             configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. It
-            replaces the other numbers, and must return zeros where the cable is slack. The cable
-            then has no potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
+            law replaces stiffness, damping, free_length and transition, and must return zeros where
+            the cable is slack. The cable then has no potential energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.
@@ -537,9 +536,9 @@ class AddingInSpace:
         linear, or a law gives their torque.
 
         Points and axes are given as for joints. The angle is the twist of body_b relative to body_a
-        about the axis, as in the swing-twist decomposition: if the smallest rotation that makes
-        axis_b parallel to axis is applied to body_b, a rotation about the axis remains, and the
-        angle is that of this rotation. It is 0 in the design configuration, and runs count its
+        about the axis, as in the swing-twist decomposition: the smallest rotation that makes axis_b
+        parallel to axis is removed, and the angle measures the rotation about the axis that
+        remains. It is 0 in the design configuration. During a run it is continuous over several
         revolutions. All other arguments are as in torsion_spring(). For the angle of a joint, use
         joint_spring().
         """
@@ -566,8 +565,8 @@ class AddingInSpace:
         Points and axes are given as for joints; axis is the z axis of the bushing.
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing
-            on body_a, and the last three to the rotation vector of body_b relative to body_a
-            [rad], whose length must stay below pi.
+            on body_a. The last three rows belong to the rotation vector of body_b relative to
+            body_a [rad]. The length of the rotation vector must stay below pi.
         """
         return self._add(Force, "spatial_bushing", locals())
 

@@ -2,17 +2,17 @@
 """Wrap functions of the user so that the library can call them.
 
 A Python function receives arguments such as (t, q), (t, q, v) or a point, and returns its result.
-This module wraps such a function in another one, called the shell, which has the signature
-that the library calls. The shell passes q and v as read-only arrays, which are valid only during
-the call. It checks the returned value and writes it to the memory of the library. If the function
-raises an exception, the shell keeps the exception and stops the present call of the library. The
-exception is raised when this call has returned. A force function that names inputs receives their
+This module wraps such a function in another one, called the shell, which has the signature that the
+library expects. The shell passes q and v as read-only arrays, which are valid only during the call.
+It checks the returned value and writes it to the memory of the library. If the function raises an
+exception, the shell stores the exception and stops the present call of the library. The exception
+is raised when this call has returned. A force function whose definition names inputs receives their
 present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
-    function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
-    library calls it directly. A compiled force function receives all inputs of the mechanism, in
-    the order in which they were added.
+function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
+library calls it directly. A compiled force function receives all inputs of the mechanism, in the
+order in which they were added.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Write = Callable[[int, Any], None]
 
 class _Views(dict[int, Array]):
     """Arrays that share memory with the library, one for each address. Creating an array is
-    expensive. The library uses few addresses, so an array is kept and used again for the same
+    expensive. The library uses few addresses, so each array is stored and reused for its
     address."""
 
     def __init__(self, shape: Shape, writeable: bool) -> None:
@@ -143,8 +143,8 @@ def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
 
     def make(function: Function, write: Write, nq: int, nv: int) -> Shell:
         q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
-        # The view ends with the last input that the function needs. Its length must not be the
-        # present number of inputs, because a copy of the mechanism may have more inputs.
+        # The view ends with the last input that the function needs. Its length does not depend on
+        # the number of all inputs, because a copy of the mechanism may have more inputs.
         inputs_at = _Views((1 + max(inputs),), writeable=False)
 
         def shell(t: float, q: int, v: int, given: int, out: int, user: Any) -> int:
@@ -265,7 +265,7 @@ def _answer_nan(error: BaseException, out: int, count: int) -> None:
 
 
 def _answer(error: BaseException) -> int:
-    """Keep an exception, and return the status that tells the library about it."""
+    """Store an exception, and return the status that tells the library about it."""
     asks_again = isinstance(error, Retry)
     _calls.raise_later(None if asks_again else error)
     lib.baum_fail(Status.ERR_CALLBACK, repr(error).encode(errors="replace"))
@@ -285,8 +285,8 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_normalize_fn: _shell_normalize,
 }
 
-# ctypes has only one type for all functions with the same signature. For these functions, the name
-# of the field selects the shell.
+# ctypes has only one type for all functions with the same signature. If functions of the same type
+# need different shells, the name of the field selects the shell.
 SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 

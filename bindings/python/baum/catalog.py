@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Ready mechanisms whose motion is known.
+"""A catalogue of mechanisms whose motion is known.
 
     from baum import catalog
 
@@ -12,8 +12,8 @@
 
 Keyword arguments set the parameters of a mechanism; the other parameters have their defaults. Data,
 times and states are in SI units. Some references are known only for the default parameters.
-Asking for them with other parameters raises baum.Error, and so do unknown names and parameters.
-docs/mechanisms.md lists all mechanisms.
+baum.Error is raised if you ask for such a reference with other parameters, and for unknown names
+and parameters. docs/mechanisms.md lists all mechanisms.
 """
 
 from __future__ import annotations

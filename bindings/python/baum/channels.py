@@ -38,7 +38,8 @@ class Channel:
 
     @classmethod
     def of_bytes(cls, key: str, struct: bytes, tag: int) -> Channel:
-        """Make a channel from the bytes of its struct. The ids in it get the tag of a mechanism."""
+        """Make a channel from the bytes of its struct. The ids in the struct get the tag that
+        identifies a mechanism."""
         made = cls(key, 0)
         made.struct = _abi.baum_channel.from_buffer_copy(struct)
         for id in (made.struct.body, made.struct.joint):
@@ -64,7 +65,8 @@ WHOLE = {
 
 
 class Layout:
-    """The places of the columns of several channels in one row of numbers."""
+    """The order of several channels in one row of numbers: which columns belong to which
+    channel."""
 
     def __init__(self, mechanism: Mechanism, channels: Iterable[Channel]) -> None:
         self.channels = {channel.key: channel for channel in channels}
@@ -80,7 +82,7 @@ class Layout:
             self.width = end
 
     def rows(self, count: int) -> Array:
-        """Make an empty array for that many rows."""
+        """Return an uninitialized array with this number of rows."""
         return np.empty((count, self.width))
 
 

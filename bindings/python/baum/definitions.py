@@ -2,7 +2,8 @@
 """Convert definitions of elements from keyword arguments to structs of the library, and back.
 
 An argument that is None leaves its field at the default. When an existing definition is changed,
-None leaves the field at its present value. NaN is different from None: it means "not given".
+None leaves the field at its present value. NaN is different from None: it is passed to the library,
+where it means "not given".
 """
 
 from __future__ import annotations
@@ -136,7 +137,7 @@ KINDS = {
     )
 }
 
-# Names of joint coordinates -> their numbers in the library.
+# Names of joint coordinates -> their values in the library.
 COORDINATES = {
     one.name.removeprefix("BAUM_COORDINATE_").lower(): int(one)
     for one in _abi.baum_joint_coordinate
@@ -144,7 +145,7 @@ COORDINATES = {
 
 Find = Callable[[str, Any], Any]
 
-# Arguments whose names differ from those of their fields: argument -> field.
+# Arguments whose names differ from the names of their fields: argument -> field.
 FIELDS = {"rows": "row_count"}
 ARGUMENTS = {field: argument for argument, field in FIELDS.items()}
 HIDDEN = ("struct_size", "body_count", "point_count", "count")
@@ -163,7 +164,8 @@ FAMILIES: dict[Any, str] = {
 
 
 class Definition:
-    """The definition of one element, with the objects that must stay alive as long as it is used.
+    """The definition of one element, with the objects that must stay alive as long as the
+    definition is used.
 
     label: names the element in messages.
     find: the function find(family, value), which returns the handle for a handle or a name.

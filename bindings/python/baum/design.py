@@ -104,8 +104,8 @@ def _measured(name: str, values: Values, a: Frame, b: Frame) -> float:
 
 
 def taken(element: Element, moved: Collection[str]) -> Values:
-    """Return the numbers that a joint or force takes from the design configuration, by the names of
-    their fields. The result is empty if the element acts on no body named in `moved`."""
+    """Return the numbers that a joint or force takes from the design configuration, as a dict from
+    field names to numbers. The result is empty if the element acts on no body named in `moved`."""
     values = element.definition
     if "joint_a" in values:
         a, b = values["joint_a"], values["joint_b"]

@@ -55,7 +55,7 @@ def _is_given(values: Values, name: str) -> bool:
 
 def taken(values: Values) -> Values:
     """Return the numbers that a joint or force with these values takes from the design
-    configuration, by the names of their fields."""
+    configuration, as a dict from field names to numbers."""
     a, b = Frame.of(values["body_a"]), Frame.of(values["body_b"])
     fields: Values = {}
     axis_a = a.axes
@@ -129,7 +129,7 @@ def check_turned(
     element: Element, used_angles: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
 ) -> None:
     """Refuse changes that rotate the bodies of an element relative to each other, if the element
-    takes their relative orientation from the design configuration. Such elements are those of
+    takes their relative orientation from the design configuration. These are the elements of
     DESIGNED, and joints whose angle a driver, a coupling or a spring uses."""
     kind = element.kind.name if element.kind else ""
     is_spatial = element.kind is not None and element.kind.is_spatial

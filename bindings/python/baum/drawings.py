@@ -102,7 +102,7 @@ def page(motion: _motion.Motion) -> Page:
 
 
 def figure(motion: _motion.Motion, sample: int, size: tuple[float, float] | None = None) -> Drawing:
-    """Make the picture of one sample. size: width and height [px], by default those that the
-    library chooses."""
+    """Make the picture of one sample. size: width and height [px]; by default the library chooses
+    them."""
     svg = motion.print(lib.baum_page_svg, sample)
     return Drawing(svg if size is None else pictures.resized(svg, size))

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Handles of bodies, joints, forces and inputs.
 
-If a mechanism is a copy of another one, the handles of an element in both are equal.
+If one mechanism is a copy of another one, the handles of the same element in both mechanisms are
+equal.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ class Element:
         return hash(self._identity())
 
     def __reduce__(self) -> Any:
-        # Ids are valid in one process only.
+        # Pickle the name, because an id is valid in one process only.
         return operator.getitem, (self.mechanism, self.name)
 
     @property
@@ -139,12 +140,12 @@ class Body(Element):
         return self._channel("pose", _Q.BAUM_BODY_POSE, point)
 
     def velocity_of(self, point: ArrayLike) -> Channel:
-        """Channel: like `velocity`, for another point than the centre of mass. The point is given
+        """Channel: like `velocity`, for a point that is not the centre of mass. The point is given
         in body axes [m]."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY, point)
 
     def acceleration_of(self, point: ArrayLike) -> Channel:
-        """Channel: like `acceleration`, for another point than the centre of mass. The point is
+        """Channel: like `acceleration`, for a point that is not the centre of mass. The point is
         given in body axes [m]."""
         return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
 
@@ -156,7 +157,7 @@ class Body(Element):
         You can set this property for every body except user coordinates, and also for ground. Its
         value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
         of a polygon, an SVG path as a string (with y upward), a list of these, or None. The
-        mechanism may be frozen or not. Do not set it while another thread draws.
+        mechanism may be frozen or not. Do not set it while another thread draws the mechanism.
         """
         return outlines.read(self)
 
@@ -204,7 +205,7 @@ class Joint(Element):
         """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
         axes. The moment is about the joint's point on body_b. For joints in space, both
         have three components. For a gear, a coupling or a user constraint, the channel has the
-        generalized force -J^T lambda on the velocities of its bodies."""
+        generalized force -J^T lambda, with one number for each velocity of its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
@@ -213,7 +214,7 @@ class Joint(Element):
         revolute joint, and in [m], [m/s] for a joint along an axis.
 
         If a joint has several coordinates, the channel has the first one: the displacement of a
-            cylindrical joint, the angle of a universal joint, or x of a planar joint in space.
+        cylindrical joint, the angle of a universal joint, or x of a planar joint in space.
         """
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 

@@ -65,7 +65,7 @@ class Error(Exception):
     run: if simulate() or sample() has failed, a Run with the samples recorded before the failure;
         otherwise None.
 
-    str(error) is the message of the library, with the names of this package.
+    str(error) is the message of the library, in which names of this package replace C names.
     """
 
     def __init__(self, status: int, message: str) -> None:
@@ -217,7 +217,7 @@ def as_warning(struct: _abi.baum_warning, joint: Joint | None) -> Warning:
 
 
 def warn(warning: Warning) -> None:
-    """Issue a warning. Python reports it at the line outside this package that made the call."""
+    """Issue a warning. Python then shows the line of the user's program that made the call."""
     level, frame = 2, sys._getframe(1)
     while frame.f_back and os.path.dirname(os.path.abspath(frame.f_code.co_filename)) == PACKAGE:
         level, frame = level + 1, frame.f_back

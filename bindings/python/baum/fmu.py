@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 MODEL = "baum_fmu"  # the name of the binary in every FMU
 SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
-# Options that an FMU does not support. The simulator sets the start time.
+# Options that an FMU does not support. The program that runs the FMU sets the start time.
 REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
 
 
@@ -54,7 +54,7 @@ class _Place(ctypes.Structure):
 
 def _library_file() -> Path:
     """Return the file of the loaded library. If the path of the library has no folder, the dynamic
-    loader has searched for it, and this function asks the loader."""
+    loader has searched for the file, and this function asks the loader where it is."""
     if os.path.dirname(library) or sys.platform == "win32":
         return Path(library)
     found = _Place()
@@ -64,7 +64,7 @@ def _library_file() -> Path:
 
 def _binary() -> tuple[str, Path]:
     """Return the path of the binary in an FMU, and the file of the binary on this system. This file
-    is in the folder of the library, or in the folder baum there."""
+    is in the folder of the library, or in its subfolder baum."""
     system, suffix = SYSTEMS.get(sys.platform, ("linux", ".so"))
     machine = platform.machine().lower()
     inside = f"binaries/{MACHINES.get(machine, machine)}-{system}/{MODEL}{suffix}"
@@ -93,7 +93,7 @@ def _licenses() -> Iterator[tuple[str, bytes]]:
 
 
 def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the options that differ from their defaults, as fmu.json contains them."""
+    """Return the options that differ from their defaults, in the form that fmu.json needs."""
     from .simulation import make_options
 
     for name in REFUSED:
@@ -115,7 +115,8 @@ def _options(method: Any, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _channel(channel: Channel) -> dict[str, Any]:
-    """Return a channel as fmu.json contains it. Bodies and joints are given by their numbers."""
+    """Return a channel in the form that fmu.json needs. Bodies and joints are given by their
+    indices."""
     struct = channel.struct
     found: dict[str, Any] = {"quantity": struct.quantity, "point": list(struct.point)}
     for family in ("body", "joint"):
@@ -130,7 +131,8 @@ def _channel(channel: Channel) -> dict[str, Any]:
 
 
 def _numbered(name: str, count: int) -> list[str]:
-    """Name the numbers of a parameter or the columns of a channel, like Run.to_dict()."""
+    """Return names for the numbers of a parameter or for the columns of a channel, as Run.to_dict()
+    does."""
     return [name] if count == 1 else [f"{name}[{k}]" for k in range(count)]
 
 
@@ -194,8 +196,8 @@ def _description(
 
 
 def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mechanism:
-    """Copy a mechanism. In the copy, the points of joints on bodies that parameters move are given
-    in body axes, as after Mechanism.copy(). The joints thus keep their places on these bodies."""
+    """Copy a mechanism. If a parameter can move a body, the copy gives the points of joints on this
+    body in body axes, as Mechanism.copy() does. The joints thus keep their places on the body."""
     changes: dict[str, dict[str, Any]] = {}
     for name in parameters:
         element, _, field = name.rpartition(".")
@@ -205,7 +207,8 @@ def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mecha
             if field == "orientation":
                 w, x, y, z = present
                 rotated = {element: {field: (-x, w, z, -y)}}
-                list(mechanism._kept_when_moved(rotated))  # refuses elements that need it
+                # Raise ValueError if an element needs the present orientation of the body.
+                list(mechanism._kept_when_moved(rotated))
     return mechanism.thawed(**changes)
 
 
@@ -248,7 +251,7 @@ def export(
     copy.freeze()
     layout = Layout(copy, [copy.channel(one) for one in outputs])
     with copy.simulation(method, **options) as run:
-        run.get(*layout.channels.values())  # fails here if the FMU could not be simulated
+        run.get(*layout.channels.values())  # raises an error if the FMU could not run
     read = _inputs(mechanism, copy, inputs)
     variables = [_Variable("time", "independent", "continuous")]
     variables += [_Variable(one.name, "input", "continuous", one.initial) for one in read]

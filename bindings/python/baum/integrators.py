@@ -2,8 +2,9 @@
 """Integrators by name, and the stability of Baumgarte's gains with them.
 
 The functions stability...() take an integrator or its name. All of them raise ValueError for a name
-that does not exist, and TypeError for values that are not numbers. Some integrators have no region
-of stability, such as "cvode_bdf" and "rattle". For these, most of the functions raise baum.Error.
+that does not exist, and TypeError for values that are not numbers. Some integrators, such as
+"cvode_bdf" and "rattle", have no region of stability. For these integrators, most of the functions
+raise baum.Error.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from .typing import Array, ArrayLike, Scalar
 
 
 def names(enum: type[IntEnum], prefix: str) -> dict[str, int]:
-    """Return the values of an enum of the library by their names in lower case."""
+    """Return a dict from the names of an enum of the library, in lower case, to their values."""
     return {value.name[len(prefix) :].lower(): value for value in enum}
 
 
@@ -35,8 +36,8 @@ class Integrator:
     name: its name for the argument `integrator`.
     order: order of accuracy; 0 if it varies.
     fixed_step: whether the method takes `step`.
-    variable_step: whether the method takes `rtol`. If it takes both, give a run one of the two;
-        "kinematics" takes neither.
+    variable_step: whether the method takes `rtol`. If it takes both, give a run either `step` or
+        `rtol`. "kinematics" takes neither.
     formulations: names of the formulations that it offers. The first one is the default.
     """
 
@@ -86,8 +87,8 @@ def lookup(value: Any) -> Integrator:
 
 
 class Amplification(NamedTuple):
-    """How one step changes a constraint violation: it multiplies the parts of the violation by
-    the roots z.
+    """How one step changes a constraint violation: the violation is a sum of modes, and the step
+    multiplies each mode by a root z.
 
     stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
     spectral_radius: the largest |z| [-]. Violations decay if it is below 1.
@@ -109,7 +110,7 @@ def stability(
 ) -> Amplification:
     """Compute the amplification of a violation with the gains alpha h [-] and (beta h)^2 [-].
 
-    Without beta2_h2 the result applies to rows of velocity level, which have no beta. A violation
+    Without beta2_h2 the result applies to rows at velocity level, which have no beta. A violation
     of such a row has only one mode, so the second root is NaN.
     """
     out = _abi.baum_amplification()
@@ -128,8 +129,8 @@ def stability_limit(
     integrator: str | Integrator, damping_ratio: Scalar = 1.0, *, velocity_level: bool = False
 ) -> float:
     """Return the stability limit for gains with alpha = damping_ratio x beta: they are stable from
-    alpha h = 0 up to this limit [-]. It is 0 if even small gains are unstable. velocity_level:
-    return the limit of rows of velocity level, which have no beta."""
+    alpha h = 0 up to this limit [-]. It is 0 if even small gains are unstable. velocity_level: True
+    returns the limit for rows at velocity level, which have no beta."""
     if velocity_level:
         return _numbers(lib.baum_stability_velocity_limit, 1, integrator)[0]
     ratio = number(damping_ratio, "damping_ratio")
@@ -183,8 +184,8 @@ def stability_grid(
     """Compute spectral radii on a rectangular grid of alpha h and (beta h)^2.
 
     alpha_h, beta2_h2: first and last value of each [-].
-    shape: number of rows, which belong to values of beta2_h2, and of columns, which belong to
-        values of alpha_h.
+    shape: number of rows and number of columns. Each row belongs to a value of beta2_h2, and each
+        column to a value of alpha_h.
     """
     rows, columns = shape
     columns_range = vector(alpha_h, 2, "alpha_h")
@@ -203,9 +204,9 @@ def stability_grid(
 
 
 def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Array:
-    """Return points (alpha h, (beta h)^2) [-] at which the spectral radius is `radius` (n x 2).
-    They form closed curves. A row of NaN separates two curves, so that Matplotlib draws them
-    separately."""
+    """Return points (alpha h, (beta h)^2) [-] as an array (n x 2). At these points the spectral
+    radius is `radius`. They form closed curves. A row of NaN separates two curves, so that
+    Matplotlib draws them separately."""
     return _arrays(lib.baum_stability_outline, integrator, number(radius, "radius"))
 
 

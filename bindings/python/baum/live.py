@@ -56,8 +56,8 @@ NO_FRAME = Frame(0.0, np.empty(0))
 class Live:
     """What a run and its views share: the newest frame, and whether the run is paused.
 
-    The progress function that the library calls is call(). The user's progress function is
-    `function`; it is called every `interval` seconds during the present call.
+    The method call() is the progress function that the library calls. The user's progress function
+    is `function`. During the present call, it is called every `interval` seconds.
     """
 
     def __init__(self, interval: float) -> None:
@@ -91,7 +91,7 @@ class Live:
         return bool(self.function(t))
 
     def is_silent(self, seconds: float) -> bool:
-        """Whether the library will not call call() within this time [s]."""
+        """Whether the library does not use call() within this time [s]."""
         return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:
@@ -214,8 +214,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages keep what they show. If the run waits and this was its last view,
-        the run continues."""
+        """End the view. Its pages continue to show the last frame. If the run is paused and this
+        was its last view, the run continues."""
         self._server.end()
         self._server.thread.join(5)
 
@@ -229,7 +229,7 @@ def open_view(
     paused: bool,
     browser: bool,
 ) -> View:
-    from ._server import Server  # the modules that it imports are large
+    from ._server import Server  # imported late, because it imports large modules
 
     live.frame = Frame(simulation.time, simulation.q)
     server = Server(live, owner, simulation.mechanism, title, traces)

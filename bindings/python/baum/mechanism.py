@@ -124,7 +124,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
             self.characteristic_length = characteristic_length
 
     def _adopt(self, address: Any, like: Mechanism | None = None) -> None:
-        """Take over a mechanism of the library, with the elements of another Mechanism."""
+        """Take over a mechanism of the library. If it is a copy of the Mechanism `like`, take over
+        the elements and functions of `like`, too."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
         self.handle: int = address
         self._sizes: Sizes | None = None  # None until they are read after freezing
@@ -308,8 +309,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @property
     def characteristic_length(self) -> float:
-        """The length [m] to which tolerances are relative. It is NaN if it was not set and the
-        mechanism is not frozen. You can set it before freezing."""
+        """The length [m] to which tolerances are relative. You can set it before freezing. If you
+        do not, it is NaN until the mechanism is frozen."""
         value = ctypes.c_double()
         _calls.make(lib.baum_mechanism_get_characteristic_length, self.handle, ctypes.byref(value))
         return value.value
@@ -358,9 +359,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         configuration, but is otherwise the same mechanism. Joints and forces keep their points and
         axes on the bodies. They also keep the lengths, angles and offsets that they took from the
         first design configuration. The definitions of the copy contain all these values as numbers.
-        In the new design configuration the joints may be open. Assembly then closes them, and for
-        this purpose it may also move the body that you changed. To avoid this, give a position and
-        an angle that fit, or held=True.
+        In the new design configuration the joints may be open. Assembly then closes them, and may
+        move the body that you changed. To avoid this, give a position and an angle at which the
+        joints are closed, or held=True.
 
         If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
         is placed in the new design configuration. Angles of spatial joints are 0 in the new design
@@ -491,7 +492,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
                 f"no channel {value!r}; those of bodies and joints are written like 'B.phi', and "
                 f"of the whole mechanism {there_are(WHOLE, value)}"
             )
-        name = name or value  # an element without an attribute
+        name = name or value  # the value is the name of an element alone
         element = self[name]
         channels = self._channels(element)
         if attribute not in channels:
@@ -503,7 +504,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     def _channels(self, element: Element) -> list[str]:
         """Return the names of the channels of an element. Whether a joint has a coordinate is known
-        when the mechanism is frozen."""
+        only after freezing."""
         found = []
         for name, p in inspect.getmembers(type(element), lambda p: isinstance(p, property)):
             is_channel = p.fget.__annotations__.get("return") == "Channel"
@@ -517,8 +518,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         q: None for the design configuration, "assembled" for the assembled
             configuration at t = 0, or positions q (nq) of a frozen mechanism [m], [rad].
 
-        A notebook shows the returned picture. Its method save("x.svg") writes it; "x.pdf" and
-        "x.png" need Matplotlib.
+        A notebook shows the returned picture. Its method save("x.svg") writes it to a file. The
+        suffixes .pdf and .png need Matplotlib.
 
         Red lines show where the constraints of a joint are violated. They connect points that
         should coincide, a point with the line, plane or curve on which it should be, and the tips
@@ -542,7 +543,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         computed elsewhere, or several runs joined together. To show one run, use Run.page().
 
         t: times (n) [s], rising or falling.
-        q: positions (n x nq). They are shown as they are, with their constraint violations.
+        q: positions (n x nq). The page shows them unchanged, including their constraint violations.
         path: file to write.
         traces: paths to draw, as in Run.page().
         plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the

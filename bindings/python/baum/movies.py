@@ -68,8 +68,8 @@ def _times(t: Array, step: float) -> Array:
 
 
 def _writer(suffix: str, rate: Any) -> Any:
-    """Make a writer of Matplotlib. Its type hints demand an int for the frame rate, although it
-    accepts floats."""
+    """Make a writer of Matplotlib. The type hints of Matplotlib demand an int for the frame rate,
+    although a float is allowed."""
     pictures.import_matplotlib("Run.movie()")
     from matplotlib import animation
 

@@ -193,8 +193,8 @@ class Mesh(Outline):
         scale: a factor for all lengths, such as 0.001 for a file in millimetres.
 
         The origin of the file becomes the origin of the body, which is its centre of mass. If the
-        origin of the file is another point, move or rotate `vertices` afterwards. Equal corners of
-        an STL file become one vertex. Faces of an OBJ file with more than three corners must be
+        origin of the file is another point, move or rotate `vertices` afterwards. In an STL file,
+        equal corners become one vertex. In an OBJ file, faces with more than three corners must be
         convex. Materials are ignored. Raises ValueError for a file that cannot be read; the message
         names the line or the byte.
         """

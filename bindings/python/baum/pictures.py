@@ -2,8 +2,8 @@
 """Draw the pictures of the library with Matplotlib, which writes PDF and PNG files and movies.
 
 The library writes only a small part of SVG: paths with absolute commands, circles and one-line
-    texts. They have fill, stroke, stroke width and dashes, and are in groups without attributes.
-    This module reads only this part.
+texts. These elements have fill, stroke, stroke width and dashes, and may be in groups without
+attributes. This module reads only this part of SVG.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INCH = 96  # [px]
-POINTS = 72 / INCH  # [pt/px] typographic points of a pixel
+POINTS = 72 / INCH  # [pt/px] typographic points per pixel
 # Commands of SVG paths -> codes of Matplotlib.
 COMMANDS = {"M": 1, "L": 2, "Q": 3, "C": 4, "Z": 79}
 

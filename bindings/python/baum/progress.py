@@ -78,9 +78,9 @@ class StudyLine(Line):
 
     methods: the index of the method of each entry.
 
-    The time left is estimated with an assumption: each setting of a method costs twice as much as
-        the next coarser one. The study first computes the errors of all entries, from coarse to
-        fine. It then measures their times in the order of adding.
+    The estimate of the time left assumes that each setting of a method costs twice as much as the
+    next coarser one. The study first computes the errors of all entries, from coarse to fine. It
+    then measures their times in the order of adding.
     """
 
     def __init__(self, out: TextIO, methods: Sequence[int]) -> None:

@@ -58,7 +58,8 @@ class _Event(NamedTuple):
 
 
 class Event(_Event):
-    """An event that has happened: a tuple of t, event and direction, which also has a name.
+    """An event that has happened. It is a tuple (t, event, direction) with the additional attribute
+    `name`.
 
     t: its time [s].
     event: its number, which Simulation.event() has returned.
@@ -189,7 +190,7 @@ class Run:
         """The mechanism as a JSON text, also after pickling; see Mechanism.scene()."""
         if self._pickled is not None:
             return self._pickled.scene
-        assert self._mechanism is not None  # a run has its mechanism or was pickled
+        assert self._mechanism is not None  # a run without its mechanism was pickled
         return self._mechanism.scene()
 
     def __array__(self, *how: Any, **also: Any) -> NoReturn:
@@ -320,7 +321,7 @@ class Run:
         """Plot channels over time with Matplotlib, such as run.plot("slider.velocity").
 
         channels: by default all recorded channels except q and v.
-        axes: Matplotlib axes to draw into, one for each unit; by default those of a new figure.
+        axes: Matplotlib axes to draw into, one for each unit; by default new axes in a new figure.
 
         Returns the axes, one for each unit. Raises KeyError for a channel that was not recorded,
         and ImportError without Matplotlib.
@@ -358,10 +359,10 @@ class Run:
         traces: paths to draw. A path is given as a body or as a channel such as
             m["rod"].pose_of((0.1, 0)).
         forces: which recorded reactions are shown as arrows. None, the default, shows all. True
-            shows all, too, but raises ValueError if none was recorded. A list such as
+            also shows all, but raises ValueError if no reaction was recorded. A list such as
             ["A.reaction"] chooses some, and False shows none.
-        plots: channels to plot beside the picture, by default all recorded channels except q, v and
-            reactions.
+        plots: channels to plot next to the picture, by default all recorded channels except q, v
+            and reactions.
 
         Warnings and events are marks on the time axis. A page keeps at most 600 samples. The
         samples at which a plotted column has its largest or its smallest value are among them.
@@ -378,15 +379,15 @@ class Run:
         forces: Forces = None,
         plots: Sequence[ChannelLike] | None = None,
     ) -> Page:
-        """Show the page of page() at once. A notebook shows it in a frame; otherwise the browser
-        opens it."""
+        """Show the page that page() would write. A notebook shows it in a frame; otherwise the
+        browser opens it."""
         made = self._page(title, traces, forces, plots)
         if not drawings.is_notebook():
             made.open()
         return made
 
     def _recorded(self) -> list[Channel]:
-        """Return the recorded channels. There are none if the run has no mechanism."""
+        """Return the recorded channels. The list is empty if the run has no mechanism."""
         return list(self._channels.values()) if self.mechanism is not None else []
 
     def _page(
@@ -415,8 +416,7 @@ class Run:
         forces: Forces = None,
         size: tuple[float, float] | None = None,
     ) -> Drawing:
-        """Draw the run at the time t [s], for example for a paper: figure(t).save("x.pdf"), or
-        "x.svg".
+        """Draw the run at the time t [s], for example for a paper: figure(t).save("x.pdf").
 
         traces: paths to draw, from the start to t; given as in page().
         forces: reactions to draw, as in page().

@@ -3,7 +3,7 @@
 
 A text cannot contain functions. A scene contains only their names, and the program that reads the
 scene provides the functions. A force function that receives inputs is written as "name(0, 2)",
-where 0 and 2 are the numbers of the inputs.
+where 0 and 2 are the indices of the inputs.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ LISTS = {"bodies": "body", "joints": "joint", "forces": "force"}
 
 
 def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
-    """Return the names of the fields of a definition that hold a function or `user`, with their
-    addresses."""
+    """For each field of a definition that holds a function or a `user` object, return the name of
+    the field and the address in it."""
     for name, kind in struct._fields_:
         if kind in callbacks.SHELLS:
             address = ctypes.cast(getattr(struct, name), ctypes.c_void_p).value
@@ -41,8 +41,8 @@ def _used(element: Element, struct: Any) -> Iterator[tuple[str, int]]:
 
 
 def _name_of(function: Any, usual: str, taken: Mapping[str, Any], given: Functions) -> str:
-    """Choose a name for a function: the name that the user has given, otherwise its own name. If
-    another function already has this name, choose `usual`, which names the element and the
+    """Choose a name for a function: the name that the user has given, otherwise the function's own
+    name. If another function already has this name, choose `usual`, which names the element and the
     field."""
     for name, value in given.items():
         if value is function:
@@ -124,8 +124,8 @@ class Scenes:
     def scene(self: Any, functions: Functions | None = None, units: str | None = None) -> str:
         """Return the mechanism as a JSON text, which baum.parse() can read.
 
-        functions: names for functions and objects, such as {"drag": drag}. A function that is not
-            listed is written by its own name, or as "element.field" if it has none.
+        functions: names for functions and objects, such as {"drag": drag}. If a function is not
+            listed, the scene contains its own name, or "element.field" if it has none.
         units: a note on the units, such as "mm, t, s". baum ignores this note and does not keep it
             when it reads the scene.
         """
@@ -244,7 +244,7 @@ def _placeholders(scene: Any) -> list[_abi.baum_hook]:
 
 
 def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]]:
-    """Return the object with that name, and the numbers of the inputs that it receives."""
+    """Return the object with that name, and the indices of the inputs that it receives."""
     parts = re.fullmatch(r"(.*?)\(([\d, ]+)\)", name)
     bare = parts[1] if parts else name
     if bare not in functions:
@@ -255,8 +255,8 @@ def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]
 
 
 def _set_functions(mechanism: Mechanism, element: Any, usual: str, functions: Functions) -> None:
-    """Replace the placeholders of an element by functions. usual: the name that the element has by
-    default."""
+    """Replace the placeholders of an element by functions. usual: the name of the element if the
+    scene gives none."""
     own = element.get("name", usual)
     changes: dict[str, Any] = {}
     for field, name in _hook_fields(element):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sensitivities: derivatives of the results of runs with respect to parameters, by differences."""
+"""Sensitivities: derivatives of the results of runs with respect to parameters, computed by
+differences."""
 
 from __future__ import annotations
 
@@ -15,23 +16,24 @@ from .typing import Array, ArrayLike, ChannelLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-# Changes of a number in its four runs, as multiples of the step.
+# Each number is changed in four runs. These are the changes, as multiples of its step.
 CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
 UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
 LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
-ROUNDING = 1e4 * float(np.finfo(float).eps)  # rounding error of a result, relative to it
+ROUNDING = 1e4 * float(np.finfo(float).eps)  # rounding error relative to the result
 
 
 class Sensitivities(Named):
     """The derivatives of results with respect to p numbers.
 
-    parameters: their names. A vector field has one name for each number, such as "rod.position[0]".
+    parameters: the names of these numbers. A vector field has one name for each of its numbers,
+        such as "rod.position[0]".
 
     sensitivities["rod.pose"] contains the derivatives (samples x columns x p) of a channel. If
-    `reduce` was given, sensitivities["value"] contains those of its results (... x p).
+    `reduce` was given, sensitivities["value"] contains the derivatives of its results (... x p).
     error(name) is an array of the same shape. It contains the differences between the difference
-    quotients of two steps. These show the jumps that methods with variable steps cause, but not the
-    integration errors that all runs have in common.
+    quotients of two steps. These differences are large if the results of methods with variable
+    steps jump. They do not show integration errors that all runs have in common.
     """
 
     def __init__(self, parameters: Sequence[str], values: Array, runs: Sweep) -> None:
@@ -69,14 +71,15 @@ def sensitivities(
     **options: Any,
 ) -> Sensitivities:
     """Compute derivatives of results with respect to parameters by central differences. Four runs
-    for each number of a parameter give differences for two steps. Richardson's extrapolation from
-    both gives the derivative, and their difference shows how certain it is.
+    for each number of a parameter give two difference quotients, with different steps. Richardson's
+    extrapolation from both gives the derivative, and their difference shows how certain it is.
 
-    parameters: the values at which the derivatives are computed, by "element.field", such as
-        {"rod.mass": 0.2}. An orientation cannot be a parameter.
-    relative_step: change of a number, relative to its value. A 0 in a vector changes by as much as
-        the largest number of the vector.
-    steps: changes of single parameters, in place of relative_step. A parameter that is 0 needs one.
+    parameters: a dict from "element.field" to the value at which the derivatives are computed, such
+        as {"rod.mass": 0.2}. An orientation cannot be a parameter.
+    relative_step: change of a number, relative to its value. If a number in a vector is 0, its
+        change is relative to the largest number of the vector.
+    steps: absolute changes of some parameters, which replace relative_step. A parameter that is 0
+        needs such a change.
     times, method, record, reduce, executor, options: as in baum.sweep().
 
     Take a method with a fixed step, such as "rk8" with `step`, and check the integration error by a

@@ -226,7 +226,7 @@ class Simulation(_calls.Closing):
         "unstabilized".
     start_time: time at which the run starts [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
-        constraints. "as_given" accepts it and does not assemble.
+        constraints. "as_given" accepts such a configuration and does not assemble it.
     solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
     check_derivatives: True first compares the derivatives of your functions with finite
         differences.
@@ -237,9 +237,9 @@ class Simulation(_calls.Closing):
         (counters.error_estimate), and warns if the error is large. Without this option, a run with
         fixed steps makes this second integration only if the sum of its local errors becomes large
         enough to matter.
-    progress: True shows a bar in a terminal or a notebook, except for step(), which does not know
-        its end. A function progress(t) is called every progress_interval seconds of wall time. It
-        cancels the run if it returns a true value.
+    progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
+        of its steps is not known in advance. A function progress(t) is called every
+        progress_interval seconds of wall time. It cancels the run if it returns a true value.
 
     Warnings of the run become Python warnings of subclasses of baum.Warning. If the motion may be
     wrong, the class is also a subclass of baum.DoubtWarning.
@@ -325,7 +325,7 @@ class Simulation(_calls.Closing):
         progress: like the option `progress`, but for this call only.
 
         Returns the Status: OK, WARNED, STOP_EVENT or STOP_CANCELLED. Raises baum.Error if the run
-            fails. The run then stays at the end of its last successful step.
+        fails. The run then stays at the end of its last successful step.
         """
         end = number(t, "t")
         return self._run(progress, lib.baum_simulation_advance_to, lambda: (end,), end=end)
@@ -511,7 +511,8 @@ class Simulation(_calls.Closing):
 
     @property
     def events(self) -> list[Event]:
-        """A list of the events that have happened so far. It contains at most the last 1024."""
+        """A list of the events that have happened so far. It contains at most the last 1024
+        events."""
         count = lib.baum_simulation_event_count(self._owner.address)
         record = _abi.baum_event_record()
         happened = []
@@ -572,9 +573,9 @@ class Simulation(_calls.Closing):
         at_once: bool = False,
         end: float | None = None,
     ) -> Status:
-        """Call a function that advances the run. `end` is the time at which it will end, if that is
-        known. arguments() returns the arguments for the work that has not been done yet. at_once is
-        True if the call is known to be short."""
+        """Call a function that advances the run. `end` is the time at which the call will end, if
+        this time is known. arguments() returns the arguments for the work that has not been done
+        yet. at_once is True if the call is known to be short."""
         wanted = _checked(progress) if progress is not None else self._own_progress
         out = stream() if wanted is True and end is not None else None
         line = None if out is None or end is None else RunLine(out, self.time, end)
@@ -719,7 +720,7 @@ class Simulation(_calls.Closing):
     @property
     def near_singular(self) -> list[NearSingular]:
         """A list of the intervals in which the run was near a singular configuration. It contains
-        at most the first 64."""
+        at most the first 64 intervals."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()
@@ -732,7 +733,7 @@ class Simulation(_calls.Closing):
 
     @property
     def counters(self) -> Counters:
-        """What the run has cost and how well it has kept the constraints."""
+        """What the run has cost and how well it has satisfied the constraints."""
         struct = self._read_counters()
         values = [getattr(struct, name) for name in Counters._fields]
         return Counters._make(

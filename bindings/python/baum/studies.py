@@ -58,7 +58,7 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(), which are passed as
+    """Options for Mechanism.simulate() and Mechanism.simulation(). If they are named `best`, write
     m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
@@ -320,8 +320,8 @@ class Study(_calls.Closing):
         constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
             to 4.
         coarsest: longest step of methods of the orders 3 to 5 [s]. The longest steps of methods of
-            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default they follow from
-            the speed of the motion.
+            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default all of them follow
+            from the speed of the motion.
         finest: smallest rtol [-], by default 1e-13, or 1e-11 if derivatives are computed by
             differences.
         quick: True adds the quick grid, with at most 5 settings of each integrator.
@@ -477,9 +477,9 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, this is
-        true also from perturbed starts and over twice the time span; otherwise `why` says so.
-        Raises baum.Error if there is no such setting."""
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
+        stays within this limit also from perturbed starts and over twice the time span. If not,
+        `why` says so. Raises baum.Error if there is no such setting."""
         return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:

@@ -151,7 +151,7 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
 
 
 def _calls(executor: Any, task: _Task, parts: Sequence[Any]) -> Iterator[tuple[int, Any]]:
-    """Run the parts of a sweep on an executor. When a part is done, yield its number and its
+    """Run the parts of a sweep on an executor. When a part is done, yield its index and its
     results."""
     if hasattr(executor, "submit"):
         futures = {executor.submit(_many, task, part): k for k, part in enumerate(parts)}
@@ -204,7 +204,7 @@ class Sweep(Named):
 
     parameters: the values of each parameter (n) or (n x size), by name.
     status: the Status of each run (n).
-    messages: the messages of runs that failed, by the number of the run.
+    messages: the messages of runs that failed, by the index of the run.
     warnings: the names of the warning classes of each run.
 
     sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If `reduce` was
@@ -268,8 +268,8 @@ def sweep(
     """Run a mechanism once for each sample of its parameters.
 
     mechanism: frozen or not.
-    parameters: values by "element.field", such as {"rod.mass": [0.1, 0.2]}. Values of a vector
-        field have the shape (n x size).
+    parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. Values of a
+        vector field have the shape (n x size).
     times, method, record, options: as in Mechanism.simulate().
     reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
         keeps this result instead of the recorded values of the run.
@@ -284,12 +284,13 @@ def sweep(
     progress: True shows a bar. A function receives the number of finished runs and the number of
         all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
         the status STOP_CANCELLED.
-    file: a file that keeps finished runs, so that a sweep that was interrupted continues when it is
-        called again. The file of another sweep is refused with ValueError. The file is a pickle;
-        open only files that you trust.
+    file: a file that keeps finished runs, so that a sweep that was interrupted continues when you
+        call sweep() again. The file of another sweep is refused with ValueError. The file is a
+        pickle; open only files that you trust.
 
-    A run that fails does not stop the other runs. Raises TypeError, ValueError or KeyError for
-    parameters that do not exist.
+    A run that fails does not stop the other runs. Raises KeyError if the element of a parameter
+    does not exist, TypeError if its field does not exist, and TypeError or ValueError if its values
+    have a wrong form.
     """
     columns = _columns(parameters)
     rows = _rows(columns, samples, count)

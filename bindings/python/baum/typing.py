@@ -37,8 +37,8 @@ class HasAddress(Protocol):
 
 
 class HasQuaternion(Protocol):
-    """A rotation that has a quaternion, such as a Rotation of scipy.spatial.transform. The
-    quaternion is x, y, z, w."""
+    """A rotation that has a quaternion, such as a Rotation of scipy.spatial.transform. as_quat()
+    returns the quaternion in the order x, y, z, w."""
 
     def as_quat(self) -> Any: ...
 

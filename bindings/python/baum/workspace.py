@@ -73,9 +73,9 @@ class Workspace(_calls.Closing):
         self._owner.call(lib.baum_workspace_set_input, found.id, number(value, found.name))
 
     def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
-        """Set the revolutions of an angle of a spatial joint. Positions determine such an angle
-        only up to whole revolutions. From this call on, the workspace uses the value that is
-        nearest to the given angle [rad]. Before the first such call, the given angle is 0.
+        """Set the number of whole revolutions in an angle of a spatial joint. Positions determine
+        such an angle only up to whole revolutions. From this call on, the workspace uses the value
+        that is nearest to the given angle [rad]. Before the first such call, the given angle is 0.
 
         coordinate: which angle of the joint, as in Mechanism.driver().
         """
@@ -92,23 +92,23 @@ class Workspace(_calls.Closing):
         }
 
     def design(self) -> tuple[Array, Array]:
-        """Return q (nq) of the design configuration, and v (nv). Velocities that are not given are
-        NaN."""
+        """Return the positions q (nq) of the design configuration, and the given velocities v (nv).
+        Velocities that are not given are NaN."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
         self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the time derivative of the positions, q' = N(q) v (nq). If positions form a
-        vector, as those of planar bodies do, this is v itself."""
+        """Return the time derivative of the positions, q' = N(q) v (nq). If the positions form a
+        vector, as they do for planar bodies, this is v itself."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
         return out
 
     def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
-        """Return q (nq) moved by a displacement dx (nv). If positions form a vector, this is q +
-        dx."""
+        """Return q (nq) moved by a displacement dx (nv). If the positions form a vector, this is q
+        + dx."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
@@ -204,7 +204,8 @@ class Workspace(_calls.Closing):
         v: ArrayLike | None = None,
         held: Sequence[BodyLike] = (),
     ) -> tuple[Array, Array]:
-        """Assemble the mechanism. Return the nearest q (nq) with Phi = 0, and v (nv) with J v = nu.
+        """Assemble the mechanism. Return the nearest configuration q (nq) with Phi = 0, and v (nv)
+        with J v = nu.
 
         q, v: where to begin, by default the design configuration. Finite entries of v are kept, and
             entries that are NaN are computed from the constraints.

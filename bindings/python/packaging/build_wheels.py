@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build Python packages for all systems on one Debian machine: the C compiler zig makes libraries
-that contain the parts of SuiteSparse and SUNDIALS they need, from Debian's source packages.
+"""Build Python packages for all systems on one Debian machine. The C compiler zig builds the
+libraries. They contain the parts of SuiteSparse and SUNDIALS that they need, built from Debian's
+source packages.
 
 usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS, and sdist)
 
@@ -73,7 +74,7 @@ TARGETS = {
     "macos-arm64": Target("aarch64-macos.11.0", "Darwin", "arm64", "macosx_11_0_arm64"),
     "macos-x86_64": Target("x86_64-macos.11.0", "Darwin", "x86_64", "macosx_11_0_x86_64"),
     "windows-x86_64": Target("x86_64-windows-gnu", "Windows", "AMD64", "win_amd64"),
-    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # CMake must assume pthreads
+    WASM: Target("wasm32-wasi", "Linux", "wasm32", ""),  # with "Linux", CMake assumes pthreads
 }
 
 
@@ -114,7 +115,7 @@ def fetch(source: Source) -> Path:
 
 
 def unpack() -> Path:
-    """The folder with the sources of SuiteSparse and SUNDIALS."""
+    """Return the folder with the sources of SuiteSparse and SUNDIALS."""
     folder = WORK / "unpacked"
     note = folder / "whole"
     wanted = "".join(source.sha256 for source in SOURCES)
@@ -134,7 +135,8 @@ def unpack() -> Path:
 
 
 def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> dict[str, object]:
-    """Return CMake variables for a target. The tools of the target become commands in `folder`."""
+    """Return CMake variables for a target. Write commands for the target's compiler, ar and ranlib
+    into `folder`."""
     zig = Path(run(python, "-c", "import ziglang; print(ziglang.__path__[0])").strip()) / "zig"
     folder.mkdir(parents=True, exist_ok=True)
     for name, words in {"cc": f"cc -target {target.zig}", "ar": "ar", "ranlib": "ranlib"}.items():
@@ -143,13 +145,13 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     licenses = [zig.with_name("LICENSE")]
     if target.system == "Windows":
         licenses.append(zig.with_name("lib") / "libc" / "mingw" / "COPYING")
-    # Small packages: the linker omits the functions that baum does not use, and on Linux the tables
-    # for C++ exceptions, which C does not need, are omitted.
+    # These flags make the packages small. The linker omits the functions that baum does not use. On
+    # Linux, the tables for C++ exceptions are omitted, because C does not need them.
     flags = "-g0 -ffunction-sections -fdata-sections -DBAUM_I_CPUID"  # see src/base/hot.c
     if target.system == "Linux":
         flags += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
-    # Hot files are compiled with -O3. Code for Windows is larger. With -O2 the package would have
-    # 1.7 MB; with -Os runs take 3 to 15 % longer.
+    # Hot files are compiled with -O3. Code for Windows is larger: with -O2 its package would have
+    # 1.7 MB. With -Os, runs take 3 to 15 % longer.
     optimize = "-Os" if target.system == "Windows" else "-O2"
     link = "-s -Wl,-dead_strip" if target.system == "Darwin" else "-s -Wl,--gc-sections"
     return {
@@ -172,7 +174,7 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
 
 
 def build_wheel(name: str, target: Target, settings: dict[str, object], python: Path) -> Path:
-    """The package for a target."""
+    """Build and return the package for a target."""
     made = WORK / name / "wheel"
     shutil.rmtree(made, ignore_errors=True)
     options = [f"--config-settings=cmake.define.{key}={value}" for key, value in settings.items()]
@@ -185,7 +187,8 @@ def build_wheel(name: str, target: Target, settings: dict[str, object], python: 
 
 
 def build_archive(name: str, settings: dict[str, object]) -> Path:
-    """Static libraries and headers for a target without shared libraries."""
+    """Build and return an archive of static libraries and headers, for a target without shared
+    libraries."""
     build = WORK / name / "cmake"
     options = [f"-D{key}={value}" for key, value in settings.items()]
     options += ["-DBAUM_TESTS=OFF", "-DBAUM_EXAMPLES=OFF", "-GNinja"]
@@ -202,7 +205,7 @@ def build_archive(name: str, settings: dict[str, object]) -> Path:
 
 
 def build_target(name: str, python: Path) -> Path:
-    """The package or archive for a target."""
+    """Build and return the package or archive for a target."""
     target = TARGETS[name]
     settings = settings_for(target, WORK / name / "bin", python, unpack())
     if name == WASM:
@@ -211,7 +214,8 @@ def build_target(name: str, python: Path) -> Path:
 
 
 def build_sdist(python: Path) -> Path:
-    """The source archive. It contains C sources, which are outside of the folder of the package."""
+    """Build and return the source archive. It also contains the C sources, which are outside of the
+    folder of the package."""
     folder = WORK / SDIST
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

@@ -3,8 +3,9 @@
 
 usage: compare_abi.py OLD NEW
 
-Additions break nothing: functions, values of enums, and fields at the end of structs that begin
-with struct_size. Exit status 1: something breaks, so the soname must change (docs/versions.md).
+New functions, new values of enums, and new fields at the end of structs that begin with struct_size
+break nothing. If a change breaks compiled programs, the exit status is 1, and the soname must
+change (docs/versions.md).
 """
 
 from __future__ import annotations

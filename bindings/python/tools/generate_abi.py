@@ -58,7 +58,7 @@ if TYPE_CHECKING:
     from .gains import Gains
 '''
 
-# The structs that become named tuples, and the docstrings of these.
+# The structs that become named tuples, and the docstrings of these tuples.
 RECORDS = {
     "baum_mobility": "What a mechanism can do at its assembled initial configuration.",
     "baum_report": "What an evaluation of the accelerations costs, and which work it skips.",
@@ -193,7 +193,7 @@ def field_comments(text, struct):
 
 
 def record(text, struct, fields):
-    """Write a struct as a NamedTuple class; `fields` are without struct_size."""
+    """Write a struct as a NamedTuple class; `fields` does not contain struct_size."""
     comments = field_comments(text, struct)
     types = {
         field: WORDS.get(field) or PYTHON[re.match(r"[a-z_0-9]+", spelled)[0]]
