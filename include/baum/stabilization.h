@@ -65,8 +65,9 @@ typedef struct baum_gains {
  *
  *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
  *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
- *  and the steady |Phi| is about h |gamma| / alpha. With other methods the violation decreases with
- *  h at the order of the method.
+ *  and the steady |Phi| is about h |gamma| / alpha, where gamma is the right-hand side of the
+ *  acceleration constraints J a = gamma (4). With other methods the violation decreases with h at
+ *  the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
  *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
@@ -129,8 +130,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
  *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
- *  - With explicit methods at variable steps the factor is 0.1, because their steps are longer. If
- *    drivers prescribe the whole motion, it is 2.
+ *  - With explicit methods at variable steps the factor is 0.1, because these methods take longer
+ *    steps. If drivers prescribe the whole motion, it is 2.
  *
  *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
  *  method. The gains are therefore always stable. The steady violation is about the local error of
@@ -139,11 +140,11 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *
  *  When a run is created, a short pilot run determines the angular velocity. It takes 5 steps and
  *  14 evaluations, which the counters of the run include. If the pilot run fails, the library uses
- *  the part before the failure. For two groups of mechanisms the angular velocity is at least
- *  sqrt(g/L), the angular frequency of a pendulum of length L: those with degrees of freedom, and
- *  those at rest in equilibrium. For a mechanism at rest in equilibrium without gravity, alpha is
- *  0.01/h at a fixed step. At variable steps it is 1 1/s, which only suits machines with time
- *  scales of seconds. docs/theory/gain_rules.md compares other factors.
+ *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
+ *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), the angular frequency of
+ *  a pendulum of length L. For a mechanism at rest in equilibrium without gravity, alpha is 0.01/h
+ *  at a fixed step. At variable steps it is 1 1/s, which only suits machines with time scales of
+ *  seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
@@ -161,9 +162,9 @@ BAUM_API baum_gains baum_gains_best_damping(void);
 /** What happens to a constraint violation in the long run. */
 typedef enum baum_stability {
   BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
-  /** Some violation neither decays nor grows exponentially: radius = 1. */
+  /** Some violations neither decay nor grow exponentially: spectral radius = 1. */
   BAUM_MARGINAL = 1,
-  BAUM_UNSTABLE = 2, /**< Some violation grows exponentially: radius > 1. */
+  BAUM_UNSTABLE = 2, /**< Some violations grow exponentially: spectral radius > 1. */
   /** The method has no region, because it always chooses its step itself. See
    *  baum_stability_statement(). */
   BAUM_VARIABLE_STEP = 3,
@@ -206,7 +207,7 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrator, double alpha_h,
                                                 baum_amplification *out, size_t caller_size);
 
-/** Find the alpha h up to which rows of velocity level are stable.
+/** Find the alpha h up to which violations of rows of velocity level decay.
  *  @param      integrator  a method with a fixed step
  *  @param[out] alpha_h     [-] the limit
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region of stability) */
@@ -305,8 +306,8 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  hundredth of the whole region. It uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
- *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every method
- *                                here.
+ *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every integrator
+ *                                of the library.
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
  *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
  *                                spectral radius is nowhere so small
