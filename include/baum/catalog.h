@@ -160,8 +160,8 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
  *  user coordinates are not scaled. The error of an orientation in space is the rotation that leads
  *  from the reference to the state; it has three components, the rotations about the body axes
  *  [rad]. Errors of velocities are scaled in the same way and then divided by the largest scaled
- *  velocity of the reference. The fields q_floor and v_floor are the uncertainty of the reference.
- *  An error that is smaller than this uncertainty has no meaning. */
+ *  velocity of the reference. The fields q_floor and v_floor state the uncertainty of the
+ *  reference. An error that is smaller than this uncertainty has no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */

@@ -14,9 +14,8 @@
  *  corresponds to their inertia. Joints and forces are drawn as symbols. You can give a body
  *  outlines (shapes of your own), which replace the shape that the library chooses.
  *
- *  Functions that write a file replace an older file of the same name in the way that
- *  baum_study_write() describes. Drawing does not change the mechanism.
- */
+ *  Functions that write a file replace an older file of the same name in the way that the comment
+ *  on baum_study_write() describes. Drawing does not change the mechanism. */
 #ifndef BAUM_DRAW_H
 #define BAUM_DRAW_H
 
@@ -154,8 +153,7 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
-/** What a mark on the time axis of a page stands for. Each kind of mark has its own colour and
- *  shape. */
+/** A kind of mark on the time axis of a page. Each kind has a different colour and shape. */
 typedef enum baum_mark_kind {
   BAUM_MARK_WARNING = 0,
   BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */

@@ -192,8 +192,8 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates. The residual consists of q' - N v, then M
- *  v' + J^T lambda - g, and then the constraints in one of the forms below.
+/** The form of the equations that baum_workspace_residual() evaluates. The residual consists of q'
+ *  - N v, then M v' + J^T lambda - g, and then the constraints in one of the forms below.
  *
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
  *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
@@ -207,7 +207,7 @@ typedef enum baum_residual {
   BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu, then Phi. */
 } baum_residual;
 
-/** Which form of the equations is evaluated, and with which gains. */
+/** The equations to evaluate: their form and their gains. */
 typedef struct baum_dae {
   baum_residual index; /**< Form of the constraints. */
   double alpha;        /**< [1/s] finite; used only by index 1. */
@@ -263,8 +263,8 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
  *                              are computed from the constraints. If the constraints do not
  *                              determine these entries, the function chooses the velocities of
  *                              least norm. Unchanged on failure.
- *  @param[in]     held         (held_count) bodies that keep their positions, in addition to those
- *                              whose definition sets `held`. May be NULL if held_count is 0.
+ *  @param[in]     held         (held_count) bodies that assembly must not move, in addition to
+ *                              those whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
  *  @return  the statuses at the top of this file; also BAUM_ERR_INCONSISTENT (the message names the
  *           joints in conflict), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */

@@ -57,7 +57,7 @@ BAUM_API baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism
 
 /** Read the name of a force.
  *  @param mechanism  frozen or not
- *  @param force      one of its forces
+ *  @param force      a force of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_force_name(const baum_mechanism *mechanism,
                                                baum_force_id force);

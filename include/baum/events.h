@@ -93,8 +93,8 @@ typedef struct baum_event_record {
  *  @return  0 for NULL */
 BAUM_API int64_t baum_simulation_event_count(const baum_simulation *simulation);
 
-/** Read an event that has happened. A run keeps the last 1024 events. If there may be more, read
- *  them while the run is in progress.
+/** Read an event that has happened. A run keeps the last 1024 events. If a run may have more
+ *  events, read them while it is in progress.
  *  @param      simulation   the run
  *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they
  *                           happened

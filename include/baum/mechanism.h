@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Mechanisms: what is simulated. A mechanism consists of bodies, joints, forces and inputs.
+ *  Mechanisms, the objects that are simulated. A mechanism consists of bodies, joints, forces and
+ *  inputs.
  *
  *  Use: add elements, freeze the mechanism, then run simulations. A frozen mechanism does not
  *  change any more, so several threads may share it.
@@ -198,7 +199,7 @@ typedef struct baum_coordinates_def {
   baum_difference_fn *difference;
   /** Moves q onto the manifold. Not needed if every q is on the manifold. Default: NULL. */
   baum_normalize_fn *normalize;
-  int32_t position_count; /**< [-] number of positions. Default: 0, the same as `size`. */
+  int32_t position_count; /**< [-] number of positions. Default: 0, which means `size`. */
 } baum_coordinates_def;
 
 /** Set every field to its default. Bindings to other languages call this function; C programs call
@@ -263,8 +264,8 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
  *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
- *  units before and after t, and those for gamma up to 0.05 time units. If phi is not defined
- *  before t = 0, give nu and gamma. */
+ *  units before and after t, and the differences for gamma up to 0.05 time units. If phi is not
+ *  defined before t = 0, give nu and gamma. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -565,7 +566,7 @@ BAUM_API baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const c
 
 /** Read the initial value of an input.
  *  @param      mechanism  frozen or not
- *  @param      id         one of its inputs
+ *  @param      id         an input of the mechanism
  *  @param[out] initial    receives the initial value
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
@@ -573,7 +574,7 @@ BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, b
 
 /** Replace the initial value of an input.
  *  @param mechanism  not frozen
- *  @param id         one of its inputs
+ *  @param id         an input of the mechanism
  *  @param initial    finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id,
@@ -658,7 +659,7 @@ BAUM_API baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32
 
 /** Find the rows of a joint in Phi and lambda.
  *  @param      mechanism    frozen
- *  @param      joint        one of its joints
+ *  @param      joint        a joint of the mechanism
  *  @param[out] first,count  [-] first row and number of rows. Each may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
@@ -666,7 +667,7 @@ BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_j
 
 /** Find the coordinates of a body in q and v.
  *  @param      mechanism        frozen
- *  @param      body             one of its bodies
+ *  @param      body             a body of the mechanism
  *  @param[out] first_q,first_v  [-] index of the first coordinate of the body in q and in v. Each
  *                               may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
@@ -675,25 +676,26 @@ BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, bau
 
 /** Read the name of a body.
  *  @param mechanism  frozen or not
- *  @param body       one of its bodies
+ *  @param body       a body of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Read the name of a joint.
  *  @param mechanism  frozen or not
- *  @param joint      one of its joints
+ *  @param joint      a joint of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
                                                baum_joint_id joint);
 
 /** Read the name of an input.
  *  @param mechanism  frozen or not
- *  @param input      one of its inputs
+ *  @param input      an input of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
                                                baum_input_id input);
 
-/** How a mechanism can move from its assembled initial configuration. */
+/** The result of baum_mechanism_mobility(): how a mechanism can move from its assembled initial
+ *  configuration. */
 typedef struct baum_mobility {
   size_t struct_size; /**< Set by baum_mechanism_mobility(). */
   /** [-] nv minus the rank of J at configurations near the initial one; -1 if the mechanism cannot
@@ -727,9 +729,9 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** What an evaluation of the accelerations costs in a run, and which work it skips because the
- *  mechanism does not need it. The counts follow from the structure of the mechanism. They do not
- *  include the cost of user functions. */
+/** The result of baum_mechanism_report(): what an evaluation of the accelerations costs in a run,
+ *  and which work the evaluation skips because the mechanism does not need it. The counts follow
+ *  from the structure of the mechanism. They do not include the cost of user functions. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] bodies without ground. */
@@ -788,7 +790,8 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
  *  symmetric, its diagonal must not contain negative numbers in the design configuration, and it
  *  must be constant if constant_mass is true. Kinks of a function are allowed. The check skips
  *  configurations and times at which a function fails. If a function fails in all configurations,
- *  the check returns this failure. Laws of drivers are an exception: they may fail in all of them.
+ *  the check returns this failure. Laws of drivers are an exception: they may fail in all
+ *  configurations.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

@@ -79,8 +79,8 @@ BAUM_API const baum_integrator *baum_ab4(void);
 BAUM_API const baum_integrator *baum_rattle(void);
 /** A method for stiff forces, and for comparisons of methods with index 3. After every step, Phi =
  *  0 is satisfied to rounding, and |Phi'| is of second order in the step.
- *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
- *           Formulation: INDEX3 */
+ *  @return  generalized-alpha method with spectral radius 0.8 at infinite frequency, order 2, fixed
+ *           step, implicit. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
 /** This method solves the implicit equations of a step by fixed-point iteration. It uses Newton's
  *  method only for the stiff terms that come from the gains. Stiff forces therefore limit its
@@ -160,7 +160,7 @@ BAUM_API const char *baum_formulation_name(baum_formulation formulation);
 BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
                                      baum_formulation formulation);
 
-/** How a run begins from the design configuration. */
+/** The start of a run: how the run begins from the design configuration. */
 typedef enum baum_start {
   /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
    *  the characteristic length, or by more than 1 rad. If the initial values of drivers differ from
@@ -246,15 +246,16 @@ typedef struct baum_simulation_options {
    */
   double tolerance_q;
   double tolerance_v; /**< [-] > 0, finite, the same for velocities. Default: 1. */
-  /** [-] > 0; rtol is multiplied by this factor for multipliers. It may be finite only for IDA with
-   *  BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is tolerance_lambda rtol E
-   *  / n_i. Here n_i is the norm of row i of J, with each column j multiplied by the scale s_j of
-   *  its coordinate. E is the larger of two numbers: the largest present |lambda_k| n_k, and the
-   *  largest M_jj s_j^2 r^2, where r [1/s] is the rate of the motion at the start. This rate is the
-   *  largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all coordinates i, with the velocities v and
-   *  the accelerations a. In an equilibrium at rest, r is sqrt(g/L) instead, with gravity g and the
-   *  characteristic length L, or 1 1/s without gravity. baum_simulation_explain() states r with the
-   *  tolerances. Default: infinity, the error of multipliers is not tested. */
+  /** [-] > 0; rtol is multiplied by this factor for multipliers. This factor may be finite only for
+   *  IDA with BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is
+   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
+   *  multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the largest
+   *  present |lambda_k| n_k, and the largest M_jj s_j^2 r^2, where r [1/s] is the rate of the
+   *  motion at the start. This rate is the largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all
+   *  coordinates i, with the velocities v and the accelerations a. In an equilibrium at rest, r is
+   *  sqrt(g/L) instead, with gravity g and the characteristic length L, or 1 1/s without gravity.
+   *  baum_simulation_explain() states r with the tolerances. Default: infinity, the error of
+   *  multipliers is not tested. */
   double tolerance_lambda;
   /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
    *  this option. Default: false. */
@@ -452,8 +453,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that each time of a schedule adds 32
  *                          bytes.
- *  @param[out] size        [byte] number of bytes written; if buffer is NULL, the number of bytes
- *                          that are sufficient
+ *  @param[out] size        [byte] number of bytes written; if buffer is NULL, a number of bytes
+ *                          that is sufficient
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
@@ -492,9 +493,9 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- results --------------------------------------------------------------------------------- */
 
-/** What a channel records. The number of its columns is in parentheses. Units are m, rad, N, N m
- *  and s. The units of user coordinates and user constraints are your choice. The unit of a
- *  multiplier is J per unit of its row.
+/** A quantity that a channel records. The number of its columns is in parentheses. Units are m,
+ *  rad, N, N m and s. The units of user coordinates and user constraints are your choice. The unit
+ *  of a multiplier is J per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) at the
  *  present state. This equation contains no stabilization terms. The run computes this solution
@@ -553,7 +554,7 @@ typedef struct baum_channel {
  *  @param      caller_size  sizeof *channel; no byte beyond it is written */
 BAUM_API void baum_channel_init(baum_channel *channel, size_t caller_size);
 
-/** Make a channel of the whole mechanism. @param quantity  what it records @return the channel */
+/** Make a channel for the whole mechanism. @param quantity  what it records @return the channel */
 static inline baum_channel baum_channel_of(baum_quantity quantity)
 {
   baum_channel channel;
@@ -562,7 +563,7 @@ static inline baum_channel baum_channel_of(baum_quantity quantity)
   return channel;
 }
 
-/** Make a channel of a body.
+/** Make a channel for a body.
  *  @param quantity  what the channel records
  *  @param body      a body of the mechanism
  *  @return  the channel */
@@ -573,7 +574,7 @@ static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_bod
   return channel;
 }
 
-/** Make a channel of a point of a body.
+/** Make a channel for a point of a body.
  *  @param quantity  what the channel records
  *  @param body      a body of the mechanism
  *  @param x,y,z     [m] in body axes
@@ -588,7 +589,7 @@ static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_bo
   return channel;
 }
 
-/** Make a channel of a joint.
+/** Make a channel for a joint.
  *  @param quantity  what the channel records
  *  @param joint     a joint of the mechanism
  *  @return  the channel */
@@ -646,7 +647,8 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
                                             int64_t n, const baum_channel *channels, int32_t count,
                                             double *rows, int64_t *done);
 
-/** What a run has cost since it was created, and how well it has satisfied the constraints. */
+/** Counters of a run: what the run has cost since it was created, and how well it has satisfied the
+ *  constraints. */
 typedef struct baum_counters {
   size_t struct_size; /**< Set by baum_simulation_counters(). */
   int64_t steps;      /**< [-] accepted steps. */
@@ -686,7 +688,7 @@ typedef struct baum_counters {
   double alpha; /**< [1/s] gain in use. */
   double beta;  /**< [1/s] gain in use. */
   /** [-] spectral radius of the gains: the factor by which each step multiplies a violation in the
-   *  long run. NaN without BAUMGARTE and with variable steps. */
+   *  long run. NaN if the formulation is not BAUMGARTE, or if the steps are variable. */
   double spectral_radius;
   /** [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with alpha = beta it
    *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
@@ -774,7 +776,8 @@ typedef struct baum_energy_account {
 BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
                                                     baum_energy_account *out, size_t caller_size);
 
-/** How a motion continues after a singular configuration, where branches of motion cross. */
+/** The branch on which a motion continues after a singular configuration, where branches of motion
+ *  cross. */
 typedef enum baum_branch {
   BAUM_BRANCH_CONTINUED = 1, /**< The motion continues smoothly. */
   /** The velocity has jumped: the motion is on another branch. Do not trust it. */
@@ -805,7 +808,7 @@ typedef struct baum_near_singular {
   baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
-/** Read a near-singular interval. Runs of baum_kinematics() have none.
+/** Read a near-singular interval. Runs with baum_kinematics() have no such intervals.
  *  @param      simulation   the run
  *  @param      k            0 to counters.near_singular_intervals - 1; the first 64 are kept
  *  @param[out] out          filled
@@ -829,11 +832,12 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_BRANCH = 100,         /**< The motion may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,      /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102,  /**< Omitted rows no longer follow from the other rows. */
-  BAUM_WARNING_ACCURACY = 103,       /**< The estimated error of the motion is large. */
-  BAUM_WARNING_SINGULAR_START = 104, /**< Several motions may leave the initial configuration. */
+  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
+  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */
+  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
+  /** Several motions may start from the initial configuration. */
+  BAUM_WARNING_SINGULAR_START = 104,
   BAUM_WARNING_BUSHING = 105 /**< The rotation of a bushing passed pi, where its moment jumps. */
 } baum_warning_code;
 

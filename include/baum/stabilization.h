@@ -55,8 +55,9 @@ typedef struct baum_gains {
 } baum_gains;
 
 /* The comment of each rule states for which steps its gains are stable, how large a violation they
- * leave, and what they do to accuracy and cost. The numbers were measured with a pendulum of length
- * 1 m that is released from the horizontal and runs for 1 s with h = 0.0025 s.
+ * leave, and what they do to accuracy and cost. h is the step, and gamma is the right-hand side of
+ * the acceleration constraints J a = gamma. The numbers were measured with a pendulum of length 1 m
+ * that is released from the horizontal and runs for 1 s with h = 0.0025 s.
  * docs/theory/gain_rules.md has more measurements. */
 
 /** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
@@ -65,9 +66,8 @@ typedef struct baum_gains {
  *
  *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
  *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
- *  and the steady |Phi| is about h |gamma| / alpha, where gamma is the right-hand side of the
- *  acceleration constraints J a = gamma (4). With other methods the violation decreases with h at
- *  the order of the method.
+ *  and the steady |Phi| is about h |gamma| / alpha. With other methods the violation decreases with
+ *  h at the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
  *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
@@ -98,7 +98,7 @@ BAUM_API baum_gains baum_gains_taylor(void);
  *  and cost are those of baum_gains_fixed(). With a damping ratio below 0.618, violations may grow
  *  with CVODE BDF and IDA.
  *  @param hertz          [Hz] > 0, natural frequency
- *  @param damping_ratio  [-] > 0, 1 is critical
+ *  @param damping_ratio  [-] > 0; 1 is critical damping
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
@@ -159,7 +159,7 @@ BAUM_API baum_gains baum_gains_auto(void);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_best_damping(void);
 
-/** What happens to a constraint violation in the long run. */
+/** The kind of stability: what happens to constraint violations in the long run. */
 typedef enum baum_stability {
   BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
   /** Some violations neither decay nor grow exponentially: spectral radius = 1. */
@@ -172,7 +172,8 @@ typedef enum baum_stability {
   BAUM_WITHOUT_GAINS = 4
 } baum_stability;
 
-/** How one step changes a violation. */
+/** The result of baum_stability_at() and baum_stability_velocity_at(): how one step changes
+ *  constraint violations. */
 typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
   baum_stability stability; /**< Whether violations decay. */
@@ -295,13 +296,13 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
                                          double *radius);
 
 /** Trace the outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at
- *  most a given number. The number 1 gives the region of stability; a smaller number gives the
- *  region where violations decay at least that fast.
+ *  most `radius`. With `radius` = 1, this is the region of stability. With a smaller radius, it is
+ *  the region where each step multiplies violations by at most this factor in the long run.
  *
  *  The outline consists of closed curves: one around each part of the region, and one around each
  *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from
  *  point to point, the region is to the right. Between two curves there is one point of NaNs. The
- *  points of the outline lie where the spectral radius has the given value; where an axis bounds
+ *  points of the outline lie where the spectral radius is equal to `radius`; where an axis bounds
  *  the region, they lie on the axis. The function may miss parts that are smaller than about a
  *  hundredth of the whole region. It uses 30 kB of stack.
  *  @param      integrator        the method
@@ -310,7 +311,7 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *                                of the library.
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
  *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
- *                                spectral radius is nowhere so small
+ *                                spectral radius is larger than `radius` everywhere
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                             int32_t capacity, double *alpha_h, double *beta2_h2,

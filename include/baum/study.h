@@ -13,9 +13,9 @@
  *  integrator, formulation and gains; its entries differ only in step or rtol. Errors are
  *  differences from a *reference*, which is a very accurate motion. Errors are measured at n
  *  samples (the option `samples`), at the times t0 + k (t1 - t0) / n with k = 1 to n. The study
- *  computes its own reference, or uses one that you give. The study never reports an error that is
- *  smaller than the uncertainty of the reference. docs/theory/work-precision.md explains the
- *  details.
+ *  computes the reference itself, or uses a reference that you give. The study never reports an
+ *  error that is smaller than the uncertainty of the reference. docs/theory/work-precision.md
+ *  explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
  *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
@@ -85,7 +85,8 @@ typedef struct baum_study_options {
   /** [s] > 0, largest CPU time of a run; may be infinite. A run of the reference may take five
    *  times this limit. Default: 10. */
   double entry_limit;
-  /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
+  /** [s] > 0, largest wall time of one call of baum_study_run(); may be infinite.
+   *  Default: infinity. */
   double time_budget;
   /** Measure the work that stabilization and projection do on the mechanism. This needs additional
    *  evaluations; baum_energy_account states how many. Default: true. */
@@ -128,7 +129,7 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
-/** Which settings the standard grid contains. */
+/** The definition of a standard grid: which settings it contains. */
 typedef struct baum_study_grid {
   size_t struct_size; /**< Set by the default function. Do not write. */
   /** Use only this integrator. Default: NULL, all integrators of this build. */
@@ -383,14 +384,14 @@ BAUM_API baum_status baum_study_entry_options(const baum_study *study, int32_t k
 
 /* ---- reference ------------------------------------------------------------------------------- */
 
-/** Where the reference comes from. */
+/** The origin of a reference: where it comes from. */
 typedef enum baum_study_origin {
   BAUM_STUDY_OWN = 0,     /**< Computed by the study. */
   BAUM_STUDY_GIVEN = 1,   /**< Given by baum_study_set_reference(). */
   BAUM_STUDY_SOLUTION = 2 /**< Given by baum_study_set_solution(). */
 } baum_study_origin;
 
-/** How far the reference can be trusted. */
+/** The quality of a reference: how far it can be trusted. */
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
   baum_study_origin origin; /**< Where the reference comes from. */
@@ -406,7 +407,7 @@ typedef struct baum_study_reference {
   double uncertainty_lambda; /**< [-] uncertainty of error_lambda. */
   double uncertainty_energy; /**< [J] uncertainty of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  /** A text that says which reference runs agree to how many digits, or why the reference is not
+  /** A text that says to how many digits the reference runs agree, or why the reference is not
    *  trusted. */
   const char *text;
 } baum_study_reference;
@@ -448,7 +449,7 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
 
-/** How cost is measured. */
+/** A measure of cost. */
 typedef enum baum_study_cost {
   /** [-] number of evaluations, plus the number of factorizations and iterations of implicit
    *  methods. It is the same on every machine. */
@@ -542,8 +543,8 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *                           be NULL.
  *  @param      size         [byte] size of `why`
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
- *           entry is accurate enough, or if the uncertainty of the reference is larger than the
- *           error), BAUM_ERR_STATE (no entry has a measured time) */
+ *           entry is accurate enough, or if the uncertainty of the reference is larger than
+ *           `error`), BAUM_ERR_STATE (no entry has a measured time) */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);

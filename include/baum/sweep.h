@@ -21,7 +21,7 @@ extern "C" {
  *  @return  BAUM_OK, or an error, which makes this run fail */
 typedef baum_status baum_sweep_change_fn(baum_mechanism *copy, int64_t run, void *user);
 
-/** What a sweep computes. */
+/** The definition of a sweep: what the sweep computes. */
 typedef struct baum_sweep_def {
   size_t struct_size;           /**< Set by the default function. Do not write. */
   int64_t count;                /**< [-] > 0, number of runs. Default: 0, must be set. */

@@ -133,7 +133,8 @@ class Counters(NamedTuple):
     alpha: [1/s] gain in use.
     beta: [1/s] gain in use.
     spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
-        a violation in the long run. NaN without "baumgarte" and with variable steps.
+        a violation in the long run. NaN if the formulation is not "baumgarte", or if the steps
+        are variable.
     damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
         alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
         violations grow. NaN if spectral_radius is NaN.
@@ -404,8 +405,8 @@ class StudyReference(NamedTuple):
     uncertainty_lambda: [-] uncertainty of error_lambda.
     uncertainty_energy: [J] uncertainty of energy_error.
     samples: [-] number of samples.
-    text: A text that says which reference runs agree to how many digits, or why the reference
-        is not trusted.
+    text: A text that says to how many digits the reference runs agree, or why the reference is
+        not trusted.
     """
 
     origin: str
