@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Break times and schedules. A break time is a time at which a load or a law of the mechanism
- *  jumps. A schedule lists the times at which an input changes, and the value of the input from
- *  each of these times on.
+ *  jumps or has a kink. A schedule lists the times at which an input changes, and the value of the
+ *  input from each of these times on.
  */
 #ifndef BAUM_BREAKS_H
 #define BAUM_BREAKS_H
@@ -14,21 +14,22 @@ extern "C" {
 #endif
 
 /** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
- *  have a kink. When such a function is called exactly at its break time, it must return its value
- *  after the break.
+ *  have a kink. When such a function is called exactly at its break time, it must return the value
+ *  that it has after the break.
  *
- *  No step crosses a break, whether the run goes forward or backward in time. In a forward run, one
- *  step ends a few rounding errors before the break, and the next step begins at the break. Methods
- *  that use past steps restart at the break (counters.restarts counts this). If a break is not on
- *  the grid of a fixed-step method, the method shortens the step before the break
- *  (counters.short_steps counts this) and begins a new grid at the break. Breaks do not change the
- *  times of outputs, with one exception: if a requested time differs from a break only by rounding,
- *  the output is moved to the time of the break.
+ *  No step crosses a break time (in short, a break), whether the run goes forward or backward in
+ *  time. In a forward run, one step ends just before the break, by a few rounding errors of the
+ *  time, and the next step begins at the break. Methods that use past steps restart at the break
+ *  (baum_counters.restarts counts this). If a break is not on the grid of a fixed-step method, the
+ *  method shortens the step before the break (baum_counters.short_steps counts this) and begins a
+ *  new grid at the break. Breaks do not change the times of outputs, with one exception: if a
+ *  requested time differs from a break only by rounding, the output is moved to the time of the
+ *  break.
  *
  *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
  *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()
- *  describes how each formulation handles such a violation. baum_kinematics() is an exception:
- *  there the velocities jump to those of the law.
+ *  describes how each formulation handles such a violation. baum_kinematics() is an exception: with
+ *  this method, the velocities jump to the values that the law prescribes.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param[in] times      (count) [s] finite, in any order. They are added to the break times of
  *                        earlier calls. Copied. NULL if count is 0.

@@ -14,8 +14,8 @@
  *  The reference of a mechanism is its known motion. This motion is given either as stored samples
  *  or by formulas (the field `exact` says which). Samples are valid for the default parameters
  *  only. Formulas are valid for all parameters, and for all times at which their rounding errors
- *  stay below the accuracy that `digits_q` and `digits_v` promise. The library refuses a comparison
- *  if the reference is not valid for it.
+ *  stay below the accuracy that `digits_q` and `digits_v` promise. The library refuses to compare a
+ *  motion with a reference that is not valid for its parameters or times.
  *
  *  Threads: every function may be called from any thread. */
 #ifndef BAUM_CATALOG_H
@@ -53,12 +53,12 @@ typedef struct baum_catalog_entry {
   int32_t sample_count;    /**< [-] number of stored samples; 0 if there are none. */
   double start_time;       /**< [s] start of the problem and of its reference. */
   double end_time;         /**< [s] end of the problem and of its reference. */
-  /** [-] number of digits of the reference positions that can be trusted, relative to max(1, |q|).
-   *  NaN if there is no reference. */
+  /** [-] number of correct digits of the reference positions: the error of a position q is at most
+   *  10^-digits_q max(1, |q|). NaN if there is no reference. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
-  bool exact;      /**< The reference consists of formulas. */
-  bool smooth;     /**< The motion with default parameters passes no singular configuration. */
+  bool exact;      /**< True if the reference consists of formulas. */
+  bool smooth; /**< True if the motion with default parameters passes no singular configuration. */
 } baum_catalog_entry;
 
 /** A parameter of a mechanism of the catalogue. */
@@ -68,8 +68,8 @@ typedef struct baum_catalog_parameter {
   const char *unit;    /**< Such as "kg m^2"; "-" for a pure number. */
   const char *meaning; /**< What the parameter describes. */
   double value;        /**< [unit] the default. */
-  bool positive;       /**< The value must be > 0. */
-  bool whole;          /**< The value must be an integer. */
+  bool positive;       /**< True if the value must be > 0. */
+  bool whole;          /**< True if the value must be an integer. */
 } baum_catalog_parameter;
 
 /** A value for a parameter. */
@@ -85,7 +85,7 @@ typedef struct baum_catalog_choice {
   int32_t setting_count;                /**< [-] >= 0; parameters not listed have their defaults. */
 } baum_catalog_choice;
 
-/** Count the entries. @return their number */
+/** Count the entries of the catalogue. @return their number */
 BAUM_CATALOG_API int32_t baum_catalog_count(void);
 
 /** Read an entry.
@@ -145,8 +145,8 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
 
-/** A function to pass to baum_study_set_solution(). It calls baum_catalog_reference() and returns
- *  the result. Use it for mechanisms whose reference consists of formulas.
+/** A function to pass to baum_study_set_solution(). It computes q and v by
+ *  baum_catalog_reference(). Use it for mechanisms whose reference consists of formulas.
  *  @param      t       [s]
  *  @param[out] q,v     (nq), (nv)
  *  @param[out] lambda  not written, because the reference has no multipliers
@@ -155,13 +155,13 @@ BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *c
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
 
-/** Errors of states relative to the reference. Errors of lengths are divided by the characteristic
- *  length of the mechanism. Errors of angles [rad] and of user coordinates are not scaled. The
- *  error of an orientation in space is the rotation that leads from the reference to the state; it
- *  has three components, the rotations about the body axes [rad]. Errors of velocities are scaled
- *  in the same way and then divided by the largest scaled velocity of the reference. The fields
- *  q_floor and v_floor are the uncertainty of the reference. An error that is smaller than this
- *  uncertainty has no meaning. */
+/** The result of baum_catalog_compare(): how far states differ from the reference. Errors of
+ *  lengths are divided by the characteristic length of the mechanism. Errors of angles [rad] and of
+ *  user coordinates are not scaled. The error of an orientation in space is the rotation that leads
+ *  from the reference to the state; it has three components, the rotations about the body axes
+ *  [rad]. Errors of velocities are scaled in the same way and then divided by the largest scaled
+ *  velocity of the reference. The fields q_floor and v_floor state the uncertainty of the
+ *  reference. An error that is smaller than this uncertainty has no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */
@@ -175,12 +175,12 @@ typedef struct baum_catalog_error {
 } baum_catalog_error;
 
 /** Compare states with the reference.
- *  @param[in]  choice       the choice that the mechanism was built from
+ *  @param[in]  choice       the choice from which the mechanism was built
  *  @param      mechanism    frozen
- *  @param[in]  times        (n) [s] see baum_catalog_reference()
+ *  @param[in]  times        (n) [s] each must be allowed as t in baum_catalog_reference()
  *  @param      n            [-] > 0
  *  @param[in]  q            (n x nq) positions at these times
- *  @param[in]  v            (n x nv) velocities. NULL: not compared.
+ *  @param[in]  v            (n x nv) velocities at these times. NULL: velocities are not compared.
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_STATE (not frozen), or a status of baum_catalog_reference() */

@@ -14,9 +14,8 @@
  *  corresponds to their inertia. Joints and forces are drawn as symbols. You can give a body
  *  outlines (shapes of your own), which replace the shape that the library chooses.
  *
- *  Functions that write a file replace an older file of the same name in the way that
- *  baum_study_write() describes. Drawing does not change the mechanism.
- */
+ *  Functions that write a file replace an older file of the same name in the way that the comment
+ *  on baum_study_write() describes. Drawing does not change the mechanism. */
 #ifndef BAUM_DRAW_H
 #define BAUM_DRAW_H
 
@@ -45,14 +44,14 @@ typedef enum baum_outline_form {
 #define BAUM_OUTLINE_MAX_TRIANGLES 200000 /**< Largest number of triangles of a mesh. */
 
 /** An outline is a shape that is drawn for a body. It is given in the axes of the body. Each form
- *  uses only some of the fields below; their comments name the forms that use them. */
+ *  uses only some of the fields below; the comment of a field names the forms that use it. */
 typedef struct baum_outline {
-  size_t struct_size;     /**< Set by the default. Do not write. */
+  size_t struct_size;     /**< Set by the default function. Do not write. */
   baum_outline_form form; /**< Default: BAUM_OUTLINE_POLYGON. */
   /** (point_count x 3) [m] x, y, z of the corners of a polygon or of the vertices of a mesh. The
    *  corners of a polygon must all have the same z. Default: NULL, must be set. */
   const double *points;
-  int32_t point_count; /**< [-] >= 3. Default: 0, must be set. */
+  int32_t point_count; /**< [-] >= 3, number of points. Default: 0, must be set. */
   /** (triangle_count x 3) [-] the three vertices of each triangle of a mesh, as indices of rows of
    *  `points`, counted from 0. Default: NULL, must be set. */
   const int32_t *triangles;
@@ -62,7 +61,7 @@ typedef struct baum_outline {
    *  set. */
   double size[3];
   double start[3]; /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
-  /** [m] centre of the other end; must differ from `start`. Default: (0, 0, 0). */
+  /** [m] centre of the other end of a cylinder; must differ from `start`. Default: (0, 0, 0). */
   double end[3];
   /** [m] > 0, radius of a circle, cylinder or sphere. Default: 0, must be set. */
   double radius;
@@ -119,7 +118,8 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
  *  with spatial elements is shown in a parallel projection, seen obliquely from above. Red lines
  *  show where the constraints of a joint are violated. A red line connects two points that should
  *  coincide, or the tips of two axes that should be parallel. It may also connect a point with the
- *  line, plane or curve on which the point should be; for a distance joint, with a sphere.
+ *  line, plane or curve on which the point should be. For a distance joint, it connects a point
+ *  with the sphere on which the point should be.
  *  @param      mechanism  must be frozen unless q is NULL
  *  @param[in]  q          (nq) positions. NULL: the design configuration.
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
@@ -153,7 +153,7 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
-/** What a mark on the time axis stands for. Each kind of mark has its own colour and shape. */
+/** A kind of mark on the time axis of a page. Each kind has a different colour and shape. */
 typedef enum baum_mark_kind {
   BAUM_MARK_WARNING = 0,
   BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
@@ -163,7 +163,7 @@ typedef enum baum_mark_kind {
 /** The content of an HTML page: samples of a run as baum_simulation_sample() records them. All
  *  pointers belong to the caller and are read only during the call. */
 typedef struct baum_page {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *title;   /**< Default: NULL, the title "Mechanism". */
   const double *times; /**< (count) [s] monotone. Default: NULL, must be set. */
   /** [-] > 0, number of samples. A page keeps at most 600 samples. It always keeps those at which a
@@ -183,7 +183,7 @@ typedef struct baum_page {
    *  Default: 0, which means plot_count. */
   int32_t plot_stride;
   /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
-   *  the same unit are drawn in the same plot. Default: NULL. */
+   *  the same unit are drawn in the same plot. Default: NULL, must be set if plot_count > 0. */
   const char *const *plot_labels;
   /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE.
    *  Default: NULL, none. */
@@ -235,7 +235,7 @@ BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum
  *  the page. Its frame is large enough for the whole motion, so that pictures of several samples
  *  have the same scale.
  *  @param      mechanism  frozen
- *  @param[in]  page       the motion
+ *  @param[in]  page       what the page shows
  *  @param      sample     [-] >= 0, < count of the page
  *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
  *  @param      capacity   [byte]

@@ -14,12 +14,11 @@
  *
  *  Every call returns BAUM_OK or one of these statuses: BAUM_ERR_ARGUMENT (an argument is NULL or
  *  not finite), BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element),
- *  BAUM_ERR_STATE (a user function has called the workspace while the workspace was calling this
- *  function). The comment of a call names further statuses.
+ *  BAUM_ERR_STATE (the call comes from a user function that the same workspace is calling). The
+ *  comments of the functions name further statuses.
  *
- *  Threads: one workspace is used by one thread at a time. Any number of workspaces may share a
- *  mechanism.
- */
+ *  Threads: only one thread at a time may use a workspace. Any number of workspaces may share a
+ *  mechanism. */
 #ifndef BAUM_DYNAMICS_H
 #define BAUM_DYNAMICS_H
 
@@ -29,7 +28,7 @@
 extern "C" {
 #endif
 
-/** The memory that evaluations of one mechanism need. */
+/** A workspace. It evaluates one mechanism, and contains the memory that this needs. */
 typedef struct baum_workspace baum_workspace;
 
 /** Create a workspace. The mechanism stays in memory as long as the workspace exists. This call
@@ -50,9 +49,10 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
-/** Change an input. Before the first such call, the input has its initial value.
+/** Change the value of an input in this workspace. Before the first such call, the input has its
+ *  initial value.
  *  @param workspace  of the mechanism
- *  @param input      one of its inputs
+ *  @param input      an input of the mechanism
  *  @param value      finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id input,
@@ -66,17 +66,16 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
 /** Choose the number of whole revolutions in an angle of a spatial joint. Positions determine such
- *  an angle only up to whole revolutions. After this call, the functions of this workspace use the
- *  value that is nearest to the given angle. Before the first such call, they use the value that is
+ *  an angle only up to whole revolutions. After this call, the functions of this workspace use that
+ *  possible value which is nearest to `angle`. Before the first such call, they use the value
  *  nearest to 0.
  *  @param workspace   of the mechanism
  *  @param joint       a spatial joint
  *  @param coordinate  one of the angles of the joint; BAUM_COORDINATE_FIRST is allowed if the first
  *                     coordinate of the joint is an angle
  *  @param angle       [rad] finite
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (a user function that the workspace is
- *           calling makes this call)
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (the call comes from a user function that
+ *           the same workspace is calling) */
 BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
                                               baum_joint_coordinate coordinate, double angle);
 
@@ -163,11 +162,10 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  stabilization.
  *
  *  The solution omits redundant rows. Where multipliers are not unique, the function returns the
- *  multipliers of least norm. In this norm, each lambda_i is multiplied by |row i of J M^-1/2|.
- *  These multipliers balance the forces with a relative error of at most 1e-9. If the rows that are
- *  not omitted become nearly dependent, the workspace looks for a better choice of omitted rows. A
- *  change of this choice allocates memory. After a change, baum_workspace_residual() omits the same
- *  rows.
+ *  multipliers of least norm. This norm weights each lambda_i with the length of row i of J
+ *  M^(-1/2). These multipliers balance the forces with a relative error of at most 1e-9. If the
+ *  rows that are not omitted become nearly dependent on each other, the workspace chooses other
+ *  rows to omit, which allocates memory. baum_workspace_residual() then omits these rows, too.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
@@ -181,19 +179,21 @@ BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, doub
 
 /** Compute the reaction of a joint. For most joints, the reaction is the force and the moment on
  *  body_b; planar.h and spatial.h give the details. For user constraints, gears and couplings, the
- *  reaction is the generalized force -J^T lambda that belongs to the velocities of their bodies.
+ *  reaction is the generalized force -J^T lambda of their rows, with one number for each velocity
+ *  of their bodies.
  *  @param      workspace,t,q  see the top of this file
  *  @param[in]  lambda         (nc)
  *  @param      joint          a joint of the mechanism
- *  @param[out] reaction       (width) with as many numbers as the channel BAUM_JOINT_REACTION has
- *                             columns: 3 for planar joints, 6 for spatial joints
+ *  @param[out] reaction       (width) with as many numbers as the channel BAUM_JOINT_REACTION of
+ *                             this joint has columns, such as 3 for a planar joint and 6 for a
+ *                             spatial joint
  *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates. The residual consists of q' - N v, then M
- *  v' + J^T lambda - g, and then the constraints in one of the forms below.
+/** The form of the equations that baum_workspace_residual() evaluates. The residual consists of q'
+ *  - N v, then M v' + J^T lambda - g, and then the constraints in one of the forms below.
  *
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
  *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
@@ -207,7 +207,7 @@ typedef enum baum_residual {
   BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu, then Phi. */
 } baum_residual;
 
-/** Which form of the equations is evaluated, and with which gains. */
+/** The equations to evaluate: their form and their gains. */
 typedef struct baum_dae {
   baum_residual index; /**< Form of the constraints. */
   double alpha;        /**< [1/s] finite; used only by index 1. */
@@ -218,15 +218,15 @@ typedef struct baum_dae {
  *  column, entries are sorted by row. The caller owns the arrays. */
 typedef struct baum_sparse {
   int32_t *columns; /**< (size + 1) index of the first entry of each column. May be NULL. */
-  int32_t *rows;    /**< (nonzeros). May be NULL. */
-  double *values;   /**< (nonzeros). May be NULL. */
+  int32_t *rows;    /**< (nonzeros) row of each entry, from 0. May be NULL. */
+  double *values;   /**< (nonzeros) value of each entry. May be NULL. */
   int32_t nonzeros; /**< [-] number of entries; always written. */
 } baum_sparse;
 
 /** Evaluate the residual F(t, y, y') of the differential-algebraic equations. The unknowns are y =
  *  (q, v, lambda), and for GGL y = (q, v, lambda, mu). If row i is redundant and omitted, its
- *  constraint is replaced by the equation lambda_i = 0. For GGL, the second constraint of this row
- *  is replaced by mu_i = 0.
+ *  constraint is replaced by the equation lambda_i = 0. GGL has two equations for each row, Phi'
+ *  and Phi; the second is replaced by mu_i = 0.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
@@ -259,12 +259,12 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
  *  want, list the bodies that must not move in `held`.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
- *  @param[in,out] v            (nv) velocities. Finite entries are kept exactly. Entries that are
- *                              NaN are computed from the constraints. If the constraints do not
- *                              determine these entries, the function chooses those of least norm.
- *                              Unchanged on failure.
- *  @param[in]     held         (held_count) bodies that keep their positions, in addition to those
- *                              whose definition sets `held`. May be NULL if held_count is 0.
+ *  @param[in,out] v            (nv) velocities. Finite entries do not change. Entries that are NaN
+ *                              are computed from the constraints. If the constraints do not
+ *                              determine these entries, the function chooses the velocities of
+ *                              least norm. Unchanged on failure.
+ *  @param[in]     held         (held_count) bodies that assembly must not move, in addition to
+ *                              those whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
  *  @return  the statuses at the top of this file; also BAUM_ERR_INCONSISTENT (the message names the
  *           joints in conflict), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
@@ -280,7 +280,7 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
  *                              unchanged on failure
  *  @return  the statuses at the top of this file; also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR,
  *           BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (redundant rows contradict the other rows, or
- *           axes of a joint have become opposite) */
+ *           two axes of a joint point in opposite directions) */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
                                             double *v);
 

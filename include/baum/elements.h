@@ -2,8 +2,8 @@
 /** @file
  *  Functions that find the elements of a mechanism, by name or by number. Elements are numbered in
  *  the order in which they were added. The mechanism may be frozen or not. Use these functions for
- *  mechanisms that another program has built, such as the mechanisms of the catalogue. Here ground
- *  does not count as a body. Drivers and user constraints count as joints.
+ *  mechanisms that another program has built, such as the mechanisms of the catalogue. For these
+ *  functions, ground does not count as a body, and drivers and user constraints count as joints.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H
@@ -57,8 +57,8 @@ BAUM_API baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism
 
 /** Read the name of a force.
  *  @param mechanism  frozen or not
- *  @param force      one of its forces
- *  @return  text owned by the mechanism; NULL for other ids */
+ *  @param force      a force of the mechanism
+ *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_force_name(const baum_mechanism *mechanism,
                                                baum_force_id force);
 

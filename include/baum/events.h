@@ -6,20 +6,20 @@
  *  Detection: after every step, the run evaluates its event functions at the end of the step and at
  *  one, two and three quarters of the step. It also evaluates them at the times of outputs. If the
  *  sign of a function has changed, the run searches for the time of the event. The search needs
- *  states inside the step. They are computed as for outputs: variable-step methods interpolate the
- *  step, and fixed-step methods take shorter steps from its start. If a function passes zero twice
- *  between two evaluations, the event is not detected. In this case, reduce max_step or the step.
+ *  states inside the step. The run computes these states in the same way as outputs: variable-step
+ *  methods interpolate the step, and fixed-step methods take shorter steps from its start. If a
+ *  function passes zero twice between two evaluations, the run detects neither event. If this can
+ *  happen, reduce max_step or the step.
  *
- *  Zero at the start: an event function may be zero where a run starts, after
+ *  Zero at the start: an event function may be zero at the start of a run, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
- *  then leaves zero, this is not an event. The next time at which the function passes zero is an
- *  event. A zero shortly after such a start is not an event, either, because it may be a rounding
- *  error of the start. "Shortly" means within 1e-10 T, or within the tolerance of the event if that
- *  is longer. T is 1 / r, where r is the rate of the motion, which baum_simulation_explain()
- *  states. For the method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first
- *  moves the state onto the constraints. baum_simulation_set_input() and
- *  baum_simulation_set_driver() trigger no event. If such a call changes the sign of an event
- *  function, the run continues with the new sign.
+ *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not an
+ *  event, either, because rounding errors of the start may be the cause. Every later zero is an
+ *  event. "Shortly" means within 1e-10 T, or within the tolerance of the event if that is longer. T
+ *  is 1 / r, where r is the rate of the motion, which baum_simulation_explain() states. For the
+ *  method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto
+ *  the constraints. baum_simulation_set_input() and baum_simulation_set_driver() trigger no event.
+ *  If such a call changes the sign of an event function, the run continues with the new sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
  *  begins a new grid of steps there. */
@@ -34,15 +34,16 @@ extern "C" {
 
 /** An event: a user function that passes zero, or a joint coordinate that passes a value. */
 typedef struct baum_event_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
   /** The event function. It writes one number to out; q (nq) and v (nv) are those of the whole
    *  mechanism. The run calls it when a step is complete, so the function cannot ask for a smaller
    *  step: if it returns a number other than 0, the call that advances the run fails.
    *  Default: NULL, the coordinate of `joint` is used. */
   baum_force_fn *function;
-  baum_joint_id joint; /**< A joint with a coordinate, if function is NULL. Default: none. */
-  double value;        /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
+  /** A joint with a coordinate. Must be set if function is NULL, and only then. Default: none. */
+  baum_joint_id joint;
+  double value; /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
   /** [-] which zeros are events. 1: only those where the function rises in time; -1: only those
    *  where it falls; 0: both. Default: 0. */
   int32_t direction;
@@ -92,8 +93,8 @@ typedef struct baum_event_record {
  *  @return  0 for NULL */
 BAUM_API int64_t baum_simulation_event_count(const baum_simulation *simulation);
 
-/** Read an event that has happened. A run keeps the last 1024 events. If there may be more, read
- *  them while the run is in progress.
+/** Read an event that has happened. A run keeps the last 1024 events. If a run may have more
+ *  events, read them while it is in progress.
  *  @param      simulation   the run
  *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they
  *                           happened

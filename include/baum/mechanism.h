@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Mechanisms: what is simulated. A mechanism consists of bodies, joints, forces and inputs.
+ *  Mechanisms, the objects that are simulated. A mechanism consists of bodies, joints, forces and
+ *  inputs.
  *
  *  Use: add elements, freeze the mechanism, then run simulations. A frozen mechanism does not
  *  change any more, so several threads may share it.
@@ -54,9 +55,9 @@
  *  threads share the mechanism, callbacks must be reentrant.
  *
  *  A callback may call the library, but it must not use the workspace or the run that is calling
- *  it. Functions of this workspace or run that return a status fail with BAUM_ERR_STATE, and the
- *  function that destroys it does nothing. There are two exceptions: the callback may read the
- *  time, q, v, inputs and texts of the run, and it may cancel the run. */
+ *  it. If it does, functions that return a status fail with BAUM_ERR_STATE, and the function that
+ *  destroys the workspace or the run does nothing. There are two exceptions: the callback may read
+ *  the time, q, v, inputs and texts of the run, and it may cancel the run. */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H
 
@@ -142,8 +143,8 @@ typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *us
  *  displacement v. A displacement has `size` numbers, as a velocity has. */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** Computes the displacement dx (size) from one configuration to another. The function of type
- *  baum_move_fn, called with h = 1 and v = dx, moves `from` to `to`. */
+/** Computes the displacement dx (size) from one configuration to another. The function `move` of
+ *  the same body, called with h = 1 and v = dx, must move `from` to `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest point of the configuration manifold, for example a quaternion by the
@@ -161,7 +162,7 @@ typedef void baum_normalize_fn(double *q, void *user);
  *  also applies to constraints on these coordinates: their Jacobian is Phi_q N, not Phi_q. The
  *  functions rate, move, difference and normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
   /** (position_count) positions in the design configuration; they must lie on the configuration
@@ -185,7 +186,7 @@ typedef struct baum_coordinates_def {
   baum_force_fn *force_v;
   baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
   bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
-  bool held;                /**< Assembly keeps the design positions. Default: false. */
+  bool held;                /**< True if assembly must not move the body. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
   /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
@@ -198,7 +199,7 @@ typedef struct baum_coordinates_def {
   baum_difference_fn *difference;
   /** Moves q onto the manifold. Not needed if every q is on the manifold. Default: NULL. */
   baum_normalize_fn *normalize;
-  int32_t position_count; /**< [-] number of positions. Default: 0, the same as `size`. */
+  int32_t position_count; /**< [-] number of positions. Default: 0, which means `size`. */
 } baum_coordinates_def;
 
 /** Set every field to its default. Bindings to other languages call this function; C programs call
@@ -257,16 +258,16 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
- *  those of a wheel that does not slip. In this case jacobian is required and phi must be NULL.
- *  With Baumgarte's gains (stabilization.h), their equation of accelerations is J a = gamma - alpha
- *  (J v - nu).
+ *  those of a wheel that does not slip. For such constraints, jacobian is required and phi must be
+ *  NULL. With Baumgarte's gains (stabilization.h), their equation of accelerations is J a = gamma -
+ *  alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
  *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
- *  units before and after t, and those for gamma up to 0.05 time units. If phi is not defined
- *  before t = 0, give nu and gamma. */
+ *  units before and after t, and the differences for gamma up to 0.05 time units. If phi is not
+ *  defined before t = 0, give nu and gamma. */
 typedef struct baum_user_constraint_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
@@ -320,9 +321,9 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
- *  An angle of a planar joint grows continuously over several revolutions. An angle of a spatial
- *  joint follows from a single configuration only up to whole revolutions. A run therefore counts
- *  the revolutions. A workspace does not know the past of the motion, so its functions use angles
+ *  An angle of a planar joint grows continuously over several revolutions. A single configuration
+ *  determines an angle of a spatial joint only up to whole revolutions. A run therefore counts the
+ *  revolutions. A workspace does not know the past of the motion, so its functions use angles
  *  between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions. */
 typedef enum baum_joint_coordinate {
   /** The first coordinate that the list above gives for the joint. Most joints have only one. */
@@ -334,23 +335,24 @@ typedef enum baum_joint_coordinate {
   /** [m] displacement from body_a's point to body_b's point, along the x axis of a spatial planar
    *  joint. */
   BAUM_COORDINATE_X = 4,
-  BAUM_COORDINATE_Y = 5 /**< [m] the same, perpendicular to x in the plane. */
+  /** [m] the same displacement, along the y axis in the plane of the joint, perpendicular to x. */
+  BAUM_COORDINATE_Y = 5
 } baum_joint_coordinate;
 
 /* ---- drivers --------------------------------------------------------------------------------- */
 
 /** A driver prescribes a coordinate of a joint as a function of time. It adds one row,
  *  coordinate(q) - s(t) = 0. The function s(t) is the polynomial value + rate t + acceleration t^2
- *  / 2, or a law of your own. If the coordinate is an angle of a spatial joint, whole revolutions
- *  do not count in this row. */
+ *  / 2, or a law of your own. Whole revolutions of an angle of a spatial joint do not change this
+ *  row. */
 typedef struct baum_driver_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
   double value;        /**< [rad or m] s at t = 0. Default: 0. */
   double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
   double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;    /**< Replaces the polynomial. Default: NULL. */
+  baum_law_fn *law;    /**< A law that replaces the polynomial. Default: NULL. */
   void *user;          /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
@@ -397,21 +399,21 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  are angles of spatial joints, this is true only if ratio is a fraction with a denominator of at
  *  most 1000. With any other ratio, the row counts the revolutions.
  *
- *  The reaction of a coupling is the generalized force -J^T lambda that belongs to the velocities
- *  of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints appears once,
- *  and ground does not appear. */
+ *  The reaction of a coupling is the generalized force -J^T lambda of its row, with one number for
+ *  each velocity of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints
+ *  appears once, and ground does not appear. */
 typedef struct baum_coupling_def {
-  size_t struct_size;    /**< Set by the default. Do not write. */
+  size_t struct_size;    /**< Set by the default function. Do not write. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint_a; /**< A joint with a coordinate. Default: none, must be set. */
-  /** A joint with a coordinate. It may be joint_a again, to couple two coordinates of one joint.
-   *  Default: none, must be set. */
+  /** A joint with a coordinate. It may be the same joint as joint_a, to couple two coordinates of
+   *  this joint. Default: none, must be set. */
   baum_joint_id joint_b;
   double ratio; /**< [unit of coordinate_b / unit of coordinate_a] ratio in f(x). Default: 1. */
   /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
    *  configuration. */
   double offset;
-  baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
+  baum_coupling_fn *law; /**< A law that replaces ratio and offset. Default: NULL. */
   void *user;            /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate_a;
@@ -446,7 +448,7 @@ BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum
  *  it consists of a force x, y, z in ground axes and a moment x, y, z in body axes. The force acts
  *  at the centre of mass, and the moment is about the centre of mass. */
 typedef struct baum_user_force_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
@@ -488,14 +490,15 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 
 /** The law of a spring: computes the tension or the torque of the spring, and the derivatives of
  *  this value.
- *  @param      length  distance of the two points [m]; for a torsion spring the angle angle_b -
- *                      angle_a [rad]; for a joint spring the coordinate of the joint
+ *  @param      length  distance of the two points [m]; for a cable its length [m]; for a torsion
+ *                      spring the angle of body_b relative to body_a [rad]; for a joint spring the
+ *                      coordinate of the joint
  *  @param      rate    [m/s or rad/s] time derivative of length
  *  @param[out] out     (3) set to zero before the call. out[0] is the tension [N], which pulls the
  *                      points together if it is positive; for a torsion or joint spring it is the
  *                      restoring force [N] or torque [N m]. out[1] is the derivative of out[0] with
- *                      respect to length [N/m or N m/rad], and out[2] the derivative with respect
- *                      to rate [N s/m or N m s/rad]
+ *                      respect to length [N/m or N m/rad], and out[2] is the derivative of out[0]
+ *                      with respect to rate [N s/m or N m s/rad]
  *  @param      user    the definition's `user`
  *  @return  as baum_q_fn. When the library checks the derivatives, it also calls the law in
  *           configurations that the motion does not reach. */
@@ -508,7 +511,7 @@ typedef int baum_spring_fn(double length, double rate, double out[3], void *user
  *  A run counts the revolutions of an angle of a spatial joint, so the spring winds up further with
  *  each revolution. The functions of a workspace use angles between -pi and pi. */
 typedef struct baum_joint_spring_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
   /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
@@ -563,7 +566,7 @@ BAUM_API baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const c
 
 /** Read the initial value of an input.
  *  @param      mechanism  frozen or not
- *  @param      id         one of its inputs
+ *  @param      id         an input of the mechanism
  *  @param[out] initial    receives the initial value
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
@@ -571,7 +574,7 @@ BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, b
 
 /** Replace the initial value of an input.
  *  @param mechanism  not frozen
- *  @param id         one of its inputs
+ *  @param id         an input of the mechanism
  *  @param initial    finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id,
@@ -656,7 +659,7 @@ BAUM_API baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32
 
 /** Find the rows of a joint in Phi and lambda.
  *  @param      mechanism    frozen
- *  @param      joint        one of its joints
+ *  @param      joint        a joint of the mechanism
  *  @param[out] first,count  [-] first row and number of rows. Each may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
@@ -664,7 +667,7 @@ BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_j
 
 /** Find the coordinates of a body in q and v.
  *  @param      mechanism        frozen
- *  @param      body             one of its bodies
+ *  @param      body             a body of the mechanism
  *  @param[out] first_q,first_v  [-] index of the first coordinate of the body in q and in v. Each
  *                               may be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
@@ -673,31 +676,32 @@ BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, bau
 
 /** Read the name of a body.
  *  @param mechanism  frozen or not
- *  @param body       one of its bodies
+ *  @param body       a body of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body);
 
 /** Read the name of a joint.
  *  @param mechanism  frozen or not
- *  @param joint      one of its joints
+ *  @param joint      a joint of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
                                                baum_joint_id joint);
 
 /** Read the name of an input.
  *  @param mechanism  frozen or not
- *  @param input      one of its inputs
+ *  @param input      an input of the mechanism
  *  @return  the name, owned by the mechanism; NULL for ids of other mechanisms */
 BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
                                                baum_input_id input);
 
-/** How a mechanism can move from its assembled initial configuration. */
+/** The result of baum_mechanism_mobility(): how a mechanism can move from its assembled initial
+ *  configuration. */
 typedef struct baum_mobility {
   size_t struct_size; /**< Set by baum_mechanism_mobility(). */
-  /** [-] nv minus the rank of J at nearby configurations; -1 if the mechanism cannot be
-   *  assembled. */
+  /** [-] nv minus the rank of J at configurations near the initial one; -1 if the mechanism cannot
+   *  be assembled. */
   int32_t degrees_of_freedom;
-  /** [-] rows that depend on other rows at every nearby configuration. */
+  /** [-] rows that depend on other rows at every configuration near the initial one. */
   int32_t redundant_rows;
   int32_t conflicting_rows; /**< [-] rows that contradict the other rows. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
@@ -706,11 +710,11 @@ typedef struct baum_mobility {
    *  one, relative to the scales. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
-  baum_joint_id worst_joint; /**< The joint with the row of worst_phi. */
-  char text[1024];           /**< These results in words, with the names of elements. */
+  baum_joint_id worst_joint; /**< The joint whose row has the violation worst_phi. */
+  char text[1024];           /**< The results in words, with the names of elements. */
   int32_t velocity_rows;     /**< [-] rows of velocity level (non-holonomic constraints). */
   /** [-] degrees of freedom of position: nv minus the rank of J without rows of velocity level.
-   *  degrees_of_freedom counts the degrees of freedom of velocity instead. These are fewer if there
+   *  degrees_of_freedom counts the degrees of freedom of velocity instead, which are fewer if there
    *  are rows of velocity level. */
   int32_t position_degrees_of_freedom;
 } baum_mobility;
@@ -725,9 +729,9 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** What an evaluation of the accelerations costs in a run, and which work it skips because the
- *  mechanism does not need it. The counts follow from the structure of the mechanism. They do not
- *  include the cost of user functions. */
+/** The result of baum_mechanism_report(): what an evaluation of the accelerations costs in a run,
+ *  and which work the evaluation skips because the mechanism does not need it. The counts follow
+ *  from the structure of the mechanism. They do not include the cost of user functions. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] bodies without ground. */
@@ -744,26 +748,29 @@ typedef struct baum_report {
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;
-  bool constant_mass;  /**< The mass matrix is constant, so it is inverted only once. */
-  bool constant_force; /**< All forces are constant. */
+  bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
+  bool constant_force; /**< True if all forces are constant. */
   bool blocks;         /**< True if BAUM_SOLVER_BLOCK solves the equations, false if KLU does. */
   /** [-] nodes of the block solver (a node is a pair of rows); 0 for KLU. */
   int32_t nodes;
   int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
-  int32_t fill;      /**< [-] pairs that only elimination couples; 0 for KLU. */
-  /** [-] largest number of later nodes with which one node is coupled; 0 for KLU. */
+  int32_t fill; /**< [-] pairs of nodes that become coupled only by the elimination; 0 for KLU. */
+  /** [-] largest number of nodes that are coupled with one node and eliminated after it; 0 for KLU.
+   */
   int32_t most_couplings;
-  int32_t most_joints;      /**< [-] largest number of joints of a body that is not fixed. */
-  baum_body_id most_joined; /**< The body with most joints; none if there are no joints. */
-  /** These results in words, with the names of elements and the reasons. */
+  int32_t most_joints; /**< [-] number of joints of the body most_joined. */
+  /** The body with the most joints, among bodies that are not fixed; none if there are no joints.
+   */
+  baum_body_id most_joined;
+  /** The results in words, with the names of elements and with reasons. */
   char text[2048];
   int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
   /** [-] nv minus the rank of J without rows of velocity level; -1 if it is not known. */
   int32_t position_degrees_of_freedom;
 } baum_report;
 
-/** Report what an evaluation costs. The report is valid for the assembled initial configuration at
- *  t = 0 and for the solver that a run chooses by default.
+/** Report what an evaluation of the accelerations costs. The report is valid for the assembled
+ *  initial configuration at t = 0 and for the solver that a run chooses by default.
  *  @param      mechanism    if it is not frozen, a frozen copy is examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
@@ -783,7 +790,8 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
  *  symmetric, its diagonal must not contain negative numbers in the design configuration, and it
  *  must be constant if constant_mass is true. Kinks of a function are allowed. The check skips
  *  configurations and times at which a function fails. If a function fails in all configurations,
- *  the check returns this failure. Laws of drivers are an exception: they may fail in all of them.
+ *  the check returns this failure. Laws of drivers are an exception: they may fail in all
+ *  configurations.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

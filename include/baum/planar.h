@@ -33,17 +33,17 @@ extern "C" {
 
 /** A rigid body in the plane. The origin of its body axes is the centre of mass. */
 typedef struct baum_planar_body_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
-  /** [m] of the centre of mass in the design configuration. Default: (0, 0). */
+  /** [m] position of the centre of mass in the design configuration. Default: (0, 0). */
   double position[2];
-  double angle; /**< [rad] of the body axes in the design configuration. Default: 0. */
-  /** [m/s] of the centre of mass at the start. Default: NaN, assembly determines it. */
+  double angle; /**< [rad] angle of the body axes in the design configuration. Default: 0. */
+  /** [m/s] velocity of the centre of mass at the start. Default: NaN, assembly determines it. */
   double velocity[2];
   double angular_velocity; /**< [rad/s] at the start. Default: NaN, assembly determines it. */
-  bool held;               /**< Assembly keeps the design position and angle. Default: false. */
+  bool held;               /**< True if assembly must not move the body. Default: false. */
 } baum_planar_body_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -71,12 +71,12 @@ BAUM_API baum_status baum_mechanism_set_planar_body(baum_mechanism *mechanism, b
 
 /** A point mass in the plane. It has no angle, so joints that need an angle refuse it. */
 typedef struct baum_planar_particle_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
   double velocity[2]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
-  bool held;          /**< Assembly keeps the design position. Default: false. */
+  bool held;          /**< True if assembly must not move the body. Default: false. */
 } baum_planar_particle_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -106,7 +106,7 @@ BAUM_API baum_status baum_mechanism_set_planar_particle(baum_mechanism *mechanis
 /** A pin (revolute joint): the points of both bodies coincide. The joint has two rows [m]: x and y
  *  of the vector from body_b's point to body_a's point. */
 typedef struct baum_planar_revolute_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -144,7 +144,7 @@ BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanis
  *  The first is the distance of body_b's point from the axis [m], and the second is angle_b -
  *  angle_a - angle [rad]. */
 typedef struct baum_planar_translational_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -154,7 +154,8 @@ typedef struct baum_planar_translational_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
-  /** [rad] constant angle_b - angle_a. Default: NaN, the value in the design configuration. */
+  /** [rad] constant value of angle_b - angle_a. Default: NaN, the value in the design
+   *  configuration. */
   double angle;
 } baum_planar_translational_def;
 
@@ -184,10 +185,10 @@ BAUM_API baum_status baum_mechanism_set_planar_translational(
 
 /** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
  *  where d is the vector from body_a's point to body_b's point. For a small violation, the value of
- *  the row is the change of the length of the rod. The row is a smooth function everywhere; the
- *  length itself is not smooth where it is 0. */
+ *  the row is approximately the change of the length of the rod. The row is a smooth function of
+ *  the coordinates everywhere, whereas the length itself is not smooth where it is 0. */
 typedef struct baum_planar_distance_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -225,14 +226,15 @@ BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanis
  *  is constant. The joint has three rows: x and y as in a pin [m], and angle_b - angle_a - angle
  *  [rad]. */
 typedef struct baum_planar_fixed_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [rad] constant angle_b - angle_a. Default: NaN, the value in the design configuration. */
+  /** [rad] constant value of angle_b - angle_a. Default: NaN, the value in the design
+   *  configuration. */
   double angle;
 } baum_planar_fixed_def;
 
@@ -260,9 +262,9 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
 /* ---- spring-damper between two points -------------------------------------------------------- */
 
 /** A linear spring and damper in parallel between two points, or a law of your own. The force acts
- *  along the line through the points. It is zero when the points coincide. */
+ *  along the line through the points. The force is zero when the points coincide. */
 typedef struct baum_planar_spring_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -308,7 +310,7 @@ BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism,
  *  angle angle_b - angle_a. The relative angle grows continuously over several revolutions. Both
  *  bodies must have an angle, which particles do not have. One of the bodies may be ground. */
 typedef struct baum_planar_torsion_spring_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -353,7 +355,7 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
  *  direction in ground axes, or it rotates with the body. A load in ground axes that has neither a
  *  torque nor an input has a potential energy; other loads have none. */
 typedef struct baum_planar_load_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  More planar joints: pin in a slot, rack and pinion, gear, point on a curve. planar.h explains
- *  coordinates, points and reactions.
+ *  More planar joints: pin in a slot, rack and pinion, gear, point on a curve, knife edge. planar.h
+ *  explains coordinates, points and reactions.
  */
 #ifndef BAUM_PLANAR_JOINTS_H
 #define BAUM_PLANAR_JOINTS_H
@@ -19,7 +19,7 @@ extern "C" {
  *  this axis [m]. The coordinate of the joint is the displacement from body_a's point to body_b's
  *  point along the axis [m]. body_a must have an angle; body_b may be a particle. */
 typedef struct baum_planar_pin_in_slot_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -59,8 +59,8 @@ BAUM_API baum_status baum_mechanism_set_planar_pin_in_slot(baum_mechanism *mecha
 
 /** Rack and pinion: a pinion that is part of body_b rolls without slipping on a rack that is part
  *  of body_a. The axis is the direction of the rack, and body_b's point is the centre of the
- *  pinion. The joint has one row [m]: displacement - radius (angle_b - angle_a) - offset. Here
- *  displacement is the distance from body_a's point to body_b's point along the axis.
+ *  pinion. The joint has one row [m]: displacement - radius (angle_b - angle_a) - offset. The
+ *  displacement is measured from body_a's point to body_b's point along the axis.
  *
  *  The row only enforces that the pinion rolls. Another joint, such as a pin in a slot, must keep
  *  the centre of the pinion at a constant distance from the rack. A pinion with a positive radius
@@ -68,7 +68,7 @@ BAUM_API baum_status baum_mechanism_set_planar_pin_in_slot(baum_mechanism *mecha
  *  the pinion, seen in the direction of the axis. With a negative radius, the rack is to the right
  *  of the pinion; for the axis (1, 0) this means below it. Both bodies must have an angle. */
 typedef struct baum_planar_rack_and_pinion_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -123,11 +123,11 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  planet and one between planet and ring. The carrier of both joints is the arm of the planets. If
  *  the ring does not move, it is BAUM_GROUND. All bodies must have an angle.
  *
- *  The reaction of a gear pair is the generalized force -J^T lambda that belongs to the velocities
- *  of body_a, body_b and the carrier; ground is omitted. It contains only torques: its force
- *  components are zero, because the row contains only angles. */
+ *  The reaction of a gear pair is the generalized force -J^T lambda of its row, with one number for
+ *  each velocity of body_a, body_b and the carrier; ground is omitted. It contains only torques:
+ *  its force components are zero, because the row contains only angles. */
 typedef struct baum_planar_gear_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -189,7 +189,7 @@ typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
  *  the derivatives of F with differences. Integrators that need third derivatives compute them by
  *  differences of the second derivatives. */
 typedef struct baum_planar_curve_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -231,9 +231,9 @@ BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, 
  *  velocity (see baum_mobility).
  *
  *  Both bodies must have an angle. The reaction of the joint is the force and the moment on body_b
- *  at the point of the blade. */
+ *  at the point where the blade touches it. */
 typedef struct baum_planar_knife_edge_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
   baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */

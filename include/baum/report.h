@@ -31,7 +31,7 @@ typedef enum baum_report_form {
    *  library keep these keys. */
   BAUM_REPORT_JSON = 2,
   /** One HTML page with charts, a sortable table and a picture of the mechanism. The page loads no
-   *  other files. Drawing the picture calls functions of the mechanism. */
+   *  other files. Drawing the picture calls user functions of the mechanism. */
   BAUM_REPORT_PAGE = 3
 } baum_report_form;
 

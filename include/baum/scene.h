@@ -8,7 +8,8 @@
  *  moves bit for bit like the original.
  *
  *  A text cannot contain functions. A scene therefore contains names in place of callbacks and
- *  `user` pointers. An array of hooks assigns these names to functions and pointers. */
+ *  `user` pointers. An array of hooks states which function or pointer each of these names stands
+ *  for. */
 #ifndef BAUM_SCENE_H
 #define BAUM_SCENE_H
 
@@ -25,8 +26,8 @@ extern "C" {
 /** Any callback of a definition, cast to this type. */
 typedef void baum_hook_fn(void);
 
-/** A hook: the name of a function, or the name of the data to which a field `user` points. One of
- *  the two members `function` and `user` is NULL. */
+/** A hook: the name of a function, or the name of the data to which a field `user` points. Exactly
+ *  one of the two members `function` and `user` is NULL. */
 typedef struct baum_hook {
   const char *name; /**< The name, which must not be empty. */
   /** A callback of a definition; NULL if the hook names a pointer `user`. */
@@ -53,13 +54,14 @@ BAUM_API baum_status baum_mechanism_print(const baum_mechanism *mechanism, const
  *  @param     mechanism   frozen or not
  *  @param[in] hooks       (hook_count) as in baum_mechanism_print()
  *  @param     hook_count  [-] >= 0
- *  @param[in] path        of the file. If it exists, it is replaced when the new file is complete
+ *  @param[in] path        of the file. An existing file is replaced when the new file is complete
  *  @return  as baum_mechanism_print(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write(const baum_mechanism *mechanism, const baum_hook *hooks,
                                           int32_t hook_count, const char *path);
 
-/** Create a mechanism from a scene. The call fails if the scene contains an unknown field or kind
- *  of element, or anything that the functions that add elements refuse. The message names the line.
+/** Create a mechanism from a scene. The call fails if the scene contains an unknown field, an
+ *  unknown kind of element, or values that the functions baum_mechanism_add_... refuse. The message
+ *  names the line of the text.
  *  @param[in]  text        (size) need not end with a zero
  *  @param      size        [byte]
  *  @param[in]  hooks       (hook_count) functions and `user` pointers that the scene names

@@ -36,15 +36,15 @@ typedef struct baum_simulation baum_simulation;
  *          PROJECTION */
 BAUM_API const baum_integrator *baum_euler(void);
 /** @return semi-implicit (symplectic) Euler, order 1, fixed step. It updates the velocities first
- *          and moves the positions with the new velocities. Formulations as baum_euler() */
+ *          and moves the positions with the new velocities. Formulations: as for baum_euler() */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
 /** @return  explicit midpoint rule, order 2, fixed step. Formulations: PROJECTION, BAUMGARTE
  *           (auto), UNSTABILIZED
  */
 BAUM_API const baum_integrator *baum_rk2(void);
-/** @return Kutta's third-order method, fixed step. Formulations as baum_rk2() */
+/** @return Kutta's third-order method, fixed step. Formulations: as for baum_rk2() */
 BAUM_API const baum_integrator *baum_rk3(void);
-/** @return classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2() */
+/** @return classical Runge-Kutta method, order 4, fixed step. Formulations: as for baum_rk2() */
 BAUM_API const baum_integrator *baum_rk4(void);
 /** A good choice for loose tolerances.
  *  @return  the embedded Runge-Kutta pair of Dormand and Prince, orders 5 and 4, explicit, with
@@ -54,7 +54,7 @@ BAUM_API const baum_integrator *baum_dp5(void);
 /** The first choice if the forces are not stiff and rtol is 1e-5 or less.
  *  @return  DOP853 (Hairer, Norsett, Wanner 1993), a Runge-Kutta method of order 8 with error
  *           estimates of orders 5 and 3, explicit, with rtol or with a fixed step. Twelve
- *           evaluations per step, and three more if the step is interpolated. Formulations as
+ *           evaluations per step, and three more if the step is interpolated. Formulations: as for
  *           baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
 /** A method that uses past steps. Where there are no past steps that it can use, it takes its first
@@ -69,40 +69,43 @@ BAUM_API const baum_integrator *baum_ab2(void);
 BAUM_API const baum_integrator *baum_ab3(void);
 /** @return four-step Adams-Bashforth method, order 4. Otherwise it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab4(void);
-/** For long runs without dissipation. The error of the energy stays within a band of width O(h^2).
- *  The angular momentum of a free rigid body in space is conserved to rounding. After every step,
- *  Phi = 0 and Phi' = 0 are satisfied to rounding. The method refuses mass matrices that vary, and
- *  forces that depend on velocities, such as dampers and gyroscopic moments of user coordinates. To
- *  find out whether the forces of user functions depend on velocities, a run calls the functions at
- *  a few states when it is created.
+/** A method for long runs without dissipation. The error of the energy stays within a band of width
+ *  O(h^2), where h is the step. The angular momentum of a free rigid body in space is conserved to
+ *  rounding. After every step, Phi = 0 and Phi' = 0 are satisfied to rounding. The method refuses
+ *  mass matrices that vary, and forces that depend on velocities, such as dampers and gyroscopic
+ *  moments of user coordinates. To find out whether the forces of user functions depend on
+ *  velocities, a run calls the functions at a few states when it is created.
  *  @return  RATTLE, order 2, fixed step, symplectic. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
-/** For stiff forces, and for comparisons of methods with index 3. After every step, Phi = 0 is
- *  satisfied to rounding, and |Phi'| is of second order in the step.
- *  @return  generalized-alpha method with spectral radius 0.8, order 2, fixed step, implicit.
- *           Formulation: INDEX3 */
+/** A method for stiff forces, and for comparisons of methods with index 3. After every step, Phi =
+ *  0 is satisfied to rounding, and |Phi'| is of second order in the step.
+ *  @return  generalized-alpha method with spectral radius 0.8 at infinite frequency, order 2, fixed
+ *           step, implicit. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
 /** This method solves the implicit equations of a step by fixed-point iteration. It uses Newton's
  *  method only for the stiff terms that come from the gains. Stiff forces therefore limit its
  *  steps, but large gains do not. It does not offer PROJECTION, because CVODE projects only with
  *  BDF.
- *  @return  SUNDIALS CVODE, Adams-Moulton, rtol. Formulations: BAUMGARTE (auto), UNSTABILIZED */
+ *  @return  the Adams-Moulton method of SUNDIALS CVODE, with rtol. Formulations: BAUMGARTE (auto),
+ *           UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
-/** For stiff forces. This method solves the equations of a step by Newton's method, with a sparse
+/** A method for stiff forces. It solves the equations of a step by Newton's method, with a sparse
  *  Jacobian that contains the derivatives of all joints and forces. With PROJECTION, the method
  *  projects the state inside each step, before the error test.
- *  @return  SUNDIALS CVODE, BDF, rtol. Formulations: PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
+ *  @return  the BDF method of SUNDIALS CVODE, with rtol. Formulations: PROJECTION, BAUMGARTE
+ *           (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** For stiff forces, and for comparisons. Use INDEX3 only to compare formulations: its error is far
- *  above its tolerance.
- *  @return  SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. Formulations: GGL,
- *           BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
+/** A method for stiff forces, and for comparisons. Use INDEX3 only to compare formulations: its
+ *  error is far above its tolerance.
+ *  @return  SUNDIALS IDA, BDF of variable order for the unknowns y = (q, v, lambda), with rtol.
+ *           Formulations: GGL, BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
-/** For mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0 determines
- *  every coordinate. Other mechanisms are refused. At each requested time, the run solves Phi(q, t)
- *  = 0 to rounding. It follows the branch of solutions to which the initial configuration belongs,
- *  and never jumps to another branch. If the mechanism locks, or if branches cross, the run stops
- *  with BAUM_ERR_SINGULAR. The options formulation, gains, step, rtol and atol must not be given.
+/** A method for mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0
+ *  determines every coordinate. Other mechanisms are refused. At each requested time, the run
+ *  solves Phi(q, t) = 0 to rounding. It follows the branch of solutions to which the initial
+ *  configuration belongs, and never jumps to another branch. If the mechanism locks, or if branches
+ *  cross, the run stops with BAUM_ERR_SINGULAR. The options formulation, gains, step, rtol and atol
+ *  must not be given.
  *  @return  kinematics, without integration */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
@@ -157,13 +160,13 @@ BAUM_API const char *baum_formulation_name(baum_formulation formulation);
 BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
                                      baum_formulation formulation);
 
-/** How a run begins from the design configuration. */
+/** The start of a run: how the run begins from the design configuration. */
 typedef enum baum_start {
   /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
-   *  the characteristic length, or by more than 1 rad. There is an exception if the initial values
-   *  of drivers differ from the design configuration. Before the run is refused, the mechanism is
-   *  then assembled with the drivers as in the design configuration, and the drivers are moved to
-   *  their initial values in small steps. */
+   *  the characteristic length, or by more than 1 rad. If the initial values of drivers differ from
+   *  the design configuration, the run is not refused at once. Instead, the mechanism is assembled
+   *  with the drivers as in the design configuration, and the drivers are then moved to their
+   *  initial values in small steps. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse the run if the design configuration or the initial velocities violate the
    *  constraints. */
@@ -175,8 +178,8 @@ typedef enum baum_start {
 } baum_start;
 
 /** Solver of the linear equations of motion (7). baum_simulation_explain() states which solver a
- *  run uses, and why. The choice does not affect assembly and the multipliers of redundant rows,
- *  which always use KLU and QR. */
+ *  run uses, and why. The choice does not affect assembly or the multipliers of redundant rows,
+ *  which are always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
    *  configurations where BLOCK is not accurate. */
@@ -195,9 +198,10 @@ typedef enum baum_solver {
 } baum_solver;
 
 /** A progress function. While a call advances a run, it calls this function repeatedly, at
- *  intervals of progress_interval. The first interval begins when the call begins. The function may
- *  read the run, also with baum_simulation_get(). Inside the function, calls that change, advance
- *  or save the run fail with BAUM_ERR_STATE, and baum_simulation_destroy() does nothing.
+ *  intervals given by the option progress_interval. The first interval begins when the call begins.
+ *  The function may read the run, also with baum_simulation_get(). Inside the function, calls that
+ *  change, advance or save the run fail with BAUM_ERR_STATE, and baum_simulation_destroy() does
+ *  nothing.
  *  @param simulation  the run
  *  @param t           [s] present time
  *  @param user        the option `user`
@@ -207,30 +211,32 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
 /* ---- options --------------------------------------------------------------------------------- */
 
 /** The options of a run. A variable-step integrator may step over a force or a law that begins late
- *  or acts only briefly, and thus not notice it. In this case, set max_step or break times
- *  (breaks.h). */
+ *  or acts only briefly, and thus not notice it. If the mechanism has such a force or law, set
+ *  max_step or break times (breaks.h). */
 typedef struct baum_simulation_options {
-  size_t struct_size;                /**< Set by the default. Do not write. */
+  size_t struct_size;                /**< Set by the default function. Do not write. */
   const baum_integrator *integrator; /**< Default: NULL, must be set. */
   baum_formulation formulation;      /**< Default: BAUM_FORMULATION_DEFAULT. */
   baum_gains gains;                  /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Accept gains that are known to be unstable. Default: false. */
   double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
   /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v. cvode_bdf
-   *  divides rtol and atol by 6.9, and ida divides them by 3, but not below 1e-13. With these
-   *  factors all methods are about equally accurate at the same rtol. Default: NaN, not given. */
+   *  divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are about equally
+   *  accurate at the same rtol. They divide by less if rtol would otherwise fall below 1e-13.
+   *  Default: NaN, not given. */
   double rtol;
-  /** [unit of the coordinate] >= 0, absolute tolerance of the local error, which is added to rtol
+  /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
    *  times the scale. Default: NaN, none. */
   double atol;
   /** [s] > 0, longest step of a variable-step integrator. Default: NaN, none. */
   double max_step;
-  double start_time;      /**< [s] Default: 0. */
-  baum_start start;       /**< Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver;     /**< Default: BAUM_SOLVER_AUTO. */
-  bool check_derivatives; /**< See baum_mechanism_check_derivatives(). Default: true. */
-  /** [-] > 0, largest number of steps of a call. A call that needs more steps fails.
-   *  Default: 1000000000. */
+  double start_time;  /**< [s] Default: 0. */
+  baum_start start;   /**< Default: BAUM_START_ASSEMBLE. */
+  baum_solver solver; /**< Default: BAUM_SOLVER_AUTO. */
+  /** Check derivatives first, see baum_mechanism_check_derivatives(). Default: true. */
+  bool check_derivatives;
+  /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
+   *  steps fails. Default: 1000000000. */
   int64_t max_steps;
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
@@ -240,14 +246,16 @@ typedef struct baum_simulation_options {
    */
   double tolerance_q;
   double tolerance_v; /**< [-] > 0, finite, the same for velocities. Default: 1. */
-  /** [-] > 0; rtol is multiplied by this factor for multipliers. It may be finite only for IDA with
-   *  BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is tolerance_lambda rtol E
-   *  / n_i. Here n_i is the norm of row i of J, with each column j multiplied by the scale s_j of
-   *  its coordinate. E is the larger of two numbers: the largest present |lambda_k| n_k, and the
-   *  largest M_jj s_j^2 r^2. Here r [1/s] is the rate of the motion at the start, which is the
-   *  largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all coordinates i. In an equilibrium at
-   *  rest, r is sqrt(g/L) instead, or 1 1/s without gravity. baum_simulation_explain() states r
-   *  with the tolerances. Default: infinity, the error of multipliers is not tested. */
+  /** [-] > 0; rtol is multiplied by this factor for multipliers. This factor may be finite only for
+   *  IDA with BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is
+   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
+   *  multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the largest
+   *  present |lambda_k| n_k, and the largest M_jj s_j^2 r^2, where r [1/s] is the rate of the
+   *  motion at the start. This rate is the largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all
+   *  coordinates i, with the velocities v and the accelerations a. In an equilibrium at rest, r is
+   *  sqrt(g/L) instead, with gravity g and the characteristic length L, or 1 1/s without gravity.
+   *  baum_simulation_explain() states r with the tolerances. Default: infinity, the error of
+   *  multipliers is not tested. */
   double tolerance_lambda;
   /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
    *  this option. Default: false. */
@@ -322,8 +330,8 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
 
 /** Ask a run to stop after its present step. The call that advances the run then returns
  *  BAUM_STOP_CANCELLED, and the next call continues the run. If no call is advancing the run now,
- *  the next one stops at once, and the one after it continues the run. This function may be called
- *  from any thread and from signal handlers.
+ *  the next call that advances the run stops at once, and the call after it continues the run. This
+ *  function may be called from any thread and from signal handlers.
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
@@ -337,17 +345,18 @@ BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simu
                                                            double interval);
 
 /** Limit the wall time of calls that advance the run. A call that takes longer finishes its present
- *  step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call continues.
- *  Such stops change neither the motion nor the warnings of the run.
+ *  step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call continues the
+ *  run. Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
  *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
  *           progress function) */
 BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
 
-/** Replace the time and the state of a run. Multistep methods restart. If the new state does not
- *  violate the constraints more than the run already does, it is used as it is. Otherwise the
- *  option `start` decides whether the new state is assembled, refused or used as it is.
+/** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
+ *  and the new state violates the constraints by at most counters.max_phi and
+ *  counters.max_phi_rate, it is used as it is. Otherwise the option `start` decides whether the new
+ *  state is assembled, refused or used as it is.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -360,13 +369,13 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
                                                const double *q, const double *v);
 
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
- *  laws of drivers of the other run, and keeps its own options, counters and warnings. A run with
- *  another integrator, formulation, tolerance or solver can thus continue where the other run has
- *  failed. q and v are changed by the least amount that satisfies the constraints, unless the
- *  option `start` is BAUM_START_AS_GIVEN.
+ *  laws of drivers of the other run. The options, counters and warnings of the present run do not
+ *  change. A run with another integrator, formulation, tolerance or solver can thus continue where
+ *  the other run has failed. q and v are changed by the least amount that satisfies the
+ *  constraints, unless the option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
- *  @param from        the other run. Its mechanism must be the same, or one with the same elements
- *                     and numbers
+ *  @param from        the other run. Its mechanism must be the same, or another one with the same
+ *                     elements and the same numbers in their definitions
  *  @return  as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism,
  *           BAUM_ERR_CONVERGENCE also if q and v cannot be moved onto the constraints */
 BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
@@ -394,9 +403,9 @@ BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum
  *           mechanism */
 BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
 
-/** Replace the law of a driver in this run. From the present time t0 on, the prescribed coordinate
- *  is s + ds (t - t0) + dds (t - t0)^2 / 2, until the next call for this driver. Variable-step
- *  methods restart (counters.restarts counts this).
+/** Replace the law of a driver in this run. From the present time t0 on, the driver prescribes the
+ *  value s + ds (t - t0) + dds (t - t0)^2 / 2 for its coordinate, until the next call for this
+ *  driver. Variable-step methods restart (counters.restarts counts this).
  *
  *  The call itself does not change the state. If s differs from the present coordinate, or ds from
  *  its present velocity, the difference is a constraint violation. The formulation determines what
@@ -414,9 +423,9 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  velocity, too, let ds be its present velocity, and change only dds.
  *  @param simulation  unchanged on failure
  *  @param driver      a driver of the mechanism
- *  @param s           [rad or m] finite
- *  @param ds          [rad/s or m/s] finite
- *  @param dds         [rad/s^2 or m/s^2] finite
+ *  @param s           [rad or m] finite, value at the present time t0
+ *  @param ds          [rad/s or m/s] finite, velocity at t0
+ *  @param dds         [rad/s^2 or m/s^2] finite, constant acceleration
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT (kinematics), BAUM_ERR_SINGULAR,
  *           BAUM_ERR_CONVERGENCE (IDA: the jump is too large), BAUM_ERR_CALLBACK,
  *           BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY */
@@ -444,8 +453,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that each time of a schedule adds 32
  *                          bytes.
- *  @param[out] size        [byte] number of bytes written; if buffer is NULL, the number of bytes
- *                          that are sufficient
+ *  @param[out] size        [byte] number of bytes written; if buffer is NULL, a number of bytes
+ *                          that is sufficient
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
@@ -459,8 +468,8 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  tolerances, max_step, solver and energy_account. It cannot check user functions. They must be
  *  the same, and if they keep a state of their own, this state is not saved. The gains and the
  *  choice of redundant rows come from the saved run. Restoring allocates memory in three cases
- *  only: drivers were set in the saved run, its schedules are longer than those of this run, or it
- *  omits other redundant rows than this run does.
+ *  only: drivers were set in the saved run, its schedules are longer than those of this run, or the
+ *  redundant rows that it omits differ from those that this run omits.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -482,11 +491,11 @@ BAUM_API const double *baum_simulation_q(const baum_simulation *simulation);
  *           NULL */
 BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
-/* ---- what comes out -------------------------------------------------------------------------- */
+/* ---- results --------------------------------------------------------------------------------- */
 
-/** What a channel records. The number of its columns is in parentheses. Units are m, rad, N, N m
- *  and s. The units of user coordinates and user constraints are your choice. The unit of a
- *  multiplier is J per unit of its row.
+/** A quantity that a channel records. The number of its columns is in parentheses. Units are m,
+ *  rad, N, N m and s. The units of user coordinates and user constraints are your choice. The unit
+ *  of a multiplier is J per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) at the
  *  present state. This equation contains no stabilization terms. The run computes this solution
@@ -506,8 +515,8 @@ typedef enum baum_quantity {
    *  velocity, both in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
   /** Force and moment on body_b (3 for planar joints, 6 for spatial joints), see planar.h and
-   *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda that
-   *  belongs to the velocities of their bodies. */
+   *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda of
+   *  their rows, with one number for each velocity of their bodies. */
   BAUM_JOINT_REACTION = 10,
   /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
@@ -525,7 +534,7 @@ typedef enum baum_quantity {
 /** A channel: a group of columns that a run records. All channels of an array must have the same
  *  struct_size. */
 typedef struct baum_channel {
-  size_t struct_size;     /**< Set by the default. Do not write. */
+  size_t struct_size;     /**< Set by the default function. Do not write. */
   baum_quantity quantity; /**< What the channel records. Default: 0, must be set. */
   baum_body_id body;      /**< The body, for the quantities BAUM_BODY_*. Default: none. */
   /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for BAUM_LAMBDA,
@@ -545,7 +554,7 @@ typedef struct baum_channel {
  *  @param      caller_size  sizeof *channel; no byte beyond it is written */
 BAUM_API void baum_channel_init(baum_channel *channel, size_t caller_size);
 
-/** Make a channel of the whole mechanism. @param quantity  what it records @return the channel */
+/** Make a channel for the whole mechanism. @param quantity  what it records @return the channel */
 static inline baum_channel baum_channel_of(baum_quantity quantity)
 {
   baum_channel channel;
@@ -554,7 +563,7 @@ static inline baum_channel baum_channel_of(baum_quantity quantity)
   return channel;
 }
 
-/** Make a channel of a body.
+/** Make a channel for a body.
  *  @param quantity  what the channel records
  *  @param body      a body of the mechanism
  *  @return  the channel */
@@ -565,7 +574,7 @@ static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_bod
   return channel;
 }
 
-/** Make a channel of a point of a body.
+/** Make a channel for a point of a body.
  *  @param quantity  what the channel records
  *  @param body      a body of the mechanism
  *  @param x,y,z     [m] in body axes
@@ -580,7 +589,7 @@ static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_bo
   return channel;
 }
 
-/** Make a channel of a joint.
+/** Make a channel for a joint.
  *  @param quantity  what the channel records
  *  @param joint     a joint of the mechanism
  *  @return  the channel */
@@ -602,7 +611,7 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 /** Determine which multipliers are unique at the present state. If there are redundant rows, the
  *  joints can share the forces in more than one way, and some multipliers are not unique.
  *  BAUM_LAMBDA, BAUM_JOINT_REACTION and BAUM_DRIVE_EFFORT then report the multipliers of least
- *  norm. In this norm, each lambda_i is multiplied by |row i of J M^-1/2|. These multipliers
+ *  norm. This norm weights each lambda_i with the length of row i of J M^(-1/2). These multipliers
  *  balance the forces with a relative error of at most 1e-9.
  *  @param      simulation  the run
  *  @param[out] unique      (nc) for each row, true if its multiplier is unique
@@ -638,7 +647,8 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
                                             int64_t n, const baum_channel *channels, int32_t count,
                                             double *rows, int64_t *done);
 
-/** What a run has cost since it was created, and how well it has satisfied the constraints. */
+/** Counters of a run: what the run has cost since it was created, and how well it has satisfied the
+ *  constraints. */
 typedef struct baum_counters {
   size_t struct_size; /**< Set by baum_simulation_counters(). */
   int64_t steps;      /**< [-] accepted steps. */
@@ -678,7 +688,7 @@ typedef struct baum_counters {
   double alpha; /**< [1/s] gain in use. */
   double beta;  /**< [1/s] gain in use. */
   /** [-] spectral radius of the gains: the factor by which each step multiplies a violation in the
-   *  long run. NaN without BAUMGARTE and with variable steps. */
+   *  long run. NaN if the formulation is not BAUMGARTE, or if the steps are variable. */
   double spectral_radius;
   /** [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with alpha = beta it
    *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
@@ -734,11 +744,14 @@ typedef struct baum_energy_account {
   double start; /**< [J] kinetic plus potential energy at the start. */
   /** [J] work of the loads that have an input or a torque, or that follow their body. */
   double loads;
-  double springs;     /**< [J] work of springs with a user law. */
-  double dampers;     /**< [J] work of the dampers of linear springs. */
-  double user_forces; /**< [J] work of user forces, without the change of their potential. */
-  /** [J] work of the forces of user coordinates, without the change of their potential, plus the
-   *  integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel. */
+  double springs; /**< [J] work of springs with a user law. */
+  double dampers; /**< [J] work of the dampers of linear springs. */
+  /** [J] work of user forces plus the change of their potential energy: the work that no potential
+   *  explains. */
+  double user_forces;
+  /** [J] work of the forces of user coordinates, plus the change of their potential energy, plus
+   *  the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel.
+   */
   double bodies;
   /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda. */
   double drivers;
@@ -763,7 +776,8 @@ typedef struct baum_energy_account {
 BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
                                                     baum_energy_account *out, size_t caller_size);
 
-/** How a motion continues after a singular configuration, where branches of motion cross. */
+/** The branch on which a motion continues after a singular configuration, where branches of motion
+ *  cross. */
 typedef enum baum_branch {
   BAUM_BRANCH_CONTINUED = 1, /**< The motion continues smoothly. */
   /** The velocity has jumped: the motion is on another branch. Do not trust it. */
@@ -794,7 +808,7 @@ typedef struct baum_near_singular {
   baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
-/** Read a near-singular interval. Runs of baum_kinematics() have none.
+/** Read a near-singular interval. Runs with baum_kinematics() have no such intervals.
  *  @param      simulation   the run
  *  @param      k            0 to counters.near_singular_intervals - 1; the first 64 are kept
  *  @param[out] out          filled
@@ -818,11 +832,12 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_BRANCH = 100,         /**< The motion may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,      /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102,  /**< Omitted rows no longer follow from the other rows. */
-  BAUM_WARNING_ACCURACY = 103,       /**< The estimated error of the motion is large. */
-  BAUM_WARNING_SINGULAR_START = 104, /**< Several motions may leave the initial configuration. */
+  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
+  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */
+  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
+  /** Several motions may start from the initial configuration. */
+  BAUM_WARNING_SINGULAR_START = 104,
   BAUM_WARNING_BUSHING = 105 /**< The rotation of a bushing passed pi, where its moment jumps. */
 } baum_warning_code;
 

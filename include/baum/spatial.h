@@ -31,7 +31,7 @@ extern "C" {
 
 /** A rigid body in space. The origin of its body axes is the centre of mass. */
 typedef struct baum_spatial_body_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   /** [kg m^2] inertia tensor about the centre of mass in body axes, in the order xx, yy, zz, xy,
@@ -40,17 +40,17 @@ typedef struct baum_spatial_body_def {
    *  for a slender rod. The library raises principal moments that are below 1e-10 of the largest
    *  one to this value. Default: (1, 1, 1, 0, 0, 0). */
   double inertia[6];
-  /** [m] of the centre of mass in the design configuration. Default: (0, 0, 0). */
+  /** [m] position of the centre of mass in the design configuration. Default: (0, 0, 0). */
   double position[3];
   /** [-] unit quaternion w, x, y, z in the design configuration; its norm may differ from 1 by at
    *  most 1e-6. Default: (1, 0, 0, 0). */
   double orientation[4];
-  /** [m/s] of the centre of mass at the start, in ground axes. Default: NaN, assembly determines
-   *  it. */
+  /** [m/s] velocity of the centre of mass at the start, in ground axes. Default: NaN, assembly
+   *  determines it. */
   double velocity[3];
   /** [rad/s] at the start, in body axes. Default: NaN, assembly determines it. */
   double angular_velocity[3];
-  bool held; /**< Assembly keeps the design position and orientation. Default: false. */
+  bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_body_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -78,12 +78,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_body(baum_mechanism *mechanism, 
 
 /** A point mass in space. */
 typedef struct baum_spatial_particle_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[3]; /**< [m] in the design configuration. Default: (0, 0, 0). */
   double velocity[3]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
-  bool held;          /**< Assembly keeps the design position. Default: false. */
+  bool held;          /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_particle_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -114,7 +114,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechani
  *  stiffness (length - free_length) + damping (d/dt length); a positive tension pulls the points
  *  together. The force is zero when the points coincide. */
 typedef struct baum_spatial_spring_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -168,15 +168,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
  *
  *  and 0 otherwise. The factor w(x) = x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1, and w(x) =
  *  1 for x > 1. The tension is therefore continuous when the cable becomes taut or slack. The
- *  potential energy is stiffness s^2 / 2 for s > 0. The damper dissipates the rest of the power of
- *  the tension.
+ *  potential energy is stiffness s^2 / 2 for s > 0. The damper dissipates that part of the power of
+ *  the tension which does not change the potential energy.
  *
  *  Consecutive points may belong to the same body, and points of ground are allowed. Between two
  *  points that coincide the cable has no direction: it exerts no force there, and pulls only along
  *  its other parts. If a point passes through its neighbour, the force jumps. The bodies may also
  *  be planar bodies and planar particles, which stay in the plane z = 0. */
 typedef struct baum_spatial_cable_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (point_count) the body of each point, in the order of the path. Copied. Default: NULL, must be
    *  set. */
@@ -196,8 +196,8 @@ typedef struct baum_spatial_cable_def {
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */
   bool depends_on_velocity;
-  /** [m] >= 0, stretch at which the damper reaches its full strength. Default: NaN, 1e-4 times
-   *  free_length. */
+  /** [m] >= 0, stretch s at which the damper reaches its full strength (w = 1). Default: NaN, 1e-4
+   *  times free_length. */
   double transition;
 } baum_spatial_cable_def;
 
@@ -231,12 +231,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
  *  decomposition. It is defined as follows: apply to body_b the smallest rotation that makes axis_b
  *  parallel to axis. Then only a rotation about the axis remains between the bodies, and the angle
- *  is that of this rotation. The angle is 0 in the design configuration. Runs count its
- *  revolutions. The bodies need not be connected by a joint; for a coordinate of a joint, use a
- *  joint spring. If axis and axis_b point in opposite directions, the angle is undefined and the
- *  torque is zero. */
+ *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. A run
+ *  counts the revolutions of this angle. The bodies need not be connected by a joint. If the spring
+ *  should act on a coordinate of a joint, use a joint spring instead. If axis and axis_b point in
+ *  opposite directions, the angle is undefined and the torque is zero. */
 typedef struct baum_spatial_torsion_spring_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
@@ -298,7 +298,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
  *
  *  The potential energy is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
@@ -314,8 +314,8 @@ typedef struct baum_spatial_bushing_def {
    *  Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
   /** [-] the x axis of the bushing, which is made perpendicular to axis; in ground axes if point is
-   *  given, otherwise in the axes of body_a. Default: NaN, the ground x axis, or y if axis is along
-   *  x. */
+   *  given, otherwise in the axes of body_a. Default: NaN, the ground x axis, or the ground y axis
+   *  if axis is along the ground x axis. */
   double x_axis[3];
   /** [N/m, N or N m/rad] 6 x 6 matrix, row-major, symmetric and positive semidefinite.
    *  Default: all 0. */
@@ -352,11 +352,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_bushing(baum_mechanism *mechanis
 /** A force at a point of a body, and a moment on the body. If `input` names an input, the value of
  *  this input multiplies both. */
 typedef struct baum_spatial_load_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[3];    /**< [m] where the force acts, in body axes. Default: (0, 0, 0). */
-  double force[3];    /**< [N]. Default: (0, 0, 0). */
+  double force[3];    /**< [N] see follows_body for the axes. Default: (0, 0, 0). */
   double moment[3];   /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
   /** An input whose value multiplies force and moment. Default: none. */
   baum_input_id input;

@@ -30,7 +30,7 @@ extern "C" {
 /** A ball joint (spherical joint): the points of both bodies coincide. The joint has three rows
  *  [m]. */
 typedef struct baum_spatial_spherical_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -70,7 +70,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
  *  The coordinate of the joint is the angle of body_b relative to body_a about the axis [rad]. It
  *  is 0 in the design configuration. */
 typedef struct baum_spatial_revolute_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -119,7 +119,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
  *  of the cross relative to body_a about `axis`, and ANGLE_B is the angle of body_b relative to the
  *  cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -166,7 +166,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
  *  displacement from body_a's point to body_b's point along the axis [m], and the angle about the
  *  axis [rad]. The angle is 0 in the design configuration. */
 typedef struct baum_spatial_cylindrical_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -213,7 +213,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
  *  axis [-]. The coordinate of the joint is the displacement from body_a's point to body_b's point
  *  along the axis [m]. */
 typedef struct baum_spatial_prismatic_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -261,7 +261,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
  *  in the design configuration. The direction of y is the cross product of the normal and the
  *  direction of x. */
 typedef struct baum_spatial_planar_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -309,7 +309,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
  *  orientation of the design configuration. The joint has six rows: three for the points [m] and
  *  three for the orientation [-]. */
 typedef struct baum_spatial_fixed_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -343,12 +343,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 /* ---- screw ----------------------------------------------------------------------------------- */
 
 /** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). The
- *  joint has five rows: two make the axes of both bodies parallel [-], and three are lengths [m].
- *  The last of these rows describes the thread. It is evaluated modulo the pitch, so it does not
- *  depend on the number of revolutions. The coordinates of the joint are displacement and angle, as
- *  for the cylindrical joint. */
+ *  joint has five rows: two make the axes of both bodies parallel [-], two keep body_b's point on
+ *  the line through body_a's point along the axis [m], and the last describes the thread [m]. This
+ *  last row is evaluated modulo the pitch, so it does not depend on the number of revolutions. The
+ *  coordinates of the joint are displacement and angle, as for the cylindrical joint. */
 typedef struct baum_spatial_screw_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
@@ -401,7 +401,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
  *  axes must stay below 180 degrees. The derivatives of the fourth row are proportional to the
  *  cosine of half this angle, so the joint is ill-conditioned close to 180 degrees. */
 typedef struct baum_spatial_constant_velocity_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */

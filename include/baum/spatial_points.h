@@ -17,7 +17,7 @@ extern "C" {
 /** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
  *  where d is the vector from body_a's point to body_b's point. */
 typedef struct baum_spatial_distance_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -57,7 +57,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechani
  *  The joint has two rows [m]. The coordinate of the joint is the displacement from body_a's point
  *  to body_b's point along the line [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_line_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -97,7 +97,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
 /** A point of body_b stays in a plane of body_a. The plane contains body_a's point, and the axis is
  *  its normal. The joint has one row [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_plane_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -147,8 +147,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *user);
 
 /** A point of body_b stays on a curve that is fixed in body_a, as a bead on a wire does. The joint
- *  has two rows, the values of F and G at body_b's point [m]. For a curve with a given parameter u,
- *  such as a helix (r cos u, r sin u, c u), eliminate the parameter: F = x - r cos(z / c),
+ *  has two rows, the values of F and G at body_b's point [m]. If the curve is given by a parameter
+ *  u, such as the helix (r cos u, r sin u, c u), eliminate the parameter: F = x - r cos(z / c),
  *  G = y - r sin(z / c).
  *
  *  If `point` is given, the origin of the curve is at this point in the design configuration.
@@ -156,7 +156,7 @@ typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *use
  *  compares the derivatives of F and G with differences. Integrators that need third derivatives
  *  compute them by differences of the second derivatives. */
 typedef struct baum_spatial_curve_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -204,7 +204,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_curve(baum_mechanism *mechanism,
  *  point. The multipliers are the forces [N] on body_b along the normal and along the two
  *  directions, with the opposite sign. */
 typedef struct baum_spatial_rolling_disc_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the plane; not body_b. Default: BAUM_GROUND. */
   baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
@@ -250,11 +250,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
  *  baum_mobility). The joint does not keep the point on a surface; add a point_on_plane or a
  *  spatial_planar joint for this purpose.
  *
- *  Note that the axis of the planar knife edge has the direction of the blade, and the axis of this
- *  joint is the direction across the blade. Both bodies must have an orientation. The reaction of
- *  the joint is the force and the moment on body_b at the point. */
+ *  Note that the axis of the planar knife edge has the direction of the blade, whereas the axis of
+ *  this joint is perpendicular to the blade. Both bodies must have an orientation. The reaction of
+ *  the joint is the force and the moment on body_b at this point of the blade. */
 typedef struct baum_spatial_knife_edge_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
   baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */

@@ -18,7 +18,7 @@ extern "C" {
  *  first and after the last of the given times, a natural spline continues as a straight line. A
  *  periodic spline repeats. */
 typedef struct baum_spline_driver_def {
-  size_t struct_size;  /**< Set by the default. Do not write. */
+  size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
   const double *times; /**< (count) [s] rising. Copied. Default: NULL, must be set. */

@@ -55,8 +55,9 @@ typedef struct baum_gains {
 } baum_gains;
 
 /* The comment of each rule states for which steps its gains are stable, how large a violation they
- * leave, and what they do to accuracy and cost. The numbers were measured with a pendulum of length
- * 1 m that is released from the horizontal and runs for 1 s with h = 0.0025 s.
+ * leave, and what they do to accuracy and cost. h is the step, and gamma is the right-hand side of
+ * the acceleration constraints J a = gamma. The numbers were measured with a pendulum of length 1 m
+ * that is released from the horizontal and runs for 1 s with h = 0.0025 s.
  * docs/theory/gain_rules.md has more measurements. */
 
 /** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
@@ -97,7 +98,7 @@ BAUM_API baum_gains baum_gains_taylor(void);
  *  and cost are those of baum_gains_fixed(). With a damping ratio below 0.618, violations may grow
  *  with CVODE BDF and IDA.
  *  @param hertz          [Hz] > 0, natural frequency
- *  @param damping_ratio  [-] > 0, 1 is critical
+ *  @param damping_ratio  [-] > 0; 1 is critical damping
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
@@ -129,8 +130,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
  *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
- *  - With explicit methods at variable steps the factor is 0.1, because their steps are longer. If
- *    drivers prescribe the whole motion, it is 2.
+ *  - With explicit methods at variable steps the factor is 0.1, because these methods take longer
+ *    steps. If drivers prescribe the whole motion, it is 2.
  *
  *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
  *  method. The gains are therefore always stable. The steady violation is about the local error of
@@ -139,11 +140,11 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *
  *  When a run is created, a short pilot run determines the angular velocity. It takes 5 steps and
  *  14 evaluations, which the counters of the run include. If the pilot run fails, the library uses
- *  the part before the failure. For two groups of mechanisms the angular velocity is at least
- *  sqrt(g/L), the angular frequency of a pendulum of length L: those with degrees of freedom, and
- *  those at rest in equilibrium. For a mechanism at rest in equilibrium without gravity, alpha is
- *  0.01/h at a fixed step. At variable steps it is 1 1/s, which only suits machines with time
- *  scales of seconds. docs/theory/gain_rules.md compares other factors.
+ *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
+ *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), the angular frequency of
+ *  a pendulum of length L. For a mechanism at rest in equilibrium without gravity, alpha is 0.01/h
+ *  at a fixed step. At variable steps it is 1 1/s, which only suits machines with time scales of
+ *  seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
@@ -158,12 +159,12 @@ BAUM_API baum_gains baum_gains_auto(void);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_best_damping(void);
 
-/** What happens to a constraint violation in the long run. */
+/** The kind of stability: what happens to constraint violations in the long run. */
 typedef enum baum_stability {
   BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
-  /** Some violation neither decays nor grows exponentially: radius = 1. */
+  /** Some violations neither decay nor grow exponentially: spectral radius = 1. */
   BAUM_MARGINAL = 1,
-  BAUM_UNSTABLE = 2, /**< Some violation grows exponentially: radius > 1. */
+  BAUM_UNSTABLE = 2, /**< Some violations grow exponentially: spectral radius > 1. */
   /** The method has no region, because it always chooses its step itself. See
    *  baum_stability_statement(). */
   BAUM_VARIABLE_STEP = 3,
@@ -171,7 +172,8 @@ typedef enum baum_stability {
   BAUM_WITHOUT_GAINS = 4
 } baum_stability;
 
-/** How one step changes a violation. */
+/** The result of baum_stability_at() and baum_stability_velocity_at(): how one step changes
+ *  constraint violations. */
 typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
   baum_stability stability; /**< Whether violations decay. */
@@ -206,7 +208,7 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrator, double alpha_h,
                                                 baum_amplification *out, size_t caller_size);
 
-/** Find the alpha h up to which rows of velocity level are stable.
+/** Find the alpha h up to which violations of rows of velocity level decay.
  *  @param      integrator  a method with a fixed step
  *  @param[out] alpha_h     [-] the limit
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region of stability) */
@@ -294,22 +296,22 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
                                          double *radius);
 
 /** Trace the outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at
- *  most a given number. The number 1 gives the region of stability; a smaller number gives the
- *  region where violations decay at least that fast.
+ *  most `radius`. With `radius` = 1, this is the region of stability. With a smaller radius, it is
+ *  the region where each step multiplies violations by at most this factor in the long run.
  *
  *  The outline consists of closed curves: one around each part of the region, and one around each
  *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from
  *  point to point, the region is to the right. Between two curves there is one point of NaNs. The
- *  points of the outline lie where the spectral radius has the given value; where an axis bounds
+ *  points of the outline lie where the spectral radius is equal to `radius`; where an axis bounds
  *  the region, they lie on the axis. The function may miss parts that are smaller than about a
  *  hundredth of the whole region. It uses 30 kB of stack.
  *  @param      integrator        the method
  *  @param      radius            [-] > 0, finite
- *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every method
- *                                here.
+ *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every integrator
+ *                                of the library.
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
  *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
- *                                spectral radius is nowhere so small
+ *                                spectral radius is larger than `radius` everywhere
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                             int32_t capacity, double *alpha_h, double *beta2_h2,

@@ -11,10 +11,11 @@
  *
  *  An *entry* is one setting with its results. A *method* is the set of entries with the same
  *  integrator, formulation and gains; its entries differ only in step or rtol. Errors are
- *  differences from a *reference*, which is a very accurate motion. They are measured at n samples,
- *  at the times t0 + k (t1 - t0) / n with k = 1 to n. The study computes its own reference, or uses
- *  one that you give. The study never reports an error that is smaller than the uncertainty of the
- *  reference. docs/theory/work-precision.md explains the details.
+ *  differences from a *reference*, which is a very accurate motion. Errors are measured at n
+ *  samples (the option `samples`), at the times t0 + k (t1 - t0) / n with k = 1 to n. The study
+ *  computes the reference itself, or uses a reference that you give. The study never reports an
+ *  error that is smaller than the uncertainty of the reference. docs/theory/work-precision.md
+ *  explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
  *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
@@ -43,7 +44,7 @@ extern "C" {
 /** A study: many runs of one mechanism with different settings. */
 typedef struct baum_study baum_study;
 
-/* ---- making one ------------------------------------------------------------------------------ */
+/* ---- creation -------------------------------------------------------------------------------- */
 
 /** Create a study without entries.
  *  @param      mechanism  frozen; it stays in memory as long as the study exists
@@ -71,7 +72,7 @@ typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_
 
 /** The options of a study. */
 typedef struct baum_study_options {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   /** [-] number of samples at which the error is measured; 2 to 1e6, and at most 1e8 / (nq + nv +
    *  nc). Default: 100. */
   int32_t samples;
@@ -84,7 +85,8 @@ typedef struct baum_study_options {
   /** [s] > 0, largest CPU time of a run; may be infinite. A run of the reference may take five
    *  times this limit. Default: 10. */
   double entry_limit;
-  /** [s] > 0, largest wall time of one baum_study_run(); may be infinite. Default: infinity. */
+  /** [s] > 0, largest wall time of one call of baum_study_run(); may be infinite.
+   *  Default: infinity. */
   double time_budget;
   /** Measure the work that stabilization and projection do on the mechanism. This needs additional
    *  evaluations; baum_energy_account states how many. Default: true. */
@@ -127,21 +129,21 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
-/** Which settings the standard grid contains. */
+/** The definition of a standard grid: which settings it contains. */
 typedef struct baum_study_grid {
-  size_t struct_size; /**< Set by the default. Do not write. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
   /** Use only this integrator. Default: NULL, all integrators of this build. */
   const baum_integrator *integrator;
   /** Use only this formulation. Default: BAUM_FORMULATION_DEFAULT, all formulations. */
   baum_formulation formulation;
   int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
   /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
-   *  integrator's default rule and to automatic gains. The first is the angular velocity of the
-   *  motion; each further one is ten times larger. Default: 2. */
+   *  integrator's default rule and to automatic gains. The first gain is the angular velocity of
+   *  the motion; each further gain is ten times the gain before it. Default: 2. */
   int32_t constants;
   /** [s] > 0, longest step of methods of the orders 3 to 5. The longest steps of methods of the
-   *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, from the time scale of the
-   *  motion. */
+   *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, chosen from the time scale
+   *  of the motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13. If a
    *  user constraint has neither jacobian nor gamma, NaN means 1e-11, because finite differences
@@ -189,7 +191,7 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *           baum_simulation_create() */
 BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
 
-/* ---- what error means ------------------------------------------------------------------------ */
+/* ---- error and reference --------------------------------------------------------------------- */
 
 /** Define what the study reports as error. After this call, the error is the largest value of
  *  |difference from the reference| / unit over all columns of the given channels. Without this
@@ -208,8 +210,8 @@ BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel 
 /** Give a reference as samples. Errors are then measured at the times of these samples, and the
  *  option samples is ignored. Values that are NaN are not compared. Call this function before the
  *  first baum_study_run(). The study counts the revolutions of angles in space from sample to
- *  sample. Where samples are too far apart for that, it compares neither energies nor the channels
- *  of baum_study_set_error().
+ *  sample. Where samples are too far apart for this count, the study compares neither energies nor
+ *  the channels of baum_study_set_error().
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
@@ -292,8 +294,8 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  struct below, the study file, CSV, JSON and Python are generated from this list. Results marked
  *  DONE are known only if the entry is done. An error is the largest one over all samples; if its
  *  name contains `final`, it is the error at the last sample. An error is never smaller than the
- *  uncertainty of the reference. For error_lambda, each multiplier is weighted by the displacement
- *  of its row that results if the coordinates change by their scales. */
+ *  uncertainty of the reference. For error_lambda, multiplier i is multiplied by the norm of row i
+ *  of J, with each column of J multiplied by the scale of its coordinate. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
   X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
@@ -382,17 +384,17 @@ BAUM_API baum_status baum_study_entry_options(const baum_study *study, int32_t k
 
 /* ---- reference ------------------------------------------------------------------------------- */
 
-/** Where the reference comes from. */
+/** The origin of a reference: where it comes from. */
 typedef enum baum_study_origin {
   BAUM_STUDY_OWN = 0,     /**< Computed by the study. */
   BAUM_STUDY_GIVEN = 1,   /**< Given by baum_study_set_reference(). */
   BAUM_STUDY_SOLUTION = 2 /**< Given by baum_study_set_solution(). */
 } baum_study_origin;
 
-/** How far the reference can be trusted. */
+/** The quality of a reference: how far it can be trusted. */
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
-  baum_study_origin origin; /**< Where it comes from. */
+  baum_study_origin origin; /**< Where the reference comes from. */
   /** False if the study has computed the reference itself, and its reference runs agree to fewer
    *  than three digits or have met a singular configuration. */
   bool trusted;
@@ -405,7 +407,7 @@ typedef struct baum_study_reference {
   double uncertainty_lambda; /**< [-] uncertainty of error_lambda. */
   double uncertainty_energy; /**< [J] uncertainty of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  /** A text that says which reference runs agree to how many digits, or why the reference is not
+  /** A text that says to how many digits the reference runs agree, or why the reference is not
    *  trusted. */
   const char *text;
 } baum_study_reference;
@@ -447,7 +449,7 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
 
-/** How cost is measured. */
+/** A measure of cost. */
 typedef enum baum_study_cost {
   /** [-] number of evaluations, plus the number of factorizations and iterations of implicit
    *  methods. It is the same on every machine. */
@@ -467,15 +469,15 @@ typedef struct baum_study_method {
   int32_t entries;                   /**< [-] number of entries. */
   int32_t usable;                    /**< [-] entries that are done and not `off`. */
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
-  /** [-] slope of the error curve, d log error / d log step, or with rtol instead of step. NaN:
-   *  unknown. */
+  /** [-] slope of the error curve: d log error / d log step, or d log error / d log rtol if entries
+   *  differ in rtol. NaN: unknown. */
   double slope;
   /** [-] factor by which the work grows for one more digit; NaN: unknown. */
   double work_per_digit;
   /** [-] factor by which the CPU time grows for one more digit; NaN: unknown. */
   double cpu_per_digit;
-  /** [-] geometric mean of error_validated / error over its entries; NaN if none was validated to
-   *  the end. */
+  /** [-] geometric mean of error_validated / error over its entries; NaN if the validation of no
+   *  entry was completed. */
   double growth;
 } baum_study_method;
 
@@ -505,7 +507,7 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
 /** Compute what a method costs for a given error. The cost is interpolated between entries,
- *  linearly in the logarithms of error and cost. Beyond the first and the last entry it is
+ *  linearly in the logarithms of error and cost. Beyond the first and the last entry the cost is
  *  extrapolated, but not farther than the distance of two neighbouring entries.
  *  @param      study   the study
  *  @param      method  0 to baum_study_method_count() - 1
@@ -539,10 +541,10 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a message with the measured figures, truncated if too long. May
  *                           be NULL.
- *  @param      size         [byte] of why
+ *  @param      size         [byte] size of `why`
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
- *           entry is accurate enough, or if the uncertainty of the reference is larger than the
- *           error), BAUM_ERR_STATE (no entry is timed) */
+ *           entry is accurate enough, or if the uncertainty of the reference is larger than
+ *           `error`), BAUM_ERR_STATE (no entry has a measured time) */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);
@@ -556,7 +558,7 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a message with the measured figures, truncated if too long. May
  *                           be NULL.
- *  @param      size         [byte] of why
+ *  @param      size         [byte] size of `why`
  *  @return  as baum_study_recommend(); BAUM_ERR_ARGUMENT also if no entry is fast enough */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
                                                  baum_simulation_options *best, size_t caller_size,

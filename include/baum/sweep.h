@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Sweeps: many runs of one mechanism in several threads. Each run changes the data of the
- *  mechanism.
+ *  Sweeps: many runs of one mechanism in several threads. Each run uses a copy of the mechanism
+ *  with other data.
  */
 #ifndef BAUM_SWEEP_H
 #define BAUM_SWEEP_H
@@ -21,17 +21,19 @@ extern "C" {
  *  @return  BAUM_OK, or an error, which makes this run fail */
 typedef baum_status baum_sweep_change_fn(baum_mechanism *copy, int64_t run, void *user);
 
-/** What a sweep computes. */
+/** The definition of a sweep: what the sweep computes. */
 typedef struct baum_sweep_def {
-  size_t struct_size;           /**< Set by the default. Do not write. */
+  size_t struct_size;           /**< Set by the default function. Do not write. */
   int64_t count;                /**< [-] > 0, number of runs. Default: 0, must be set. */
-  baum_sweep_change_fn *change; /**< Changes the data of each run. Default: NULL, must be set. */
+  baum_sweep_change_fn *change; /**< Changes the copy for each run. Default: NULL, must be set. */
   void *user;                   /**< Passed to change, not owned. Default: NULL. */
-  const double *times;          /**< (time_count) [s] of the samples, monotone. Default: NULL. */
-  int64_t time_count;           /**< [-] > 0. Default: 0, must be set. */
-  const baum_channel *channels; /**< (channel_count) sampled channels. Default: NULL. */
-  int32_t channel_count;        /**< [-] > 0. Default: 0, must be set. */
-  int32_t threads;              /**< [-] 1 to 1024, number of threads. Default: 1. */
+  /** (time_count) [s] times of the samples, monotone. Default: NULL, must be set. */
+  const double *times;
+  int64_t time_count; /**< [-] > 0. Default: 0, must be set. */
+  /** (channel_count) sampled channels. Default: NULL, must be set. */
+  const baum_channel *channels;
+  int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
+  int32_t threads;       /**< [-] 1 to 1024, number of threads. Default: 1. */
 } baum_sweep_def;
 
 /** Set every field to its default.

@@ -14,7 +14,8 @@ extern "C" {
 #endif
 
 #define BAUM_VERSION_MAJOR 0 /**< Grows with changes of the interface that break callers. */
-/** Grows with additions; before 1.0 also with changes that break callers. */
+/** Grows with additions to the interface; before version 1.0 also with changes that break callers.
+ */
 #define BAUM_VERSION_MINOR 1
 #define BAUM_VERSION_PATCH 0       /**< Grows with corrections. */
 #define BAUM_VERSION       "0.1.0" /**< The three numbers as text. */

@@ -14,21 +14,22 @@ if TYPE_CHECKING:
 class Mobility(NamedTuple):
     """What a mechanism can do at its assembled initial configuration.
 
-    degrees_of_freedom: [-] nv minus the rank of J at nearby configurations; -1 if the mechanism
-        cannot be assembled.
-    redundant_rows: [-] rows that depend on other rows at every nearby configuration.
+    degrees_of_freedom: [-] nv minus the rank of J at configurations near the initial one; -1 if
+        the mechanism cannot be assembled.
+    redundant_rows: [-] rows that depend on other rows at every configuration near the initial
+        one.
     conflicting_rows: [-] rows that contradict the other rows.
     free_bodies: [-] bodies without a joint.
     near_singular: True if the initial configuration is singular, which means that J has a lower
         rank there than at nearby configurations. Also true if the initial configuration is
         within 1e-5 of a singular one, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
-    worst_joint: The joint with the row of worst_phi.
-    text: These results in words, with the names of elements.
+    worst_joint: The joint whose row has the violation worst_phi.
+    text: The results in words, with the names of elements.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
     position_degrees_of_freedom: [-] degrees of freedom of position: nv minus the rank of J
         without rows of velocity level. degrees_of_freedom counts the degrees of freedom of
-        velocity instead. These are fewer if there are rows of velocity level.
+        velocity instead, which are fewer if there are rows of velocity level.
     """
 
     degrees_of_freedom: int
@@ -58,16 +59,18 @@ class Report(NamedTuple):
         count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
-    constant_mass: The mass matrix is constant, so it is inverted only once.
-    constant_force: All forces are constant.
+    constant_mass: True if the mass matrix is constant; it is then inverted only once.
+    constant_force: True if all forces are constant.
     blocks: True if "block" solves the equations, false if KLU does.
     nodes: [-] nodes of the block solver (a node is a pair of rows); 0 for KLU.
     couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
-    fill: [-] pairs that only elimination couples; 0 for KLU.
-    most_couplings: [-] largest number of later nodes with which one node is coupled; 0 for KLU.
-    most_joints: [-] largest number of joints of a body that is not fixed.
-    most_joined: The body with most joints; none if there are no joints.
-    text: These results in words, with the names of elements and the reasons.
+    fill: [-] pairs of nodes that become coupled only by the elimination; 0 for KLU.
+    most_couplings: [-] largest number of nodes that are coupled with one node and eliminated
+        after it; 0 for KLU.
+    most_joints: [-] number of joints of the body most_joined.
+    most_joined: The body with the most joints, among bodies that are not fixed; none if there
+        are no joints.
+    text: The results in words, with the names of elements and with reasons.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
     position_degrees_of_freedom: [-] nv minus the rank of J without rows of velocity level; -1
         if it is not known.
@@ -130,7 +133,8 @@ class Counters(NamedTuple):
     alpha: [1/s] gain in use.
     beta: [1/s] gain in use.
     spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
-        a violation in the long run. NaN without "baumgarte" and with variable steps.
+        a violation in the long run. NaN if the formulation is not "baumgarte", or if the steps
+        are variable.
     damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
         alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
         violations grow. NaN if spectral_radius is NaN.
@@ -192,9 +196,10 @@ class EnergyAccount(NamedTuple):
     loads: [J] work of the loads that have an input or a torque, or that follow their body.
     springs: [J] work of springs with a user law.
     dampers: [J] work of the dampers of linear springs.
-    user_forces: [J] work of user forces, without the change of their potential.
-    bodies: [J] work of the forces of user coordinates, without the change of their potential,
-        plus the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's
+    user_forces: [J] work of user forces plus the change of their potential energy: the work
+        that no potential explains.
+    bodies: [J] work of the forces of user coordinates, plus the change of their potential
+        energy, plus the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's
         equations cancel.
     drivers: [J] work of drivers and of other rows that depend on time: the integral of -nu^T
         lambda.
@@ -364,12 +369,12 @@ class StudyMethod(NamedTuple):
     entries: [-] number of entries.
     usable: [-] entries that are done and not `off`.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
-    slope: [-] slope of the error curve, d log error / d log step, or with rtol instead of step.
-        NaN: unknown.
+    slope: [-] slope of the error curve: d log error / d log step, or d log error / d log rtol
+        if entries differ in rtol. NaN: unknown.
     work_per_digit: [-] factor by which the work grows for one more digit; NaN: unknown.
     cpu_per_digit: [-] factor by which the CPU time grows for one more digit; NaN: unknown.
-    growth: [-] geometric mean of error_validated / error over its entries; NaN if none was
-        validated to the end.
+    growth: [-] geometric mean of error_validated / error over its entries; NaN if the
+        validation of no entry was completed.
     """
 
     name: str
@@ -389,7 +394,7 @@ class StudyMethod(NamedTuple):
 class StudyReference(NamedTuple):
     """How far the reference of a study can be trusted.
 
-    origin: Where it comes from.
+    origin: Where the reference comes from.
     trusted: False if the study has computed the reference itself, and its reference runs agree
         to fewer than three digits or have met a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
@@ -400,8 +405,8 @@ class StudyReference(NamedTuple):
     uncertainty_lambda: [-] uncertainty of error_lambda.
     uncertainty_energy: [J] uncertainty of energy_error.
     samples: [-] number of samples.
-    text: A text that says which reference runs agree to how many digits, or why the reference
-        is not trusted.
+    text: A text that says to how many digits the reference runs agree, or why the reference is
+        not trusted.
     """
 
     origin: str
@@ -423,8 +428,8 @@ class CatalogParameter(NamedTuple):
     unit: Such as "kg m^2"; "-" for a pure number.
     meaning: What the parameter describes.
     value: [unit] the default.
-    positive: The value must be > 0.
-    whole: The value must be an integer.
+    positive: True if the value must be > 0.
+    whole: True if the value must be an integer.
     """
 
     name: str
@@ -448,11 +453,11 @@ class CatalogEntry(NamedTuple):
     sample_count: [-] number of stored samples; 0 if there are none.
     start_time: [s] start of the problem and of its reference.
     end_time: [s] end of the problem and of its reference.
-    digits_q: [-] number of digits of the reference positions that can be trusted, relative to
-        max(1, |q|). NaN if there is no reference.
+    digits_q: [-] number of correct digits of the reference positions: the error of a position q
+        is at most 10^-digits_q max(1, |q|). NaN if there is no reference.
     digits_v: [-] the same for velocities.
-    exact: The reference consists of formulas.
-    smooth: The motion with default parameters passes no singular configuration.
+    exact: True if the reference consists of formulas.
+    smooth: True if the motion with default parameters passes no singular configuration.
     parameters: Its parameters by name.
     """
 
