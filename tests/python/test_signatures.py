@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests that signatures show the library's defaults, that types list its words, and that everything
-public has a docstring."""
+public has a docstring, whose examples work."""
 
 import ast
 import ctypes
+import doctest
 import enum
+import importlib
 import inspect
 import math
 import typing
@@ -172,6 +174,15 @@ class Described(unittest.TestCase):
         for name, one in self.public():
             with self.subTest(name):
                 self.assertNotRegex(inspect.getdoc(one) or "", r"baum_\w|BAUM_|\.h\b|NULL|struct")
+
+    def test_examples_in_docstrings_print_what_they_show(self):
+        tried = 0
+        for path in sorted(PACKAGE.glob("*.py")):
+            if ">>>" in path.read_text(encoding="utf-8"):
+                results = doctest.testmod(importlib.import_module(f"baum.{path.stem}"))
+                self.assertEqual(results.failed, 0)
+                tried += results.attempted
+        self.assertGreater(tried, 0)
 
     def test_all_arguments_and_results_have_types(self):
         for path in sorted(PACKAGE.glob("*.py")):

@@ -508,7 +508,9 @@ class Adding:
 
         >>> import math, baum
         >>> m = baum.Mechanism(gravity=(0, 0, 0))
-        >>> skate = m.planar_body("skate", mass=1, inertia=0.1, velocity=(1, 0, 0.5))
+        >>> skate = m.planar_body(
+        ...     "skate", mass=1, inertia=0.1, velocity=(1, 0), angular_velocity=0.5
+        ... )
         >>> across = m.constraint(
         ...     "blade", skate, 1, velocity_level=True,
         ...     jacobian=lambda t, q: [[-math.sin(q[2]), math.cos(q[2]), 0]],
