@@ -43,7 +43,7 @@ static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, c
   return load.input;
 }
 
-static void look(loop *l)
+static void read_channels(loop *l)
 {
   const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, l->pin);
   CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
@@ -83,7 +83,7 @@ static void interval(loop *l)
   CHECK(baum_simulation_step(l->run, STEPS));
   double step = (seconds() - ready) / STEPS;
   double before = l->crank[0];
-  look(l);
+  read_channels(l);
   l->work += (motor + brake) * (l->crank[0] - before);
   clock_interval(l, seconds() - begun, step);
 }
@@ -124,7 +124,7 @@ int main(int argc, char **argv)
                                            {"work", "net work [J]", 'f', 3}};
   example_table("speed", columns, 3, true);
   double speed[ROWS];
-  look(&l);
+  read_channels(&l);
   for (int row = 0; row < ROWS; row++) {
     double begun = l.crank[0];
     for (int k = 0; k < INTERVALS; k++) {

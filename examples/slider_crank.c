@@ -78,7 +78,7 @@ static void predict(double alpha, double beta, double *phi)
 
 /* Returns the largest difference of Phi_3 from its prediction, divided by the largest
  * prediction. */
-static double surprise(int set)
+static double relative_difference(int set)
 {
   double difference = 0.0;
   double expected = 0.0;
@@ -209,7 +209,7 @@ int main(int argc, char **argv)
   printf("\n");
   double worst = 0.0;
   for (int set = EQUAL_50; set < SETS; set++) {
-    worst = fmax(worst, surprise(set));
+    worst = fmax(worst, relative_difference(set));
   }
   example_expect("none: |Phi_3| at 0.5 s / at 1 s",
                  fabs(rows[NONE][STEPS / 2][PHI3] / rows[NONE][STEPS][PHI3]), 0.7);
