@@ -12,7 +12,7 @@ typedef enum random_verdict {
   RANDOM_WRONG,       /* the error is larger */
   RANDOM_CONFLICT,    /* accepted, although omitted rows contradict the others */
   RANDOM_FALSE_ALARM, /* refused, although the rows are independent */
-  RANDOM_MOBILITY,    /* other degrees of freedom than the ranks of J give */
+  RANDOM_MOBILITY,    /* the degrees of freedom disagree with the ranks of J */
   RANDOM_VERDICTS
 } random_verdict;
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms whose motion is known and passes through singular configurations, and settings with
- * which they are run. If the motion stays on the right branch, one angle th describes it:
+ * which they are run. If the motion stays on the right branch, it is described by one angle th,
+ * which satisfies an equation with the constants i0, i1 and k:
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  */

@@ -17,14 +17,14 @@ typedef enum spatial_verdict {
   SPATIAL_REACTION,    /* the error of unique reactions is above the limit */
   SPATIAL_BALANCE,     /* reactions do not balance the forces */
   SPATIAL_FALSE_ALARM, /* refused, although the rows are independent */
-  SPATIAL_MOBILITY,    /* other degrees of freedom than the ranks of J give */
+  SPATIAL_MOBILITY,    /* the degrees of freedom disagree with the ranks of J */
   SPATIAL_VERDICTS
 } spatial_verdict;
 
 /* The largest permitted error. Errors of accelerations are relative to the largest acceleration,
- * either with or without constraints. Errors of reactions are relative to the largest element.
- * Rounding of positions and inertias changes the results of the oracle. 100 times this change is
- * added to the limit. */
+ * either with or without constraints. Errors of reactions are relative to the largest element of
+ * all reactions. Rounding of positions and inertias changes the results of the oracle. 100 times
+ * this change is added to the limit. */
 static const double SPATIAL_ERROR = 1e-9;
 
 /* Numbers of configurations tested so far. */
@@ -41,7 +41,7 @@ typedef struct spatial_tally {
   long reactions;       /* number of compared reactions */
   long unjudged;        /* errors are large, but so is the effect of rounding errors */
   long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
-  double worst;         /* largest error of the other SPATIAL_MET configurations */
+  double worst; /* largest error of the SPATIAL_MET configurations that are not ill-conditioned */
   double worst_reaction;
   uint64_t worst_seed;
 } spatial_tally;
