@@ -34,7 +34,7 @@ static void check_refused(const baum_mechanism *mechanism, const baum_simulation
   assert_null(run);
 }
 
-/* ---- a bead on a rod about the origin, designed at (x, y), with a velocity ---- */
+/* ---- a bead on a rod that can rotate about the origin ---- */
 
 typedef struct bead_def {
   double x;

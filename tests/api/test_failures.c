@@ -125,7 +125,7 @@ static int flag_of(baum_status status)
 
 typedef struct expectation {
   fault fault;         /* FAULT_COUNT stands for the crank that locks */
-  int statuses;        /* flags for the statuses of which one must occur */
+  int statuses;        /* flags of statuses; one of these statuses must occur */
   const char *element; /* the part of the message that names an element */
   const char *words;   /* another part of the message */
 } expectation;

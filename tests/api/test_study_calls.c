@@ -375,7 +375,8 @@ static void a_setting_that_cannot_be_run_is_an_entry_with_its_reason(void **stat
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_fixed(1e4, 1e4);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  /* Ten million steps take more than a millisecond, and twice as many take even longer. */
+  /* Ten million steps take longer than the limit of a millisecond, and twice as many take even
+   * longer. */
   o = rk4(1e-7);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   o.step = 5e-8;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests break times, and a run's messages about singular configurations. Everything else about them
-is tested in C."""
+"""Tests break times, and a run's messages about singular configurations. C tests cover everything
+else about both."""
 
 import math
 import unittest

@@ -197,7 +197,7 @@ class Values(unittest.TestCase):
 
 class Costs(unittest.TestCase):
     def calls(self, **functions):
-        """Return the calls in a step of rk4, for a pendulum with these functions."""
+        """Return how many calls of these functions of a pendulum a step of rk4 makes."""
         calls = []
 
         def counted(function):
@@ -211,7 +211,8 @@ class Costs(unittest.TestCase):
         return len(calls) / 10
 
     def test_derivatives_spare_most_calls(self):
-        """The documentation contains these numbers. tests/bench/bench_python.py prints them."""
+        """The numbers of this test are in the documentation. tests/bench/bench_python.py prints
+        them."""
         plain = self.calls(phi=circle)
         given = self.calls(
             phi=circle, jacobian=lambda t, q: 2 * q, gamma=lambda t, q, v: -2 * (v @ v)

@@ -76,7 +76,8 @@ class Reports(unittest.TestCase):
         self.assertIn(JOINT, self.study.entries[2].message)
 
     def check_entry(self, entry, cells, number):
-        """Check that every number that both contain is the same to the last bit."""
+        """Check that every number that both the entry and the cells contain is the same to the last
+        bit."""
         compared = 0
         for name in entry._fields:
             value = getattr(entry, name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Derivatives of results with respect to parameters, and the warnings about their errors."""
+"""Tests derivatives of results with respect to parameters, and the warnings about their errors."""
 
 import time
 import unittest

@@ -98,8 +98,8 @@ class Meaning(unittest.TestCase):
         study = baum.study(m, 0, 0.5, error=["slider.pose"], unit=1e-3, samples=20, repeats=1)
         study.add("rk4", step=1e-2).run()
         entry = study.entries[0]
-        # entry.error is that of the slider, in millimetres and milliradians. entry.error_q is that
-        # of all bodies, scaled.
+        # entry.error is the error of the slider, in millimetres and milliradians. entry.error_q is
+        # the scaled error of all bodies.
         self.assertLess(entry.error, 1e3 * entry.error_q * max(m.characteristic_length, 1) * 1.001)
         self.assertNotAlmostEqual(entry.error, entry.error_q)
 

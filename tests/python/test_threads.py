@@ -27,8 +27,8 @@ def long_run():
 
 
 class ShortCalls(unittest.TestCase):
-    """Calls that take less than AT_ONCE stay in the calling thread; longer ones are continued in a
-    second one."""
+    """Calls that take less than AT_ONCE stay in the calling thread; longer calls are continued in a
+    second thread."""
 
     def test_a_short_run_starts_no_thread(self):
         code = (
@@ -62,7 +62,7 @@ class Pool(unittest.TestCase):
     VARIANTS = 1000
 
     def timed(self, title, make):
-        """Return the result of make(), and what each variant costs."""
+        """Return the result of make(), and print the time that each variant takes."""
         begun = time.perf_counter()
         made = make()
         each = (time.perf_counter() - begun) / self.VARIANTS
