@@ -349,7 +349,7 @@ static void a_rough_design_is_assembled_and_reported(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void as_given_takes_the_design(void **state)
+static void a_start_as_given_uses_the_design_unchanged(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -549,7 +549,7 @@ int main(void)
     cmocka_unit_test(drivers_may_begin_away_from_the_design),
     cmocka_unit_test(drivers_that_begin_out_of_reach_are_refused),
     cmocka_unit_test(a_rough_design_is_assembled_and_reported),
-    cmocka_unit_test(as_given_takes_the_design),
+    cmocka_unit_test(a_start_as_given_uses_the_design_unchanged),
     cmocka_unit_test(a_function_that_fails_during_a_call_leaves_the_last_good_step),
     cmocka_unit_test(a_function_that_fails_at_create_is_named),
     cmocka_unit_test(whichever_call_fails_the_run_can_go_on),

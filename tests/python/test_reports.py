@@ -156,7 +156,7 @@ class Reports(unittest.TestCase):
             self.assertEqual(raised.exception.status, baum.Status.ERR_FILE)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no device that is always full")
-    def test_a_full_disk_is_told(self):
+    def test_a_full_disk_is_reported(self):
         full = "/dev/full"
         with tempfile.TemporaryDirectory() as folder:
             for suffix in ("txt", "csv", "json", "html"):

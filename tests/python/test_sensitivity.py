@@ -64,7 +64,7 @@ class Sensitivity(unittest.TestCase):
         with self.assertWarnsRegex(baum.UncertainSensitivityWarning, pattern):
             return baum.sensitivities(pendulum(), {"arm.inertia": 0.02}, reduce=reduce, **given)
 
-    def test_results_that_jump_are_told(self):
+    def test_results_that_jump_cause_a_warning(self):
         def jump(run):
             return np.round(run.q[-1, 0], 4)
 
