@@ -494,8 +494,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* Lets only one call of a function fail. For every n, the run must stop at a good step, and must be
- * able to continue. */
+/* Lets only call number n of a function fail. Whichever n this is, the run must stop at a good
+ * step, and must be able to continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};

@@ -110,7 +110,7 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
     baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
     baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
     assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
-    assert_true(steps_of(run) <= 2 * STEPS); /* if the run succeeds, there are only a few hundred */
+    assert_true(steps_of(run) <= 2 * STEPS); /* a run that succeeds makes a few hundred steps */
     baum_simulation_destroy(run);
   }
   model_destroy(&m);

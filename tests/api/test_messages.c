@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Provokes the messages that no other test provokes. tests/layout/check_messages.py lists them. */
+/* Provokes the messages that no other test provokes. tests/layout/check_messages.py --untriggered
+ * lists messages that no test provokes at all. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -192,7 +192,7 @@ static void random_mechanisms_are_the_same_after_writing_and_reading(void **stat
   }
 }
 
-/* ---- what is particular ---- */
+/* ---- special cases ---- */
 
 static baum_body_id add_body(baum_mechanism *m, const char *name)
 {

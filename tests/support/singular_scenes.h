@@ -33,7 +33,8 @@ typedef struct singular_scene {
   int count;                         /* how many angles in q are th or -th */
   int angle[SINGULAR_ANGLES];        /* the indices of these angles */
   double sign[SINGULAR_ANGLES];
-  /* ((SINGULAR_SAMPLES + 1) x nq) if there is no equation for th, otherwise NULL. */
+  /* Positions at the samples ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
+   * Otherwise NULL. */
   double *reference;
 } singular_scene;
 

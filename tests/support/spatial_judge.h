@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the library's results for random spatial mechanisms with those of an oracle in quadruple
- * precision. */
+/* Compares the library's results for random spatial mechanisms with the results of an oracle, which
+ * uses quadruple precision. */
 #ifndef BAUM_TEST_SPATIAL_JUDGE_H
 #define BAUM_TEST_SPATIAL_JUDGE_H
 
@@ -47,8 +47,9 @@ typedef struct spatial_tally {
 } spatial_tally;
 
 /* Makes the mechanism of a seed in `room`. The mechanism is tested with velocities, in its design
- * configuration and in another configuration on the constraints. In the latter, the ranks of J must
- * give the degrees of freedom that the library reports. Prints wrong results and false alarms. */
+ * configuration and in another configuration on the constraints. In the second one, the ranks of J
+ * must give the degrees of freedom that the library reports. Prints wrong results and false
+ * alarms. */
 void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_tally *tally);
 
 /* Returns how many results were wrong or false alarms. */
