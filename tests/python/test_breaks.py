@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests break times, and a run's messages about singular configurations. C tests cover everything
-else about both."""
+else about break times and singular configurations."""
 
 import math
 import unittest

@@ -7,7 +7,7 @@
  *   bare [--list]
  *
  * The program prints how often each outcome occurs, next to the same numbers for the library.
- * Cells, oracle and permitted errors are the same for both.
+ * Cells, oracle and permitted errors are the same for this program and for the library.
  */
 #include <cvode/cvode.h>
 #include <ida/ida.h>

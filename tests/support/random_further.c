@@ -98,7 +98,7 @@ static void add_edge(random_spatial *r, int a, int b)
 
 /* ---- bodies and loops ---- */
 
-/* Adds a joint that is not a basic one between two bodies with orientations. */
+/* Adds a joint between two bodies with orientations. Its kind is not one of the basic kinds. */
 static void add_pair(random_spatial *r, int a, int b)
 {
   int kind = chance_below(&r->chance, 4);
