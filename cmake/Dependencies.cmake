@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Finds the packages that baum needs. If one is missing, stops with a message that names it. Sets
 #   BAUM_BACKENDS      what the library links
-#   BAUM_CAPABILITIES  compile definitions that tell the sources what is there
+#   BAUM_CAPABILITIES  compile definitions that tell the sources which packages were found
 
 function(baum_refuse what package option)
   set(way_out "")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Finds the parts of SUNDIALS that baum uses, in releases 6.4 to 7. SuiteSparse must have been found
-# before. Sets BaumSundials_FOUND and BAUM_SUNDIALS_TARGETS. This file is installed beside
-# baum-config.cmake, which uses it as well.
+# before. Sets BaumSundials_FOUND and BAUM_SUNDIALS_TARGETS. This file is installed in the same
+# folder as baum-config.cmake, which uses it as well.
 #
 # SUNDIALS_FOUND is not used. It is false if one of the parallel parts of SUNDIALS lacks OpenMP, as
 # with clang on Debian, although everything that baum needs is there.

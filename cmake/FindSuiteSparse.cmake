@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Finds KLU of SuiteSparse, and COLAMD, which KLU needs, and makes the target SuiteSparse::KLU. They
-# are found by their names, because releases before 7 have no CMake files. This file is installed
-# beside baum-config.cmake, which uses it as well.
+# Finds KLU of SuiteSparse, and COLAMD, which KLU needs, and makes the target SuiteSparse::KLU. Both
+# libraries are found by their names, because releases before 7 have no CMake files. This file is
+# installed in the same folder as baum-config.cmake, which uses it as well.
 include(FindPackageHandleStandardArgs)
 
 find_path(SuiteSparse_INCLUDE_DIR klu.h PATH_SUFFIXES suitesparse)

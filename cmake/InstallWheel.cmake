@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the shared libraries beside the Python files, each under one name. Also installs the
-# licenses of the software that they contain.
+# Installs the shared libraries in the folder of the Python files, each under one name. Also
+# installs the licenses of the software that they contain.
 set_property(TARGET baum baum_catalog PROPERTY VERSION)
 set_property(TARGET baum baum_catalog PROPERTY SOVERSION)
 install(TARGETS baum baum_catalog baum_fmu COMPONENT package LIBRARY DESTINATION baum RUNTIME DESTINATION baum

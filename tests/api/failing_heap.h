@@ -52,7 +52,7 @@ static inline void fail_allocations(scenario *run, void *context, long stride)
   }
 }
 
-/* Lets every allocation fail: first only this one, and then this one together with all later
+/* Lets each allocation fail in turn: first only this one, and then this one together with all later
  * ones. */
 static inline void fail_every_allocation(scenario *run, void *context)
 {

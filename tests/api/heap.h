@@ -38,8 +38,8 @@ static struct {
   atomic_long count;   /* number of allocations since heap_watch() */
   long fail_from;      /* index of the first allocation that fails */
   long fail_to;        /* index after the last allocation that fails */
-  bool inside;         /* true during a call whose allocations fail_from does not count */
-  long may_still_fail; /* number of allocations of such a call that are made to fail */
+  bool inside;         /* true during a call of an excluded function (see below) */
+  long may_still_fail; /* how many more allocations of this call are counted and may fail */
 } heap;
 
 /* ---- counting ---- */

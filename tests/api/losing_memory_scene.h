@@ -23,7 +23,8 @@ typedef struct scene {
   double v[EVERY_NV];
   double y[EVERY_NQ + EVERY_NV + 2 * EVERY_NC];
   baum_simulation *run;
-  /* A run at a later time than `run`, which has a schedule and a new law of a driver. */
+  /* A run that has a schedule and a new law of a driver. Its time is later than the time of
+   * `run`. */
   baum_simulation *from;
   model pendulum;
   baum_study *study;
@@ -135,8 +136,8 @@ static baum_status call_baum_sweep(scene *s)
   return baum_sweep(s->parts.mechanism, &o, &def, rows, NULL);
 }
 
-/* A small scene as text. It is used because a scene of the parts above would need hooks for all
- * functions. */
+/* A small scene as text. The calls do not write and read the mechanism above, because it would need
+ * hooks for all its functions. */
 static const char SCENE_TEXT[] =
   "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
   "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "

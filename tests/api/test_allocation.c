@@ -448,8 +448,8 @@ static baum_status simulate(void *context)
   return reached_the_end(status) ? BAUM_OK : status;
 }
 
-/* Excludes SUNDIALS 7.1. If an allocation fails, it allocates memory for its message, and writes to
- * this memory without checking that this allocation has succeeded. */
+/* Excludes SUNDIALS 7.1. If an allocation fails, SUNDIALS 7.1 allocates memory for its message, and
+ * writes to this memory without checking that it was allocated. */
 static bool survives_without_memory(const baum_integrator *integrator)
 {
   const char *name = baum_integrator_name(integrator);
@@ -486,8 +486,9 @@ static const double *factors_of_rows(void)
   return factors;
 }
 
-/* If rows have gains of their own, the only additional allocation is a copy of the factors. This
- * code is the same for all integrators, so that testing one of them is sufficient. */
+/* If rows have gains of their own, the only additional allocation is a copy of the factors. The
+ * code that makes the copy is the same for all integrators, so that testing one of them is
+ * sufficient. */
 static void runs_with_gains_of_rows_survive_every_failing_allocation(void **state)
 {
   (void)state;

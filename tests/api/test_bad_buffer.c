@@ -211,9 +211,9 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
   close_scene(&s);
 }
 
-/* The first part of the test refuses an impossible size. The second part replaces each word of the
- * buffer by 0, one at a time. One of these words says that the driver has a polynomial as its law.
- * If it is 0, the driver has no law, and restoring must refuse this. */
+/* In the first part of the test, a buffer with an impossible size must be refused. The second part
+ * replaces each word of the buffer by 0, one at a time. One of these words says that the driver has
+ * a polynomial as its law. If it is 0, the driver has no law, and restoring must refuse this. */
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;

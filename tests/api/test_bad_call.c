@@ -35,7 +35,7 @@ static void texts_are_never_null(void **state)
 
 /* ---- mechanism.h ---- */
 
-static void calls_on_no_mechanism_are_refused(void **state)
+static void calls_on_a_null_mechanism_are_refused(void **state)
 {
   (void)state;
   const baum_body_id body = {1, 1};
@@ -119,7 +119,7 @@ static void calls_that_need_a_frozen_mechanism_refuse_an_open_one(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void outputs_of_a_mechanism_may_not_be_null_unless_they_may(void **state)
+static void required_outputs_of_a_mechanism_may_not_be_null(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -315,7 +315,7 @@ static void calls_on_a_workspace_refuse_null_and_what_is_not_finite(void **state
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void workspaces_refuse_the_rest_by_name(void **state)
+static void other_bad_calls_on_a_workspace_are_refused(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -395,7 +395,7 @@ static void descriptions_of_integrators_accept_null_and_unknown_values(void **st
   assert_null(baum_integrator_at(INT32_MAX));
 }
 
-static void calls_on_no_run_are_refused(void **state)
+static void calls_on_a_null_run_are_refused(void **state)
 {
   (void)state;
   const baum_channel channel = baum_channel_of(BAUM_Q);
@@ -485,16 +485,16 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(texts_are_never_null),
-    cmocka_unit_test(calls_on_no_mechanism_are_refused),
+    cmocka_unit_test(calls_on_a_null_mechanism_are_refused),
     cmocka_unit_test(an_open_mechanism_can_be_examined),
     cmocka_unit_test(calls_that_need_a_frozen_mechanism_refuse_an_open_one),
-    cmocka_unit_test(outputs_of_a_mechanism_may_not_be_null_unless_they_may),
+    cmocka_unit_test(required_outputs_of_a_mechanism_may_not_be_null),
     cmocka_unit_test(reports_are_cut_to_the_callers_size),
     cmocka_unit_test(calls_on_a_workspace_refuse_null_and_what_is_not_finite),
-    cmocka_unit_test(workspaces_refuse_the_rest_by_name),
+    cmocka_unit_test(other_bad_calls_on_a_workspace_are_refused),
     cmocka_unit_test(functions_of_stability_refuse_null),
     cmocka_unit_test(descriptions_of_integrators_accept_null_and_unknown_values),
-    cmocka_unit_test(calls_on_no_run_are_refused),
+    cmocka_unit_test(calls_on_a_null_run_are_refused),
     cmocka_unit_test(outputs_of_a_run_may_not_be_null),
     cmocka_unit_test(a_run_and_a_workspace_keep_their_mechanism_alive),
   };

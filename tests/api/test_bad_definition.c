@@ -553,8 +553,8 @@ static void freezing_refuses_matrices_too_large_to_count(void **state)
   }
   check_too_large(mechanism, "joint 22 ");
 
-  /* The force couples all three bodies. It has 3e4 x 3e4 = 9e8 entries, and three times as many
-   * indices. */
+  /* The force couples all three bodies. Its derivatives have 3e4 x 3e4 = 9e8 entries, and three
+   * times as many indices. */
   mechanism = make_huge(3, ids);
   baum_user_force_def force = baum_user_force_def_default();
   force.bodies = ids;

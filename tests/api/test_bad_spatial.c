@@ -373,7 +373,7 @@ static void freezing_refuses_a_point_off_its_particle(void **state)
   every_element parts = open_parts();
   baum_spatial_particle_def ball;
   check(baum_mechanism_get_spatial_particle(parts.mechanism, parts.ball, &ball, sizeof ball));
-  /* Replaces the name that was read, because it is memory of the old definition. */
+  /* Replaces the name that was read, because it belongs to the old definition, which is freed. */
   ball.name = "ball";
   ball.position[1] += 1e-6;
   check(baum_mechanism_set_spatial_particle(parts.mechanism, parts.ball, &ball));
@@ -418,7 +418,8 @@ static void loads_that_a_particle_cannot_take_are_refused(void **state)
 
 /* ---- opposite axes ---- */
 
-/* Joins a body to ground. The joint's axis is z on ground, and axis_b on the body, or NULL. */
+/* Joins a body to ground. The axis of the joint on ground is z. Its axis on the body is axis_b,
+ * which is not given if it is NULL. */
 static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);

@@ -34,7 +34,7 @@ static void check_refused(const baum_mechanism *mechanism, const baum_simulation
   assert_null(run);
 }
 
-/* ---- a bead on a rod about the origin, designed at (x, y), with a velocity ---- */
+/* ---- a bead on a rod that can rotate about the origin ---- */
 
 typedef struct bead_def {
   double x;
@@ -349,7 +349,7 @@ static void a_rough_design_is_assembled_and_reported(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-static void as_given_takes_the_design(void **state)
+static void a_start_as_given_uses_the_design_unchanged(void **state)
 {
   (void)state;
   bead_def def = GOOD_BEAD;
@@ -494,8 +494,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* Lets only one call of a function fail. For every n, the run must stop at a good step, and must be
- * able to continue. */
+/* Lets only call number n of a function fail. Whichever n this is, the run must stop at a good
+ * step, and must be able to continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};
@@ -549,7 +549,7 @@ int main(void)
     cmocka_unit_test(drivers_may_begin_away_from_the_design),
     cmocka_unit_test(drivers_that_begin_out_of_reach_are_refused),
     cmocka_unit_test(a_rough_design_is_assembled_and_reported),
-    cmocka_unit_test(as_given_takes_the_design),
+    cmocka_unit_test(a_start_as_given_uses_the_design_unchanged),
     cmocka_unit_test(a_function_that_fails_during_a_call_leaves_the_last_good_step),
     cmocka_unit_test(a_function_that_fails_at_create_is_named),
     cmocka_unit_test(whichever_call_fails_the_run_can_go_on),

@@ -323,7 +323,7 @@ static bool is_done(baum_status status, const char *name)
                                           strcmp(name, "baum_simulation_warning") == 0));
 }
 
-static void calls_that_need_no_memory_take_none(void **state)
+static void calls_that_need_no_memory_allocate_none(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -372,7 +372,7 @@ static void definitions_are_made_and_read_without_memory(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(calls_that_need_no_memory_take_none),
+    cmocka_unit_test(calls_that_need_no_memory_allocate_none),
     cmocka_unit_test(definitions_are_made_and_read_without_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -131,7 +131,7 @@ static void every_parameter_changes_its_mechanism(void **state)
   assert_true(parameters > 60);
 }
 
-static void a_default_that_is_given_changes_nothing(void **state)
+static void giving_a_default_explicitly_changes_nothing(void **state)
 {
   (void)state;
   const baum_catalog_setting setting = {"eccentricity", 0.0};
@@ -145,7 +145,7 @@ static void a_default_that_is_given_changes_nothing(void **state)
   assert_int_equal(baum_catalog_reference(&choice, 0.1, q, NULL), BAUM_OK);
 }
 
-static void a_shorter_struct_gets_its_part(void **state)
+static void a_shorter_struct_is_filled_up_to_its_size(void **state)
 {
   (void)state;
   baum_catalog_entry entry;
@@ -342,7 +342,7 @@ static void errors_are_differences_by_the_scales(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void states_of_something_else_are_not_compared(void **state)
+static void states_of_other_mechanisms_are_not_compared(void **state)
 {
   (void)state;
   const baum_catalog_choice chain = {.name = "chain"};
@@ -464,7 +464,7 @@ static void inputs_are_found_by_name(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void elements_that_are_not_there_are_none(void **state)
+static void indices_and_names_of_missing_elements_give_no_element(void **state)
 {
   (void)state;
   baum_mechanism *m = build(&CRANK);
@@ -492,21 +492,21 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_entry_says_what_it_is),
     cmocka_unit_test(every_parameter_changes_its_mechanism),
-    cmocka_unit_test(a_default_that_is_given_changes_nothing),
-    cmocka_unit_test(a_shorter_struct_gets_its_part),
+    cmocka_unit_test(giving_a_default_explicitly_changes_nothing),
+    cmocka_unit_test(a_shorter_struct_is_filled_up_to_its_size),
     cmocka_unit_test(missing_entries_and_parameters_are_refused_by_name),
     cmocka_unit_test(parameters_out_of_range_are_refused),
     cmocka_unit_test(a_reference_that_does_not_hold_is_not_given),
     cmocka_unit_test(formulas_that_cancel_or_overflow_are_not_given),
     cmocka_unit_test(a_study_takes_a_formula_as_its_solution),
     cmocka_unit_test(errors_are_differences_by_the_scales),
-    cmocka_unit_test(states_of_something_else_are_not_compared),
+    cmocka_unit_test(states_of_other_mechanisms_are_not_compared),
     cmocka_unit_test(every_allocation_of_a_mechanism_may_fail),
     cmocka_unit_test(references_and_errors_allocate_nothing),
     cmocka_unit_test(other_libraries_can_set_the_message),
     cmocka_unit_test(elements_are_found_in_order_and_by_name),
     cmocka_unit_test(inputs_are_found_by_name),
-    cmocka_unit_test(elements_that_are_not_there_are_none),
+    cmocka_unit_test(indices_and_names_of_missing_elements_give_no_element),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

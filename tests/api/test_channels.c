@@ -75,7 +75,7 @@ static void accelerations_are_the_slopes_of_velocities(void **state)
   model_destroy(&m);
 }
 
-static void bodies_without_axes_give_their_part_of_a(void **state)
+static void accelerations_of_bodies_are_their_part_of_a(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -184,7 +184,7 @@ static int64_t cost_of(const every_element *parts, const baum_integrator *integr
   return sum;
 }
 
-static void a_sample_costs_a_solution_only_when_it_asks_for_one(void **state)
+static void only_channels_that_need_accelerations_or_multipliers_cost_a_solution(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -337,9 +337,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(accelerations_are_the_slopes_of_velocities),
-    cmocka_unit_test(bodies_without_axes_give_their_part_of_a),
+    cmocka_unit_test(accelerations_of_bodies_are_their_part_of_a),
     cmocka_unit_test(the_power_of_a_driver_is_the_change_of_energy),
-    cmocka_unit_test(a_sample_costs_a_solution_only_when_it_asks_for_one),
+    cmocka_unit_test(only_channels_that_need_accelerations_or_multipliers_cost_a_solution),
     cmocka_unit_test(channels_that_follow_from_the_state_call_no_user_function),
     cmocka_unit_test(more_columns_than_can_be_counted_are_refused),
     cmocka_unit_test(overflow_is_reported),

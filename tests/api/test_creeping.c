@@ -65,7 +65,7 @@ static int64_t steps_of(baum_simulation *run)
 
 /* For stability, explicit steps must be at most about 5 / rate = 5e-12 s. The motion takes about 1
  * s, so the end cannot be reached. */
-static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
+static void a_run_whose_steps_are_too_short_to_reach_the_end_stops_with_a_message(void **state)
 {
   (void)state;
   baum_mechanism *m = greased_link(1e12);
@@ -84,7 +84,7 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
 }
 
 /* In this run, steps are about 5e-7 s. They are accepted until max_steps is reached. */
-static void short_steps_that_lead_on_are_taken(void **state)
+static void short_steps_that_still_advance_the_run_are_accepted(void **state)
 {
   (void)state;
   baum_mechanism *m = greased_link(1e7);
@@ -110,7 +110,7 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
     baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
     baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
     assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
-    assert_true(steps_of(run) <= 2 * STEPS); /* if the run succeeds, there are only a few hundred */
+    assert_true(steps_of(run) <= 2 * STEPS); /* a run that succeeds makes a few hundred steps */
     baum_simulation_destroy(run);
   }
   model_destroy(&m);
@@ -119,8 +119,8 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(an_explicit_method_that_a_stiff_force_holds_up_says_so),
-    cmocka_unit_test(short_steps_that_lead_on_are_taken),
+    cmocka_unit_test(a_run_whose_steps_are_too_short_to_reach_the_end_stops_with_a_message),
+    cmocka_unit_test(short_steps_that_still_advance_the_run_are_accepted),
     cmocka_unit_test(a_run_next_to_a_singular_configuration_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -281,7 +281,7 @@ static void documented_defaults_are_the_real_ones(void **state)
   free(headers);
 }
 
-static void every_field_is_set_by_the_default(void **state)
+static void the_default_functions_set_every_field(void **state)
 {
   (void)state;
   for (int k = 0; k < STRUCTS; k++) {
@@ -574,7 +574,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(documented_defaults_are_the_real_ones),
-    cmocka_unit_test(every_field_is_set_by_the_default),
+    cmocka_unit_test(the_default_functions_set_every_field),
     cmocka_unit_test(init_writes_at_most_the_callers_size),
     cmocka_unit_test(every_definition_comes_back_as_it_was_given),
     cmocka_unit_test(a_copy_is_open_has_the_same_ids_and_changes_alone),

@@ -118,7 +118,7 @@ static void failing_functions_end_the_call(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-static void looking_for_events_allocates_nothing(void **state)
+static void locating_events_allocates_nothing(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -178,7 +178,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),
     cmocka_unit_test(failing_functions_end_the_call),
-    cmocka_unit_test(looking_for_events_allocates_nothing),
+    cmocka_unit_test(locating_events_allocates_nothing),
     cmocka_unit_test(every_allocation_of_an_event_may_fail),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

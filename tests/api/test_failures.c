@@ -125,7 +125,7 @@ static int flag_of(baum_status status)
 
 typedef struct expectation {
   fault fault;         /* FAULT_COUNT stands for the crank that locks */
-  int statuses;        /* flags for the statuses of which one must occur */
+  int statuses;        /* flags of statuses; one of these statuses must occur */
   const char *element; /* the part of the message that names an element */
   const char *words;   /* another part of the message */
 } expectation;
@@ -283,7 +283,7 @@ static void a_failure_that_a_method_overcomes_leaves_no_message(void **state)
   }
 }
 
-static void more_digits_than_there_are_are_refused(void **state)
+static void tolerances_below_rounding_end_the_run(void **state)
 {
   (void)state;
   fault none = FAULT_NONE;
@@ -371,7 +371,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_failure_names_time_place_and_remedy),
     cmocka_unit_test(a_failure_that_a_method_overcomes_leaves_no_message),
-    cmocka_unit_test(more_digits_than_there_are_are_refused),
+    cmocka_unit_test(tolerances_below_rounding_end_the_run),
     cmocka_unit_test(inputs_and_laws_continue_after_a_failure),
     cmocka_unit_test(only_runs_of_the_same_mechanism_go_on),
   };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Provokes the messages that no other test provokes. tests/layout/check_messages.py lists them. */
+/* Provokes the messages that no other test provokes. tests/layout/check_messages.py --untriggered
+ * lists messages that no test provokes at all. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -89,7 +90,7 @@ static void a_step_below_the_rounding_of_time_is_an_error(void **state)
 
 /* With Euler's method, alpha h = beta h = 1 is dead-beat. If the gains of a row are multiplied by
  * 1.97, a step leaves 0.97 of this row's violation. This must cause a warning. */
-static void factors_that_hardly_damp_are_warned_of(void **state)
+static void factors_that_hardly_damp_cause_a_warning(void **state)
 {
   (void)state;
   const double factors[] = {1.0, 1.97};
@@ -205,7 +206,7 @@ int main(void)
     cmocka_unit_test(ground_has_no_definition),
     cmocka_unit_test(kinematics_keeps_no_energy_account),
     cmocka_unit_test(a_step_below_the_rounding_of_time_is_an_error),
-    cmocka_unit_test(factors_that_hardly_damp_are_warned_of),
+    cmocka_unit_test(factors_that_hardly_damp_cause_a_warning),
     cmocka_unit_test(messages_of_warnings_end_with_the_heading_of_their_entry),
     cmocka_unit_test(a_step_to_infinity_is_an_error),
     cmocka_unit_test(a_study_that_has_run_keeps_its_reference),

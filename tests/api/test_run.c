@@ -302,7 +302,7 @@ static void samples_off_the_grid_do_not_alter_the_motion(void **state)
   }
 }
 
-static void a_sample_is_what_an_advance_to_its_time_finds(void **state)
+static void a_sample_equals_the_state_after_advancing_to_its_time(void **state)
 {
   (void)state;
   const double times[3] = {0.0134, 0.0345, 0.06};
@@ -582,7 +582,7 @@ int main(void)
     cmocka_unit_test(a_run_can_be_put_back_to_where_it_was),
     cmocka_unit_test(a_state_can_be_set_and_the_run_goes_on_from_there),
     cmocka_unit_test(samples_off_the_grid_do_not_alter_the_motion),
-    cmocka_unit_test(a_sample_is_what_an_advance_to_its_time_finds),
+    cmocka_unit_test(a_sample_equals_the_state_after_advancing_to_its_time),
     cmocka_unit_test(samples_backward_and_at_the_present_time_are_fine),
     cmocka_unit_test(channels_agree_with_each_other),
     cmocka_unit_test(progress_is_called_by_wall_time),

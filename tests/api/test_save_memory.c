@@ -73,7 +73,7 @@ static void schedule(baum_simulation *run, const saved_scene *scene)
   assert_int_equal(baum_simulation_schedule_input(run, scene->input, times, values, 2), BAUM_OK);
 }
 
-static void going_on_without_memory_changes_nothing(void **state)
+static void continuing_from_another_run_without_memory_changes_nothing(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -139,7 +139,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(saving_and_restoring_allocate_nothing),
-    cmocka_unit_test(going_on_without_memory_changes_nothing),
+    cmocka_unit_test(continuing_from_another_run_without_memory_changes_nothing),
     cmocka_unit_test(restoring_without_memory_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -138,7 +138,7 @@ static void must_move_alike(const baum_mechanism *a, const baum_mechanism *b, do
   baum_simulation_destroy(runs[1]);
 }
 
-static void every_kind_of_element_survives(void **state)
+static void every_kind_of_element_is_the_same_after_writing_and_reading(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -148,7 +148,7 @@ static void every_kind_of_element_survives(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void every_mechanism_of_the_catalogue_survives(void **state)
+static void every_catalogue_mechanism_is_the_same_after_writing_and_reading(void **state)
 {
   (void)state;
   for (int k = 0; k < baum_catalog_count(); k++) {
@@ -164,7 +164,7 @@ static void every_mechanism_of_the_catalogue_survives(void **state)
   }
 }
 
-static void random_mechanisms_survive(void **state)
+static void random_mechanisms_are_the_same_after_writing_and_reading(void **state)
 {
   (void)state;
   const random_kind kind = {.bodies = 12,
@@ -192,7 +192,7 @@ static void random_mechanisms_survive(void **state)
   }
 }
 
-/* ---- what is particular ---- */
+/* ---- special cases ---- */
 
 static baum_body_id add_body(baum_mechanism *m, const char *name)
 {
@@ -259,7 +259,7 @@ static void unclear_names_are_not_confused(void **state)
   baum_mechanism_destroy(back);
 }
 
-static void outlines_survive(void **state)
+static void outlines_are_the_same_after_writing_and_reading(void **state)
 {
   (void)state;
   static const double points[3][3] = {{0, 0, 0.1}, {1, 0, 0.1}, {0, 1, 0.1}};
@@ -291,7 +291,7 @@ static void outlines_survive(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void a_change_of_any_part_is_seen(void **state)
+static void a_change_of_any_part_is_detected(void **state)
 {
   (void)state;
   baum_mechanism *m = make_unclear();
@@ -544,12 +544,12 @@ int main(int count, char **arguments)
 {
   random_count = count > 1 ? strtol(arguments[1], NULL, 10) : random_count;
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_kind_of_element_survives),
-    cmocka_unit_test(every_mechanism_of_the_catalogue_survives),
-    cmocka_unit_test(random_mechanisms_survive),
+    cmocka_unit_test(every_kind_of_element_is_the_same_after_writing_and_reading),
+    cmocka_unit_test(every_catalogue_mechanism_is_the_same_after_writing_and_reading),
+    cmocka_unit_test(random_mechanisms_are_the_same_after_writing_and_reading),
     cmocka_unit_test(unclear_names_are_not_confused),
-    cmocka_unit_test(outlines_survive),
-    cmocka_unit_test(a_change_of_any_part_is_seen),
+    cmocka_unit_test(outlines_are_the_same_after_writing_and_reading),
+    cmocka_unit_test(a_change_of_any_part_is_detected),
     cmocka_unit_test(functions_without_hooks_are_refused),
     cmocka_unit_test(names_that_are_not_utf8_are_refused),
     cmocka_unit_test(files_hold_scenes),

@@ -193,7 +193,7 @@ static baum_mechanism *make_late(void)
 
 /* ---- tests ---- */
 
-static void all_solvers_find_the_same(void **state)
+static void all_solvers_find_the_same_accelerations_and_multipliers(void **state)
 {
   (void)state;
   model m;
@@ -241,7 +241,7 @@ static void explain_names_the_solver(void **state)
 }
 
 /* Kinematics and IDA do not solve equation (5) for accelerations. They factor other matrices. */
-static void methods_without_accelerations_say_so(void **state)
+static void explain_names_the_solver_of_kinematics_and_ida(void **state)
 {
   (void)state;
   model m;
@@ -281,7 +281,7 @@ static void bodies_with_very_many_joints_are_named(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void many_joints_below_that_are_fine(void **state)
+static void forty_pins_on_a_body_are_accepted_for_blocks(void **state)
 {
   (void)state;
   baum_mechanism *m = make_hub(40);
@@ -353,7 +353,7 @@ static void masses_unknown_in_the_design_configuration_are_reported(void **state
   baum_mechanism_destroy(m);
 }
 
-static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
+static void the_block_solver_alone_is_refused_close_to_a_singular_configuration(void **state)
 {
   (void)state;
   model m;
@@ -372,7 +372,7 @@ static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
   model_destroy(&m);
 }
 
-static void no_joints_are_no_nodes(void **state)
+static void a_mechanism_without_joints_has_no_nodes(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -399,16 +399,16 @@ static void no_joints_are_no_nodes(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(all_solvers_find_the_same),
+    cmocka_unit_test(all_solvers_find_the_same_accelerations_and_multipliers),
     cmocka_unit_test(explain_names_the_solver),
-    cmocka_unit_test(methods_without_accelerations_say_so),
+    cmocka_unit_test(explain_names_the_solver_of_kinematics_and_ida),
     cmocka_unit_test(bodies_with_very_many_joints_are_named),
-    cmocka_unit_test(many_joints_below_that_are_fine),
+    cmocka_unit_test(forty_pins_on_a_body_are_accepted_for_blocks),
     cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
     cmocka_unit_test(joints_in_a_dense_net_are_refused_for_blocks),
     cmocka_unit_test(masses_unknown_in_the_design_configuration_are_reported),
-    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_configuration),
-    cmocka_unit_test(no_joints_are_no_nodes),
+    cmocka_unit_test(the_block_solver_alone_is_refused_close_to_a_singular_configuration),
+    cmocka_unit_test(a_mechanism_without_joints_has_no_nodes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

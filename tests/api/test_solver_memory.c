@@ -17,7 +17,7 @@
 #include "failing_heap.h"
 #include "saddle_solver.h"
 
-/* ---- a pendulum on a frame fixed to ground, and three user coordinates with a row ---- */
+/* ---- a pendulum on a fixed frame, and three user coordinates with one constraint row ---- */
 
 static int three_mass(double t, const double *q, double *out, void *user)
 {

@@ -65,7 +65,7 @@ static void a_study_needs_a_frozen_mechanism_and_a_span(void **state)
   baum_study_cancel(NULL);
 }
 
-static void calls_on_no_study_are_refused(void **state)
+static void calls_on_a_null_study_are_refused(void **state)
 {
   (void)state;
   baum_study_options o = baum_study_options_default();
@@ -375,7 +375,8 @@ static void a_setting_that_cannot_be_run_is_an_entry_with_its_reason(void **stat
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_fixed(1e4, 1e4);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
-  /* Ten million steps take more than a millisecond, and twice as many take even longer. */
+  /* Ten million steps take longer than the limit of a millisecond, and twice as many take even
+   * longer. */
   o = rk4(1e-7);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   o.step = 5e-8;
@@ -433,7 +434,7 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
 
 /* For each integrator and kind of step, which is fixed or variable, the quick grid has one method
  * with default settings. */
-static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
+static void the_quick_grid_has_all_integrators_with_default_settings(void **state)
 {
   baum_study *study = make(*state);
   baum_study_grid g = baum_study_grid_default();
@@ -510,7 +511,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_study_needs_a_frozen_mechanism_and_a_span),
-    cmocka_unit_test(calls_on_no_study_are_refused),
+    cmocka_unit_test(calls_on_a_null_study_are_refused),
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
     cmocka_unit_test(sizes_that_cannot_be_meant_are_refused_with_their_limit),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
@@ -523,7 +524,7 @@ int main(void)
     cmocka_unit_test(nothing_is_recommended_where_nothing_was_compared),
     cmocka_unit_test(a_setting_that_cannot_be_run_is_an_entry_with_its_reason),
     cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
-    cmocka_unit_test(the_quick_grid_has_all_integrators_as_they_are_by_default),
+    cmocka_unit_test(the_quick_grid_has_all_integrators_with_default_settings),
     cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),
   };
   return cmocka_run_group_tests(tests, build, clear);

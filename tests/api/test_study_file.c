@@ -272,7 +272,7 @@ static void a_file_of_another_library_is_refused(void **state)
   char line[BAUM_I_STUDY_LINE] = "";
   memcpy(line, text, strcspn(text, "\n") + 1);
   assert_true(baum_i_study_unseal(line, 0));
-  char *last = line + strlen(line) - 1; /* digit of the mark "library" */
+  char *last = line + strlen(line) - 1; /* last digit of the mark "library" */
   *last = *last == '0' ? '1' : '0';
   baum_i_study_seal(line, 0);
   write_file(s.path, line, strlen(line));

@@ -74,7 +74,7 @@ static void the_scene_has_an_entry_of_each_kind(void **state)
   }
 }
 
-static void a_text_names_every_entry_and_what_was_said(void **state)
+static void a_text_contains_every_entry_and_its_messages(void **state)
 {
   (void)state;
   char *text = print(scene.study, BAUM_REPORT_TEXT);
@@ -253,7 +253,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_scene_has_an_entry_of_each_kind),
-    cmocka_unit_test(a_text_names_every_entry_and_what_was_said),
+    cmocka_unit_test(a_text_contains_every_entry_and_its_messages),
     cmocka_unit_test(a_csv_has_a_line_for_each_entry_and_as_many_cells),
     cmocka_unit_test(a_json_has_null_for_what_is_not_known),
     cmocka_unit_test(a_page_has_the_data_of_every_entry_and_loads_nothing),

@@ -51,7 +51,7 @@ static baum_simulation_options baumgarte(baum_gains gains, double step)
 
 /* ---- names ---- */
 
-static void entries_are_called_by_their_gains(void **state)
+static void entries_have_their_gains_in_their_names(void **state)
 {
   baum_study *study = make(*state);
   const struct {
@@ -191,7 +191,7 @@ static void invalid_units_entries_and_costs_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(entries_are_called_by_their_gains),
+    cmocka_unit_test(entries_have_their_gains_in_their_names),
     cmocka_unit_test(gains_of_rows_belong_to_the_method),
     cmocka_unit_test(error_may_be_of_channels_by_a_unit),
     cmocka_unit_test(invalid_units_entries_and_costs_are_refused),

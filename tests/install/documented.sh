@@ -7,7 +7,7 @@ first_block() {
   awk -v fence="\`\`\`$2" '$0 == fence { inside = 1; next } /^```/ && inside { exit } inside' "$1"
 }
 
-# documented FILE HEADING N prints the N-th block of shell commands under a heading.
+# documented FILE HEADING N prints the N-th block of shell commands under the heading HEADING.
 documented() {
   awk -v heading="## $2" -v wanted="$3" '
     /^## / { here = $0 == heading }

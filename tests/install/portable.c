@@ -27,9 +27,9 @@ static void check(bool holds, const char *what, const char *message)
   }
 }
 
-/* The position x of the slider at END, on Linux x86-64. Other systems and compilers must agree to
- * rounding. CVODE and IDA must agree to their tolerance, because their steps depend on the last
- * digits. */
+/* The position x of the slider at END, as computed on Linux x86-64. On other systems and with other
+ * compilers, it may differ by rounding errors. With CVODE and IDA it may differ by their tolerance,
+ * because their steps depend on the last digits. */
 static const struct stored {
   const char *integrator;
   double x;         /* [m] */

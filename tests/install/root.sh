@@ -19,7 +19,8 @@ make_root() {
     tail -n 20 "$root.log"
     return 1
   }
-  # Documents write sudo for commands that need root, and expect that users confirm what apt asks.
+  # The commands in the documents use sudo, and apt asks for confirmation. Here sudo only runs the
+  # command, and apt assumes yes.
   mkdir -p "$root/usr/local/bin" "$root/etc/apt/apt.conf.d"
   printf '#!/bin/sh\nexec "$@"\n' >"$root/usr/local/bin/sudo"
   chmod +x "$root/usr/local/bin/sudo"

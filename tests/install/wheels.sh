@@ -40,7 +40,7 @@ unpack() {
   ! grep -rF "$project" "$test" || fail "$2 contains the path of the build"
 }
 
-# compile TARGET SUFFIX LINK... compiles examples/first.c and portable.c.
+# compile TARGET SUFFIX LINK... compiles examples/first.c and portable.c for a target.
 compile() {
   compiler=$work/$1/bin/cc
   suffix=$2
@@ -52,8 +52,9 @@ compile() {
 }
 
 # compare TARGET prints the largest differences from the results on Linux x86-64. The differences in
-# runs with CVODE and IDA are listed separately. On a processor with AVX2, the results of aarch64
-# and WebAssembly must differ from these in the last digits. Otherwise the library did not use AVX2.
+# runs with CVODE and IDA are listed separately. On a processor with AVX2, the results on aarch64
+# and WebAssembly must differ in the last digits from those on Linux x86-64. If they do not, the
+# library on Linux x86-64 did not use AVX2.
 compare() {
   case $1 in
     *aarch64 | wasm*)
@@ -72,7 +73,8 @@ compare() {
     "$work/linux-x86_64/test/portable.txt" "$test/portable.txt"
 }
 
-# run TARGET COMMAND... runs first.c and portable.c. In the command, @ is replaced by the program.
+# run TARGET COMMAND... runs the programs of first.c and portable.c. In the command, @ stands for
+# the program.
 run() {
   target=$1
   shift
@@ -86,8 +88,7 @@ run() {
   compare "$target"
 }
 
-# needs LIBRARY PATTERN checks that a library needs no other shared libraries than those that match
-# the pattern.
+# needs LIBRARY PATTERN checks that all shared libraries that a library needs match the pattern.
 needs() {
   if readelf -d "$1" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' | grep -vE "$2"; then
     fail "$1 needs the libraries above"

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_headers.sh C_COMPILER INCLUDE
-# Checks that every public header compiles alone and when it is included twice, as C11 and as C++17.
-# CXX is the C++ compiler.
+# Checks that every public header compiles if it is included alone, once or twice, in C11 and in
+# C++17. CXX is the C++ compiler.
 set -eu
 cc=$1
 include=$2

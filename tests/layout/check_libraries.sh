@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_libraries.sh SHARED STATIC
 # Checks what the shared library loads. This may only be SUNDIALS, KLU, COLAMD, the C library, and
-# MPI where SUNDIALS uses it (Debian 13). Neither library may call anything under the GPL, or BLAS,
-# LAPACK or Fortran.
+# MPI where SUNDIALS uses it (Debian 13). Neither the shared nor the static library may call BLAS,
+# LAPACK, Fortran, or anything under the GPL.
 set -eu
 shared=$1
 static=$2

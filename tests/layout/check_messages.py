@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/messages.md lists every message and every warning of the library. They are found in the
-sources in src.
+"""Checks or writes docs/messages.md, which lists every message and every warning of the library.
+The program finds them in the sources in src.
 
 usage: check_messages.py --check|--write PROJECT
        check_messages.py --untriggered COVERAGE_JSON PROJECT
@@ -92,8 +92,8 @@ class Source:
         self.messages += [(code, text, first, self.text[:end].count("\n") + 1) for text in texts]
 
     def expanded(self, template, values):
-        """Return the variants of a template. Where texts of several words are known for a %s, it is
-        replaced by each of them."""
+        """Return the variants of a template. If the texts for a %s are known and have several
+        words, each of them gives a variant."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
@@ -110,7 +110,7 @@ class Source:
     def read(self):
         for sink, (code, form) in self.sinks.items():
             for start, end, arguments in self.calls(sink):
-                # this is a macro that has its own status and the beginning of the message
+                # this is a macro that contains the status and the beginning of the message
                 if isinstance(code, str):
                     texts, status, values = self.literals(form + " " + arguments[0]), code, arguments[1:]
                 else:

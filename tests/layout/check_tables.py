@@ -32,7 +32,8 @@ def with_short_exponents(text):
 
 
 def formulations(program, present):
-    """Return the rows for docs/measured.md. The times in them are those of the present document."""
+    """Return the rows for docs/measured.md. Their times are copied from the present document,
+    because times are not compared."""
     printed = run(program)
     first = next(k for k, line in enumerate(printed) if line.startswith("integrator "))
     rows = printed[first + 1:printed.index("", first)]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Uses of the interface. `sh tests/run.sh types` checks them with mypy and pyright. This file is
-never run.
+"""Correct and wrong uses of the Python interface. `sh tests/run.sh types` checks them with mypy and
+pyright. This file is never run.
 
 Each "ignore" comment marks an error that the type checkers must find. If they did not find it,
 --strict would refuse the comment as unnecessary.

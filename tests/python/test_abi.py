@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that the Python copy of the C interface agrees with the headers, and with what a C compiler
-makes of them."""
+"""Tests that the Python copy of the C interface agrees with the headers, and with the sizes,
+offsets and values that a C compiler finds in them."""
 
 import ctypes
 import importlib.util

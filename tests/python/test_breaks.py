@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests break times, and a run's messages about singular configurations. Everything else about them
-is tested in C."""
+"""Tests break times, and a run's messages about singular configurations. C tests cover everything
+else about break times and singular configurations."""
 
 import math
 import unittest
@@ -18,7 +18,7 @@ class Breaks(unittest.TestCase):
         with self.assertRaisesRegex(baum.Error, "finite"):
             m.add_break_times([math.nan])
 
-    def test_a_run_begins_anew_at_a_jump(self):
+    def test_a_run_restarts_at_a_jump(self):
         m = baum.Mechanism(gravity=(0, 0))
         ball = m.planar_particle("ball", mass=1, position=(0, 0), velocity=(0, 0))
         m.force("push", [ball], lambda t, q, v: (1.0 if t >= 0.7 else 0.0, 0.0))
@@ -30,7 +30,7 @@ class Breaks(unittest.TestCase):
 
 
 class NearSingular(unittest.TestCase):
-    def test_a_flat_parallelogram_is_told(self):
+    def test_a_singular_configuration_is_reported(self):
         m = baum.Mechanism()
         a, b, c = (
             m.planar_body(name, mass=1, inertia=0.1, position=place, angle=angle)

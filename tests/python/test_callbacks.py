@@ -188,7 +188,7 @@ class Values(unittest.TestCase):
         run = m.freeze().simulate([np.pi], "rk4", step=np.pi / 1000)
         np.testing.assert_allclose(run["second.pose"][0], [-1, 0], atol=1e-9)
 
-    def test_an_array_kept_is_only_a_window(self):
+    def test_arguments_that_are_stored_change_in_later_calls(self):
         seen = []
         m = pendulum(lambda t, q: seen.append((q, q.copy())) or q @ q - 1)
         m.simulate([0.5], "rk4", step=1e-3)
@@ -197,7 +197,7 @@ class Values(unittest.TestCase):
 
 class Costs(unittest.TestCase):
     def calls(self, **functions):
-        """Return the calls in a step of rk4, for a pendulum with these functions."""
+        """Return how many calls of these functions of a pendulum a step of rk4 makes."""
         calls = []
 
         def counted(function):
@@ -210,8 +210,9 @@ class Costs(unittest.TestCase):
         s.step(10)
         return len(calls) / 10
 
-    def test_derivatives_spare_most_calls(self):
-        """The documentation contains these numbers. tests/bench/bench_python.py prints them."""
+    def test_given_derivatives_avoid_most_calls(self):
+        """The numbers of this test are in the documentation. tests/bench/bench_python.py prints
+        them."""
         plain = self.calls(phi=circle)
         given = self.calls(
             phi=circle, jacobian=lambda t, q: 2 * q, gamma=lambda t, q, v: -2 * (v @ v)
@@ -243,20 +244,20 @@ class Exceptions(unittest.TestCase):
         self.assertIs(caught.exception, error)
         return s, calls
 
-    def test_the_original_exception_comes_out(self):
+    def test_the_original_exception_is_raised(self):
         error = ZeroDivisionError("of mine")
         _, calls = self.run_until_it_fails(error, step=1e-2)
         self.assertEqual(len(calls), 1, "the run goes on after an exception")
         if sys.version_info >= (3, 11):
             self.assertRegex("".join(error.__notes__), 'baum: .*"circle".*phi')
 
-    def test_it_comes_out_of_creating_a_run_too(self):
+    def test_it_is_also_raised_when_a_run_is_created(self):
         m, calls, armed = self.failing(ZeroDivisionError(), -1)
         armed.append(True)
         with self.assertRaises(ZeroDivisionError):
             m.simulation("rk4", step=1e-2)
 
-    def test_what_fails_where_the_run_never_goes_is_no_matter(self):
+    def test_failures_at_times_that_the_run_never_reaches_are_ignored(self):
         m, calls, armed = self.failing(ZeroDivisionError(), 1.2)
         armed.append(True)
         m.simulate([1.0], "rk4", step=1e-2)
@@ -276,7 +277,7 @@ class Exceptions(unittest.TestCase):
         self.assertTrue(0.085 < s.time < 0.105, s.time)
         self.assertAlmostEqual(np.hypot(*s.q), 1, 6)
 
-    def test_an_exception_does_not_stay(self):
+    def test_a_call_succeeds_after_an_earlier_exception(self):
         fail = [True]
 
         def phi(t, q):
@@ -290,14 +291,14 @@ class Exceptions(unittest.TestCase):
         fail[0] = False
         np.testing.assert_array_equal(w.phi(0, (1, 0)), [0])
 
-    def test_retry_asks_for_a_smaller_step(self):
+    def test_retry_requests_a_smaller_step(self):
         m = pendulum(self.retrying([]))
         with self.assertRaises(baum.Error) as caught:
             m.simulate([1.0], "euler", step=1e-2)
         self.assertEqual(caught.exception.status, baum.Status.ERR_CALLBACK)
 
     @unittest.skipUnless(SUNDIALS, "no SUNDIALS")
-    def test_a_retry_can_be_honoured(self):
+    def test_a_run_continues_after_retries(self):
         refused = []
         m = pendulum(self.retrying(refused, until=3))
         run = m.simulate([1.0], "cvode_bdf", rtol=1e-6)

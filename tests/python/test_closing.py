@@ -30,13 +30,13 @@ class Closing(unittest.TestCase):
         self.assertEqual((run["rod.phi"].shape, q.shape), ((1, 1), (2,)))
         self.assertEqual(set(run.columns), {"t", "q[0]", "q[1]", "v[0]", "v[1]", "rod.phi"})
 
-    def test_the_block_ends_by_an_exception_too(self):
+    def test_an_exception_also_closes_the_run(self):
         with self.assertRaisesRegex(KeyError, "none"):
             with rod_pendulum().simulation("rk4", step=0.1) as s:
                 s.get("none")
         self.assertEqual(repr(s), "<simulation, closed>")
 
-    def test_workspaces_and_studies_too(self):
+    def test_workspaces_and_studies_are_closed_too(self):
         m = rod_pendulum()
         with baum.Workspace(m) as w:
             w.phi(0, [1, 0])

@@ -21,7 +21,7 @@ ROUNDING = 1e-12  # numbers below this one are rounding errors, which differ bet
 
 
 def unit(number):
-    """Return one unit of the last printed digit of a number, 0 for whole numbers."""
+    """Return one unit of the last printed digit of a number, or 0 for a whole number."""
     mantissa, _, exponent = number.partition("e")
     _, point, decimals = mantissa.partition(".")
     return 10.0 ** (int(exponent or 0) - len(decimals)) if point or exponent else 0.0
@@ -48,7 +48,7 @@ def programs(text):
 
 
 def missing(program):
-    """Return what the program needs and this machine does not have, "" if there is nothing."""
+    """Return what the program needs and this machine does not have, or "" if nothing is missing."""
     for package in re.findall(r"^(?:import|from) (\w+)", program, flags=re.M):
         if importlib.util.find_spec(package) is None:
             return package

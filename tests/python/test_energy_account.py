@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The energy account of a run."""
+"""Tests the energy account of a run."""
 
 import math
 import unittest

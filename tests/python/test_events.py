@@ -85,7 +85,7 @@ class Events(unittest.TestCase):
         self.assertEqual(len(run.t), 5)
         self.assertLess(abs(s.time - 0.5), 1e-12)
 
-    def test_exceptions_come_out_and_the_run_goes_on(self):
+    def test_exceptions_are_raised_and_the_run_continues(self):
         armed = [True]
 
         def watch(t, q, v):

@@ -9,7 +9,7 @@ from mechanisms import slider_crank
 
 
 class Gains(unittest.TestCase):
-    def test_they_print_as_they_are_written(self):
+    def test_gains_print_as_they_are_written(self):
         for text in (
             "fixed(alpha=5, beta=0.5)",
             "scaled(alpha_h=0.5, beta2_h2=0.25)",
@@ -25,7 +25,7 @@ class Gains(unittest.TestCase):
         self.assertNotEqual(baum.fixed(1, 2), baum.scaled(1, 2))
         self.assertEqual(len({baum.fixed(1, 2), baum.fixed(1, 2), baum.taylor()}), 2)
 
-    def test_numbers_are_wanted(self):
+    def test_gains_must_be_numbers(self):
         with self.assertRaisesRegex(TypeError, "gains fixed: beta: a number is wanted, not 'x'"):
             baum.fixed(1, "x")
 
@@ -91,7 +91,7 @@ class Stability(unittest.TestCase):
         self.assertEqual(tuple(outline[0]), tuple(outline[-1]))
         self.assertEqual(baum.stability_outline("ab4", 0.5).shape, (0, 2))
 
-    def test_every_method_has_a_statement(self):
+    def test_every_method_has_a_statement_about_stability(self):
         self.assertIn("0.618", baum.stability_statement("ida"))
         for method in baum.integrators():
             self.assertGreater(len(baum.stability_statement(method)), 40)

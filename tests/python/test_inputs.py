@@ -109,7 +109,7 @@ class Runs(unittest.TestCase):
         self.assertEqual(s.inputs, {"torque": 0.5})
 
     @unittest.skipUnless(baum.has("sundials"), "no SUNDIALS")
-    def test_variable_steps_begin_anew(self):
+    def test_variable_steps_restart_at_a_jump(self):
         s = disk().freeze().simulation("cvode_adams", rtol=1e-9)
         s.advance_to(1)
         s.set_input("torque", 0.5)

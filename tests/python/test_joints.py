@@ -131,7 +131,7 @@ class Rows(unittest.TestCase):
         rope = m.cable("rope", ["light", m.ground, m.ground, "heavy"], path, stiffness=1e4, free_length=5.0 - 1.5e-4 * 9.81)
         self.assertEqual([one.name for one in rope.definition["bodies"]], ["light", "ground", "ground", "heavy"])
         np.testing.assert_allclose(rope.definition["points"], path)
-        # The initial stretch is that of the tension 2 m M g / (m + M) of Atwood's machine.
+        # The initial stretch gives the cable the tension of Atwood's machine, 2 m M g / (m + M).
         run = m.freeze().simulation("rk8", step=1e-3)
         run.advance_to(0.5)
         np.testing.assert_allclose(run.q[[2, 5]], (0.125 * 9.81 / 2, -0.125 * 9.81 / 2), atol=1e-9)

@@ -160,7 +160,7 @@ class Splines(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "3 numbers are wanted"):
                 m.copy(motor=fields)
 
-    def test_what_the_library_refuses_keeps_its_sentence(self):
+    def test_refusals_keep_the_librarys_message(self):
         for times in ([0, 1], [0, 2, 1]):
             with self.assertRaisesRegex(baum.Error, '"motor"'):
                 driven(times, np.zeros(len(times)))

@@ -59,7 +59,7 @@ class Library(unittest.TestCase):
         partly = folder.shared_object(STAND_IN.format(version=_abi.VERSION), "libpartly.so")
         self.assertIn("has no function baum_", import_with(partly))
 
-    def test_structs_that_have_grown_are_taken(self):
+    def test_structs_that_have_grown_are_accepted(self):
         class Library:
             def __init__(self, more):
                 self.more = more

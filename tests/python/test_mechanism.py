@@ -94,7 +94,7 @@ class Building(unittest.TestCase):
         self.assertIn("body2", m)
         self.assertNotIn("body3", m)
 
-    def test_mobility_is_told_by_name(self):
+    def test_mobility_has_named_fields(self):
         mobility = slider_crank().mobility()
         self.assertEqual((mobility.degrees_of_freedom, mobility.redundant_rows), (1, 0))
         self.assertIsInstance(mobility.worst_phi, float)
@@ -109,7 +109,7 @@ class Building(unittest.TestCase):
         self.assertEqual(str(report), report.text)
         self.assertIn("\nsolver        blocks, 4 nodes", str(report))
 
-    def test_nobody_has_most_joints_where_there_are_none(self):
+    def test_no_body_is_most_joined_without_joints(self):
         m = baum.Mechanism()
         m.planar_body()
         m.freeze()
@@ -207,7 +207,7 @@ class BadInput(unittest.TestCase):
         )
         self.assertNotIn("x", self.m)
 
-    def test_what_the_library_refuses_is_an_error_with_its_sentence(self):
+    def test_refusals_are_errors_with_the_librarys_message(self):
         with self.assertRaises(baum.Error) as caught:
             self.m.planar_body("x", mass=-2)
         self.assertEqual(caught.exception.status, baum.Status.ERR_ARGUMENT)
@@ -249,7 +249,7 @@ class BadInput(unittest.TestCase):
         stranger = baum.Mechanism().planar_body("stranger")
         self.says(baum.Error, "", self.m.revolute, "pin", "ground", stranger, point=(0, 0))
 
-    def test_a_frozen_mechanism_stays(self):
+    def test_a_frozen_mechanism_cannot_be_changed(self):
         m = slider_crank()
         self.says(baum.Error, "frozen", m.planar_body, "x")
         self.says(baum.Error, "frozen", m["rod"].set, mass=1)
@@ -367,13 +367,13 @@ class MovedCopies(unittest.TestCase):
         fits = m.copy(arm=dict(position=(0.5, 0), angle=np.pi / 2)).simulation("rk4", step=1e-3)
         np.testing.assert_allclose(fits.q, (0.5, 0, np.pi / 2), atol=1e-15)
 
-    def test_what_is_given_is_placed_anew(self):
+    def test_points_and_lengths_given_to_a_copy_are_used(self):
         m = self.everything()
         copy = m.copy(b=dict(angle=1.0), pin=dict(point=(1.4, 0.6)), rod=dict(length=2))
         self.assertEqual(copy["pin"].definition["point"], (1.4, 0.6))
         self.assertEqual(copy["rod"].definition["length"], 2.0)
 
-    def test_what_is_elsewhere_is_left_alone(self):
+    def test_moving_a_particle_does_not_change_other_joints(self):
         m = self.everything()
         copy = m.copy(p=dict(position=(2.5, 1.5)))
         for joint in ("pin", "slide", "cam"):

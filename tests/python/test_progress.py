@@ -93,7 +93,7 @@ class Shown(unittest.TestCase):
             "runtot=12s:[##########..........]50%,about7sleft",
         ])
 
-    def test_nothing_is_shown_where_nobody_watches(self):
+    def test_nothing_is_shown_without_a_terminal(self):
         with mock.patch.object(sys, "stderr", io.StringIO()) as file:
             short_study().add("rk4", step=0.01).run()
         self.assertEqual(file.getvalue(), "")

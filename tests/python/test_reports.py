@@ -76,7 +76,8 @@ class Reports(unittest.TestCase):
         self.assertIn(JOINT, self.study.entries[2].message)
 
     def check_entry(self, entry, cells, number):
-        """Check that every number that both contain is the same to the last bit."""
+        """Check that every number that both the entry and the cells contain is the same to the last
+        bit."""
         compared = 0
         for name in entry._fields:
             value = getattr(entry, name)
@@ -155,7 +156,7 @@ class Reports(unittest.TestCase):
             self.assertEqual(raised.exception.status, baum.Status.ERR_FILE)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no device that is always full")
-    def test_a_full_disk_is_told(self):
+    def test_a_full_disk_is_reported(self):
         full = "/dev/full"
         with tempfile.TemporaryDirectory() as folder:
             for suffix in ("txt", "csv", "json", "html"):

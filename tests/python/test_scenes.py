@@ -183,8 +183,8 @@ class SceneTest(FileTest):
 
 
 def problems(value, schema, whole):
-    """List the violations of a schema, for the part of JSON schema that the schema of scenes
-    uses."""
+    """List where a value violates a schema. Supports only those parts of JSON Schema that the
+    schema of scenes uses."""
     if "$ref" in schema:
         schema = {**whole["$defs"][schema["$ref"].split("/")[-1]], "$ref": None}
     if "oneOf" in schema:

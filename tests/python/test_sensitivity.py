@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Derivatives of results with respect to parameters, and the warnings about their errors."""
+"""Tests derivatives of results with respect to parameters, and the warnings about their errors."""
 
 import time
 import unittest
@@ -64,7 +64,7 @@ class Sensitivity(unittest.TestCase):
         with self.assertWarnsRegex(baum.UncertainSensitivityWarning, pattern):
             return baum.sensitivities(pendulum(), {"arm.inertia": 0.02}, reduce=reduce, **given)
 
-    def test_results_that_jump_are_told(self):
+    def test_results_that_jump_cause_a_warning(self):
         def jump(run):
             return np.round(run.q[-1, 0], 4)
 

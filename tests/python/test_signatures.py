@@ -48,8 +48,8 @@ def methods():
 
 class Defaults(unittest.TestCase):
     def compare(self, function, struct, words=()):
-        """Tests that every default in a signature is the library's default, and that every plain
-        default is in a signature."""
+        """Test that every default in a signature is the library's default, and that every number or
+        truth value with a default has it in the signature."""
         of_library = _lib.default(struct)
         defaults = shown(function)
         for name, kind in struct._fields_:

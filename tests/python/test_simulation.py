@@ -75,7 +75,7 @@ class Samples(unittest.TestCase):
         np.testing.assert_array_equal(r["slider.pose"], r.q[:, 6:9])
         np.testing.assert_array_equal(r["crank.velocity"], r.v[:, 0:3])
 
-    def test_numbers_belong_together(self):
+    def test_channels_are_consistent(self):
         r = self.run_
         np.testing.assert_allclose(
             r["A.coordinate"], np.stack([150 * self.t, 0 * self.t + 150], axis=1), atol=1e-9

@@ -397,7 +397,7 @@ class Forces(unittest.TestCase):
         s.advance_to(2)
         self.assertLess(np.linalg.norm(s.q), math.sqrt(14) - 0.1)
 
-    def test_a_law_takes_the_place_of_the_stiffness(self):
+    def test_a_law_replaces_the_stiffness(self):
         m = baum.Mechanism(gravity=(0, 0, 0))
         m.spatial_particle("bob", position=(0, 0, 2))
         law = lambda length, rate: (length**2, 2 * length, 0)  # noqa: E731

@@ -98,8 +98,8 @@ class Meaning(unittest.TestCase):
         study = baum.study(m, 0, 0.5, error=["slider.pose"], unit=1e-3, samples=20, repeats=1)
         study.add("rk4", step=1e-2).run()
         entry = study.entries[0]
-        # entry.error is that of the slider, in millimetres and milliradians. entry.error_q is that
-        # of all bodies, scaled.
+        # entry.error is the error of the slider, in millimetres and milliradians. entry.error_q is
+        # the scaled error of all bodies.
         self.assertLess(entry.error, 1e3 * entry.error_q * max(m.characteristic_length, 1) * 1.001)
         self.assertNotAlmostEqual(entry.error, entry.error_q)
 
@@ -123,7 +123,7 @@ class Meaning(unittest.TestCase):
         self.assertEqual(given.entries[0].error, 1e-9)
         self.assertTrue(np.isnan(given.entries[0].error_v))
 
-    def test_what_a_solution_raises_comes_out(self):
+    def test_exceptions_in_a_solution_are_raised(self):
         def broken(t):
             raise KeyError("gone")
 
@@ -146,7 +146,7 @@ class Running(unittest.TestCase):
             best = study.recommend(1e-3)
             m.simulate([0.3], **best)
 
-    def test_progress_is_told_and_cancels(self):
+    def test_progress_is_called_and_can_cancel(self):
         seen = []
 
         def stop(done, total):
@@ -163,7 +163,7 @@ class Running(unittest.TestCase):
         study.run()
         self.assertFalse(any(entry.state == "waiting" for entry in study.entries))
 
-    def test_what_progress_raises_comes_out(self):
+    def test_exceptions_in_progress_are_raised(self):
         def broken(done, total):
             raise ZeroDivisionError
 

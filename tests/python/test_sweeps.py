@@ -34,7 +34,7 @@ class Serial:
 
 
 class Fixed:
-    """A sampler."""
+    """A sampler whose points lie on a line, at equal distances."""
 
     def random(self, count):
         return np.linspace(0, 1, 2 * count).reshape(count, 2)

@@ -27,8 +27,8 @@ def long_run():
 
 
 class ShortCalls(unittest.TestCase):
-    """Calls that take less than AT_ONCE stay in the calling thread; longer ones are continued in a
-    second one."""
+    """Calls that take less than AT_ONCE stay in the calling thread; longer calls are continued in a
+    second thread."""
 
     def test_a_short_run_starts_no_thread(self):
         code = (
@@ -62,7 +62,7 @@ class Pool(unittest.TestCase):
     VARIANTS = 1000
 
     def timed(self, title, make):
-        """Return the result of make(), and what each variant costs."""
+        """Return the result of make(), and print the time that each variant takes."""
         begun = time.perf_counter()
         made = make()
         each = (time.perf_counter() - begun) / self.VARIANTS
@@ -159,7 +159,7 @@ class Pool(unittest.TestCase):
 
 
 class Cancelled(unittest.TestCase):
-    def test_progress_is_told_the_time_and_cancels(self):
+    def test_progress_receives_the_time_and_can_cancel(self):
         times = []
 
         def progress(t):
@@ -194,7 +194,7 @@ class Cancelled(unittest.TestCase):
         np.testing.assert_allclose(run.t, [0, 0.1, 0.2, 0.3, 0.4])
         self.assertEqual(run.q.shape, (5, 2))
 
-    def test_exceptions_in_progress_come_out(self):
+    def test_exceptions_in_progress_are_raised(self):
         def progress(t):
             raise KeyError("mine")
 
@@ -203,7 +203,7 @@ class Cancelled(unittest.TestCase):
 
 
 class Tasks(unittest.TestCase):
-    def test_a_call_that_never_reached_its_worker_is_let_be(self):
+    def test_a_call_withdrawn_before_its_worker_began_is_not_made(self):
         made = []
         task = _calls._Task(made.append, (1,))
         _calls._come_back(task, None)

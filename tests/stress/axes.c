@@ -119,7 +119,7 @@ static void with_ways(cell_list *list, cell c, double value, const way *const *w
 typedef struct decades {
   const char *name; /* name on the command line */
   const char *axis; /* name that is printed */
-  size_t number;    /* offset of the number that is varied, which is a double of the cell */
+  size_t number;    /* offset in `cell` of the double that is varied */
   unsigned kinds;   /* set of kinds of scenes for which the axis exists */
   int from, to, by; /* the exponents of ten */
   const way *const *ways;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists the cells of the stress grid. */
+/* Makes the list of all cells of the stress grid. */
 #ifndef BAUM_TEST_AXES_H
 #define BAUM_TEST_AXES_H
 

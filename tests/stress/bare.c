@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs the stress grid without this library. The pendulum and the slider-crank are solved as by a
- * simple hand-written program for CVODE and IDA. Matrices are dense, gains are 5 1/s as in
+/* Runs the stress grid without this library. Simulates the pendulum and the slider-crank with CVODE
+ * and IDA, as a simple hand-written program would. Matrices are dense, gains are 5 1/s as in
  * textbooks, and atol = rtol. Runs start in the design configuration. Nothing is scaled, assembled
  * or checked.
  *
  *   bare [--list]
  *
- * The program prints how often each outcome occurs, next to the same numbers for the library. The
- * cells, the oracle and the permitted errors are the same.
+ * The program prints how often each outcome occurs, next to the same numbers for the library.
+ * Cells, oracle and permitted errors are the same for this program and for the library.
  */
 #include <cvode/cvode.h>
 #include <ida/ida.h>

@@ -12,8 +12,9 @@
  *   (A - I_t) cos p W^2 - A x' W + m g R cot p = 0
  *
  * The bushing has equal stiffness k in all directions, and also damping d. Its points are at the
- * distance b from the axis of the revolute joint. It is relaxed at an angle that is RELAXED before
- * the start. If h is the angle from there, its torque is -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ * distance b from the axis of the revolute joint. At the start, the angle is RELAXED larger than
+ * the angle at which the bushing is relaxed. If h is the angle from the relaxed one, its torque is
+ * -k (b^2 sin h + h) - d (b^2 + 1) x'.
  *
  * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable runs from the bead to the
  * point (0, 0, h), and over a length SIDE to its end. With l = sqrt(r^2 + (h - c x)^2), its torque

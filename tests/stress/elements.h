@@ -20,7 +20,8 @@ int elements_bodies(const scene *s);
 carried elements_body(const scene *s, int body, jets x);
 /* Returns the mass and the moments of inertia of a body. */
 void elements_inertia(const scene *s, int body, long double out[4]);
-/* Returns the torque of the bushing, or that of the cable. */
+/* Returns the torque of the cable in the scene `bead`, and the torque of the bushing in the other
+ * scenes. */
 long double elements_torque(const scene *s, long double x, long double v);
 baum_status elements_build(const scene *s, baum_mechanism **out);
 

@@ -255,7 +255,7 @@ static double seconds(void)
   return (double)clock() / CLOCKS_PER_SEC;
 }
 
-/* Returns the scale in metres. */
+/* Returns the characteristic length in metres. */
 static double scale_of(const cell *c, const trial *t)
 {
   double scale = 1.0;

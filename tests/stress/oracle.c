@@ -11,8 +11,8 @@
 enum { COLUMNS = 8, MOST_STEPS = 4000 };
 
 static const int PARTS[COLUMNS] = {2, 6, 10, 14, 22, 34, 50, 70};
-/* The largest permitted error of x in a step. Extrapolation enlarges the rounding error of 5e-20
- * about ten times. */
+/* The largest permitted error of x in a step. Extrapolation enlarges the rounding error of long
+ * double, 5e-20, about ten times. */
 static const long double TOLERANCE = 1e-17L;
 
 typedef struct slopes {

@@ -171,8 +171,9 @@ static curve pose_in_windows(int body, turn first)
 }
 
 /* Returns the pose of the sleigh, whose angular velocity W is constant. Its velocity along the
- * blade is 0 at the start and has the derivative -g sin x. It is W (c + k cos x) with k = g / W^2,
- * and its integral is the position. The body on the pin does not rotate. */
+ * blade is 0 at the start and has the time derivative -g sin x. This velocity is therefore W (c + k
+ * cos x) with k = g / W^2 and a constant c. The integral of the velocity is the position. The body
+ * on the pin does not rotate. */
 static curve pose_of_sleigh(const scene *s, int body, long double x)
 {
   long double k = s->gravity / ((long double)s->rate * s->rate);
@@ -259,8 +260,8 @@ static double mass_of(const scene *s, int body)
   return last && s->kind != SCENE_PENDULUM ? mass * s->ratio : mass;
 }
 
-/* Returns the moment of inertia of a body. A pendulum has only one body. There `ratio` is its
- * moment of inertia divided by that of a uniform rod. */
+/* Returns the moment of inertia of a body. For a pendulum, which has only one body, `ratio` is its
+ * moment of inertia divided by the moment of inertia of a uniform rod. */
 static double inertia_of(const scene *s, int body)
 {
   double length = length_of(s, body);
@@ -491,8 +492,8 @@ static baum_status build_planar(const scene *s, model *out)
   return model_finish(&parts, si ? NULL : &s->units, out);
 }
 
-/* Replaces a model by its twin in a tilted plane. A violation moves the last body off the plane as
- * well. */
+/* Replaces a model by its twin in a tilted plane. If the scene has a violation, the last body is
+ * also moved off the plane. */
 static baum_status tilt_model(const scene *s, model *m)
 {
   baum_mechanism *tilted = NULL;

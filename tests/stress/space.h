@@ -19,8 +19,8 @@ baum_status space_build(const scene *s, baum_mechanism **out);
 
 /* Converts x, y, angle in the tilted plane to a pose in space. */
 void space_tilt(const long double flat[3], long double pose[SPACE_NUMBERS]);
-/* Returns the distance of two poses. This is the distance of their positions divided by `scale`, or
- * the angle of rotation between them in radians, whichever is larger. */
+/* Returns the distance between two poses. This is the distance of their positions divided by
+ * `scale`, or the angle of rotation between them in radians, whichever is larger. */
 double space_distance(const long double *a, const long double *b, double scale);
 
 #endif

@@ -34,7 +34,7 @@ static int drive_law(double t, double s[3], void *user)
   return 0;
 }
 
-/* A user force on a planar body. It consists of drag, and of the force -x^3 along x, which has the
+/* A user force on a planar body. It is the sum of drag and of the force -x^3 along x, which has the
  * potential x^4 / 4. */
 static int drag(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
@@ -66,7 +66,7 @@ static int polar_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Computes the inertia forces of that particle that depend on velocities. Also adds the force of a
+/* Computes the inertia forces of this particle that depend on velocities, and adds the force of a
  * radial spring of 30 N/m and of a radial damper of 0.5 N s/m. */
 static int polar_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
@@ -89,7 +89,7 @@ static int polar_potential(double t, const double *q, double *out, void *user)
 
 /* ---- parts ---- */
 
-/* Builds a mechanism by several calls. `status` keeps the status of the first call that failed. */
+/* A mechanism that several calls build. `status` keeps the status of the first call that failed. */
 typedef struct maker {
   baum_mechanism *m;
   baum_status status;
@@ -103,7 +103,8 @@ static void keep(maker *make, baum_status status)
 }
 
 /* Adds a double pendulum. Its two links are 1 m long and lie along x, and the second one rotates at
- * 2 rad/s. `off` moves the links off their constraints. */
+ * 2 rad/s. If `off` [m] is not 0, the positions and velocities of the links violate the
+ * constraints. */
 static void add_links(maker *make, double off)
 {
   keep(make, baum_mechanism_set_gravity(make->m, 0.0, -9.81, 0.0));

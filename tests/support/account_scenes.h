@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms for tests of the energy account. Together they do every kind of work that the account
- * distinguishes. */
+/* Mechanisms for tests of the energy account. Every kind of work that the account distinguishes is
+ * done in one of them. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
 
@@ -11,7 +11,7 @@ typedef enum account_kind {
   ACCOUNT_DRIVEN,   /* a driver with a user's law rotates the first link */
   ACCOUNT_DAMPED,   /* has springs, dampers, a user's law, loads, an input and a user force */
   ACCOUNT_VIOLATED, /* the initial state violates the constraints */
-  ACCOUNT_POLAR,    /* has user coordinates with M(q), and a damper */
+  ACCOUNT_POLAR,    /* has user coordinates whose mass matrix depends on q, and a damper */
   ACCOUNT_SCENES
 } account_kind;
 

@@ -4,7 +4,8 @@
  *
  * The mechanism contains masses with user coordinates, a bead that a user constraint keeps on a
  * hoop, and two arms with a coupling, a torsion spring and a user force. It also contains a driven
- * crank, and a pea on a curve with a spring. Its only input is the stiffness of the masses.
+ * crank, and a particle (the pea) with a spring on a curve. Its only input is the stiffness of the
+ * spring that acts on the masses.
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H

@@ -28,8 +28,9 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies of one entry ---- */
 
-/* An entry of the catalogue, and two studies of it. The samples of a study are equally spaced. Both
- * studies therefore end where the samples of the catalogue stop being equally spaced. */
+/* An entry of the catalogue, and two studies of it. The samples of a study are always equally
+ * spaced. Both studies therefore use only the first samples of the catalogue, up to the last one
+ * that is equally spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* samples of the catalogue */
@@ -137,7 +138,7 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 /* ---- checks ---- */
 
 /* Tells whether the entry has fixed gains with which violations do not decay. Violations of
- * positions and of rows of velocity level decay differently. */
+ * position constraints and of rows of velocity level decay differently, so both are checked. */
 static bool has_unstable_constants(const pair *p, const baum_study_entry *entry)
 {
   baum_amplification a = {.spectral_radius = 0.0};

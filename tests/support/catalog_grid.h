@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares two studies of a mechanism. One computes its own reference, and the other uses the
+/* Compares two studies of a mechanism. One study computes a reference, and the other study uses the
  * reference that is stored in the catalogue. */
 #ifndef BAUM_TEST_CATALOG_GRID_H
 #define BAUM_TEST_CATALOG_GRID_H

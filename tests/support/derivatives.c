@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares derivatives with differences of five points. They are (8
- * (f_1 - f_-1) - (f_2 - f_-2)) / 12 h, with h = 1e-3. The truncation error is h^4 f''''' / 30,
- * which is 3e-14 times the fifth derivative. Rounding errors are about 1e-12 f. At the states of
- * test_point_random(), f and its fifth derivative may be several thousand. The tolerance, absolute
- * and relative, is therefore 1e-8. */
+/* Compares derivatives with five-point differences. A difference is (8 (f_1 - f_-1) - (f_2 - f_-2))
+ * / 12 h, with h = 1e-3. The truncation error is h^4 f''''' / 30, which is 3e-14 times the fifth
+ * derivative. Rounding errors are about 1e-12 f. At the states of test_point_random(), f and its
+ * fifth derivative may be several thousand. The tolerance, absolute and relative, is therefore
+ * 1e-8. */
 #include "derivatives.h"
 
 #include <setjmp.h>
@@ -25,7 +25,7 @@ enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
 typedef struct directions {
   double w[TEST_SIZE_MAX];
   double lambda[TEST_SIZE_MAX];
-  int coordinate; /* number of the coordinate of the first joint */
+  int coordinate; /* which coordinate of the first joint is tested */
 } directions;
 
 typedef void state_fn(test_point *p, const directions *d, double *out);

@@ -26,8 +26,8 @@ static baum_mechanism *begin(void)
   return mechanism;
 }
 
-/* Adds a rod that begins at a point and has this length and this angle. Its centre of mass is in
- * the middle. */
+/* Adds a rod that begins at the point `from` and has the given length and angle. Its centre of mass
+ * is in the middle. */
 static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
                             double length, double angle)
 {
@@ -122,7 +122,8 @@ baum_mechanism *slider_crank_make(const slider_crank *data)
   return freeze(mechanism);
 }
 
-/* With u = r sin(angle) - e and D = sqrt(l^2 - u^2), x = r cos(angle) + branch D. */
+/* With the lengths r of the crank and l of the rod, the offset e, u = r sin(angle) - e and D =
+ * sqrt(l^2 - u^2), the position of the slider is x = r cos(angle) + branch D. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3])
 {
   double rate = data->drive.rate;

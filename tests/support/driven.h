@@ -6,7 +6,7 @@
 
 #include <baum/baum.h>
 
-/* How the crank is driven: by angle + rate t, or by a law. */
+/* How the crank is driven. Its angle at time t is angle + rate t, unless a law is given. */
 typedef struct drive {
   double angle; /* [rad] in the design configuration */
   double rate;  /* [rad/s] */

@@ -133,7 +133,8 @@ static int lead_law(double x, double f[3], void *user)
   return every_element_answer(user, -(double)INFINITY, f);
 }
 
-/* The curve y = 2 x^2 - 0.1. It has no time argument either, so fault->after has no effect. */
+/* The curve y = 2 x^2 - 0.1. The function has no time argument, so fault->after has no effect on
+ * it. */
 static int track_curve(const double xy[2], double out[6], void *user)
 {
   out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];
@@ -420,7 +421,7 @@ static baum_status add_block(every_element *parts, const char *name, double x, d
   return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
 }
 
-/* Adds a particle at a point in the axes of a block. */
+/* Adds a particle at a point that is given in the axes of a block. */
 static baum_status add_bead(every_element *parts, const char *name, const double block[2],
                             const double at[2], baum_body_id *id)
 {
@@ -514,7 +515,7 @@ enum {
   EVERY_WITHOUT_SKATE = 40
 };
 
-/* Adds the bodies that a kind needs, unless they exist. */
+/* Adds the bodies that an element of this kind needs, unless they exist. */
 static baum_status add_needed_bodies(every_element *parts, int kind)
 {
   switch (kind) {
@@ -529,7 +530,7 @@ static baum_status add_needed_bodies(every_element *parts, int kind)
   }
 }
 
-/* Adds the first `count` kinds, and the bodies that they need. */
+/* Adds an element of each of the first `count` kinds, and the bodies that these elements need. */
 static baum_status add_kinds(every_element *parts, int count)
 {
   baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);

@@ -133,7 +133,7 @@ typedef struct every_element {
 
 enum { EVERY_NQ = 105, EVERY_NV = 95, EVERY_NC = 72, EVERY_DEF_SIZE = 1024 };
 
-/* A definition of any kind. */
+/* The definition of an element of any kind. */
 typedef union any_def {
   struct {
     size_t struct_size;
@@ -202,7 +202,8 @@ baum_status every_element_build(every_element *parts);
 /* Builds and freezes the mechanism. If anything fails, the test fails. */
 every_element every_element_make(every_fault *fault);
 
-/* Do the same with only the planar part. In this mechanism nq = nv. */
+/* Builds and freezes a mechanism that has only the planar part, so that nq = nv. If anything fails,
+ * the test fails. */
 every_element every_element_make_planar(void);
 
 /* Tells whether an integrator supports the mechanism, which has dampers and a variable mass. */

@@ -51,8 +51,8 @@ void good_spatial_curve(const every_element *parts, any_def *to);
 void good_spatial_knife_edge(const every_element *parts, any_def *to);
 void good_spatial_cable(const every_element *parts, any_def *to);
 
-/* Adds those spatial bodies that are needed in addition to one example of each kind. The function
- * is in every_element_spatial.c. */
+/* The table of kinds has one spatial body and one spatial particle. This function adds further
+ * spatial bodies, which the elements need. It is in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 baum_status every_element_add_coin(every_element *parts);
 baum_status every_element_add_nut(every_element *parts);

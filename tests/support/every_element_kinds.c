@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The fields of the simulation options. Also the table of all kinds, with the fields of their
- * definitions. */
+/* Contains two tables: the fields of the simulation options, and all kinds of elements with the
+ * fields of their definitions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -160,7 +160,7 @@ double motion_error(int nv, const double *q, const double *v, const double *want
   return error;
 }
 
-/* Returns the largest error over 50 times up to t. */
+/* Returns the largest error at 50 equally spaced times up to t. */
 static double largest_error(const integrator_setup *setup, double t, motion_fn *motion, double rate)
 {
   integrator_run run;

@@ -73,8 +73,8 @@ baum_mechanism *make_pendulum(void);
 /* Computes the exact motion of this pendulum at time t. */
 void pendulum_motion(double t, double q[2], double v[2]);
 
-/* A pendulum with a user force "faulty". The force is zero, but the function returns `answer` if
- * |t| > `after`. */
+/* Data of the user force "faulty" on a pendulum. The force is zero, but its function returns
+ * `answer` if |t| > `after`. */
 typedef struct force_fault {
   double after;
   int answer;
@@ -93,11 +93,11 @@ baum_mechanism *make_oscillator(void);
 void oscillator_motion(double t, double q[2], double v[2]);
 
 /* Makes a particle of 1 kg. A damper of 1e4 N s/m and a spring of 1 N/m connect it to the origin.
- * It starts at rest at (1, 0). Motion along the damper decays with 1e4 1/s, so the particle swings
- * almost like the pendulum. */
+ * It starts at rest at (1, 0). Motion along the damper decays at the rate 1e4 1/s, so the particle
+ * swings almost like the pendulum. */
 baum_mechanism *make_stiff(void);
 
-/* Returns the largest |q - want_q| and |v - want_v| / rate over all nv coordinates. */
+/* Returns the largest of the numbers |q - want_q| and |v - want_v| / rate of all nv coordinates. */
 double motion_error(int nv, const double *q, const double *v, const double *want_q,
                     const double *want_v, double rate);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One small mechanism for each kind of joint. It has gravity, initial velocities, and one or two
- * degrees of freedom. Tests of all joints use them. */
+/* Small mechanisms, one for each kind of joint. Each has gravity, initial velocities, and one or
+ * two degrees of freedom. Tests that cover all joints use these mechanisms. */
 #ifndef BAUM_TEST_JOINT_SCENES_H
 #define BAUM_TEST_JOINT_SCENES_H
 
@@ -14,7 +14,7 @@ typedef struct joint_scene {
   bool of_velocities; /* whether it has rows of velocity level, which rattle refuses */
 } joint_scene;
 
-enum { JOINT_SCENES = 16, JOINT_SCENE_SIZE_MAX = 12 }; /* of nv and nc */
+enum { JOINT_SCENES = 16, JOINT_SCENE_SIZE_MAX = 12 }; /* largest nv and nc */
 extern const joint_scene joint_scenes[JOINT_SCENES];
 
 /* Returns the frozen mechanism, which the caller destroys. */

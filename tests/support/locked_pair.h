@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A bar is pinned to ground. Two pins join a second bar rigidly to the first. One of the four rows
- * of these two pins is redundant. Which row is best omitted changes twice per revolution. Include
- * after cmocka.h. */
+ * of these two pins is redundant. The row that is best omitted changes twice per revolution.
+ * Include after cmocka.h. */
 #ifndef BAUM_TEST_LOCKED_PAIR_H
 #define BAUM_TEST_LOCKED_PAIR_H
 

@@ -21,7 +21,7 @@ baum_body_id manifold_add_turned(baum_mechanism *mechanism, manifold_body *body,
                                  double angle, const double *v);
 baum_body_id manifold_add_angle(baum_mechanism *mechanism, manifold_body *body, double angle,
                                 const double *v);
-/* The length of the quaternion p may differ from 1 by rounding. */
+/* The length of the quaternion in q = (r, p) may differ from 1 by rounding. */
 baum_body_id manifold_add_top(baum_mechanism *mechanism, manifold_body *body, const double q[7],
                               const double *v);
 baum_body_id manifold_add_free_top(baum_mechanism *mechanism, manifold_body *body,

@@ -232,8 +232,8 @@ static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
 static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
 static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
 static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
-/* The pins of a coupler that is only as long as the crank. Configurations in which the slider is at
- * the main pin are then bifurcations. */
+/* The pins of a coupler that is only as long as the crank. With this coupler, configurations in
+ * which the slider is at the pin of the crank on ground are bifurcations. */
 static pin short_crank_pin = {.a = {0.5, 0.0}, .b = {-0.5, 0.0}};
 static pin short_slider_pin = {.a = {0.5, 0.0}, .b = {0.0, 0.0}};
 /* The crank starts at an angle of 1 rad with an angular velocity of 4 rad/s. */
@@ -367,7 +367,7 @@ static void translate_crank(const double *twin_q, double *q)
   translate_bodies(twin_q, q, 3);
 }
 
-/* ---- a turned body before an ordinary one, so that q and v have different columns ---- */
+/* ---- a turned body is added before an ordinary one, so that its columns in q and v differ ---- */
 
 static manifold_body lower_rod = {.mass = 0.7, .inertia = {0.05}};
 static pin joint_pin = {.to_ordinary = true, .a = {0.5, 0.0}, .b = {-0.4, 0.0}};

@@ -25,9 +25,9 @@ typedef struct manifold_scene {
   /* The unit vectors (cos, sin), or the unit quaternions, that q contains. In q, two successive
    * quaternions begin seven numbers apart, and two successive unit vectors four numbers apart. */
   struct {
-    int first;  /* index in q of the first of them */
-    int count;  /* how many there are */
-    int length; /* numbers in each of them */
+    int first;  /* index in q of the first unit vector or quaternion */
+    int count;  /* number of unit vectors or quaternions */
+    int length; /* how many numbers each of them has */
   } units;
   int redundant_rows; /* 0 unless given */
 } manifold_scene;

@@ -45,8 +45,8 @@ static int point_phi(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The velocity of the fixed point is r' + A (w x s). The columns for w are therefore A (e_j x
- * s). */
+/* The velocity of the fixed point is r' + A (w x s), where s is this point in body axes and A is
+ * the rotation matrix. The columns for w are therefore A (e_j x s). */
 static int point_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -128,7 +128,7 @@ void manifold_build_ball(baum_mechanism *mechanism)
 }
 
 /* Evaluates Euler's equations about the fixed point: J0 w' = (J0 w) x w + moment of the weight,
- * with J0 = I + m (s.s - s s^T). */
+ * with J0 = I + m (s.s - s s^T). Here s is the fixed point in body axes. */
 static void top_rates(const top *of, const double y[7], double dy[7])
 {
   const double *s = of->point;

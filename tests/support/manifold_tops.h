@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies with a unit quaternion that rotate about a fixed point. There is a free top, a ball,
- * and a heavy top that three user constraints hold, with or without their Jacobian. The functions
- * named `solve` integrate the reference motions. */
+/* Rigid bodies with a unit quaternion that rotate about a fixed point. They are a free top, a ball,
+ * and a heavy top. Three user constraints hold the heavy top. They are defined with or without
+ * their Jacobian. The functions named `solve` integrate the reference motions. */
 #ifndef BAUM_TEST_MANIFOLD_TOPS_H
 #define BAUM_TEST_MANIFOLD_TOPS_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of velocity level, and points on curves. Rows of velocity level state that material points
- * of two bodies, which are at the same place P, have equal velocities in some directions. The
- * velocity of the material point of a body at P is r' + W x (P - r). Its derivative follows from
- * the motion of P. */
+/* Evaluates rows of velocity level, and points on curves. Rows of velocity level state that
+ * material points of two bodies, which are at the same place P, have equal velocities in some
+ * directions. The velocity of the material point of a body at P is r' + W x (P - r). Its derivative
+ * follows from the motion of P. */
 #include <math.h>
 #include <string.h>
 
@@ -16,8 +16,8 @@ static void point_on(const motion *body, const wide s[3], jet out[3])
   }
 }
 
-/* Computes the velocity of body_b at a point relative to body_a. Its value and its first derivative
- * are known. */
+/* Computes the velocity of body_b relative to body_a at a point. The result has only a value and a
+ * first derivative. */
 static void relative_velocity(const oracle_joint *joint, const motion *bodies, const jet point[3],
                               jet out[3])
 {
@@ -40,7 +40,7 @@ static void relative_velocity(const oracle_joint *joint, const motion *bodies, c
   }
 }
 
-/* Returns the row of velocity level e . u. */
+/* Returns the row of velocity level e . u = 0, where u is a relative velocity. */
 static jet velocity_row(const jet e[3], const jet u[3])
 {
   const jet value = jet_dot(e, u);

@@ -106,8 +106,9 @@ static void add_joint_spring(const oracle_force *f, const instant *now, wide six
 
 /* ---- torsion springs ---- */
 
-/* The angle is the twist of body_b relative to body_a. Its derivative is the part of the relative
- * angular velocity along (z_a + z_b) / (1 + z_a . z_b), so the torque acts along this vector. */
+/* The angle is the twist of body_b relative to body_a. Its derivative is the component of the
+ * relative angular velocity along (z_a + z_b) / (1 + z_a . z_b), so the torque acts along this
+ * vector. */
 static void add_torsion_spring(const oracle_force *f, const motion *bodies, wide six[][6])
 {
   static const wide none[3] = {0};
@@ -140,9 +141,9 @@ static void add_torsion_spring(const oracle_force *f, const motion *bodies, wide
 
 /* ---- bushings ---- */
 
-/* Computes the rotation vector of a rotation matrix with the elements r. The vector part of the
- * quaternion is halved in angle by square roots of the quaternion. Then the series of the arcsine
- * is summed. */
+/* Computes the rotation vector of a rotation matrix with the elements r. The function first
+ * computes the quaternion. Square roots of the quaternion then halve the angle several times.
+ * Finally, the series of the arcsine is summed for the small vector part. */
 static void rotation_vector(jet r[3][3], jet out[3])
 {
   enum { HALVED = 3, TERMS = 28 };
@@ -258,8 +259,8 @@ wide oracle_design_length(const spatial_oracle *o, const oracle_force *cable)
   return length_of(cable, bodies, at, along).d[0];
 }
 
-/* Returns the tension of a cable. The factor of the damping is 3 x^2 - 2 x^3 during the
- * transition. */
+/* Returns the tension of a cable. During the transition, the damping is multiplied by 3 x^2 - 2
+ * x^3, where x is the stretch divided by the length of the transition. */
 static wide tension_of(const oracle_force *f, jet length)
 {
   const wide stretch = length.d[0] - f->free_length;
@@ -269,7 +270,7 @@ static wide tension_of(const oracle_force *f, jet length)
   return stretch > 0 && tension > 0 ? tension : 0;
 }
 
-/* The tension pulls each point towards the next one and towards the one before. */
+/* The tension pulls each point towards the next point and towards the previous point. */
 static void add_cable(const oracle_force *f, const motion *bodies, wide six[][6])
 {
   static const wide none[3] = {0};

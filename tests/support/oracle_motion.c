@@ -14,8 +14,7 @@ static void normalize3(wide x[3])
   }
 }
 
-/* The angle is halved until it is below 1, the series are summed, and the
- * angle is doubled again. */
+/* Halves the angle until it is below 1, sums the series, and doubles the angle again. */
 void oracle_turn(wide angle, wide *cosine, wide *sine)
 {
   int halved = 0;
@@ -39,7 +38,7 @@ void oracle_turn(wide angle, wide *cosine, wide *sine)
 
 /* ---- bodies ---- */
 
-/* Computes the rotation matrix A of a quaternion p. It is defined by A e = p e p*. */
+/* Computes the rotation matrix A of a quaternion p. For every vector e, A e = p e p*. */
 static void matrix_of_quaternion(const wide p[4], wide a[9])
 {
   wide square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3];
@@ -248,8 +247,8 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
   joint->length = wide_root(dot3(apart, apart));
 }
 
-/* With n = z_a x z and c = z_a . z, the smallest rotation that takes z_a to z takes x to x + n x x
- * + n x (n x x) / (1 + c). */
+/* With n = z_a x z and c = z_a . z, the smallest rotation that takes z_a to z takes any vector u to
+ * u + n x u + n x (n x u) / (1 + c). */
 void oracle_incline(const spatial_oracle *o, oracle_joint *joint, const wide z[3])
 {
   wide unit[3] = {z[0], z[1], z[2]};
@@ -316,8 +315,7 @@ static int add_product(const jet x[3], const jet y[3], jet *out)
   return 1;
 }
 
-/* Sets the row of the thread: the displacement minus the part of the pitch that belongs to the
- * angle. */
+/* Sets the row of the thread: the displacement minus the angle times the pitch per radian. */
 static int add_thread(const oracle_joint *joint, const motion *bodies, jet *out)
 {
   const wide part = joint->pitch / REVOLUTION;

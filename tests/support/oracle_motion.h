@@ -53,7 +53,7 @@ instant oracle_instant_at(const spatial_oracle *o, double t, const wide *q, cons
 void oracle_design_motions(const spatial_oracle *o, motion bodies[ORACLE_BODIES]);
 /* Returns the same configuration without velocities. */
 instant oracle_stop(const instant *now);
-/* Gives one body other velocities. */
+/* Replaces the velocities of one body. */
 void oracle_set_velocities(instant *now, int body, const wide six[6]);
 
 /* Computes cosine and sine. */

@@ -7,7 +7,7 @@
 
 #include "mechanism/mechanism.h"
 
-enum { TEST_SIZE_MAX = 40 }; /* largest nq and nc; blocks have at most the square of this */
+enum { TEST_SIZE_MAX = 40 }; /* largest nq and nc; blocks have at most 40^2 values */
 
 typedef struct test_point {
   baum_mechanism *mechanism; /* the test_point owns it */

@@ -301,7 +301,8 @@ bool quad_equations_solve(quad_equations *s, wide *a, quad_rows *out)
   return true;
 }
 
-/* Computes the multipliers of the original rows from those of the scaled rows in s->work. */
+/* Computes the multipliers of the original rows from the multipliers of the scaled rows, which are
+ * in s->work. */
 static void unscale(const quad_equations *s, wide *lambda)
 {
   for (int k = 0; k < s->nc; k++) {

@@ -3,7 +3,8 @@
  * close the rows are to dependence, and how much dependent rows contradict the others. M, J, g and
  * gamma are computed by the library in double precision, but none of its solvers is used. Let M = L
  * L^T and y = L^T a, and let the rows of J L^-T be scaled to length 1. The constraints are then W^T
- * y = c. A QR factorization of W with pivoting gives that y which is nearest to L^-1 g. */
+ * y = c. Of all y that satisfy them, the solution is nearest to L^-1 g. A QR factorization of W
+ * with pivoting gives this y. */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
 
@@ -14,8 +15,8 @@
 #include "quad.h"
 
 typedef struct quad_rows {
-  /* Number of independent rows. In pivot order, their distance from the span of the rows before
-   * them is at least QUAD_DEPENDENT. */
+  /* Number of independent rows. In pivot order, the distance of each of them from the span of the
+   * previous rows is at least QUAD_DEPENDENT. */
   int rank;
   /* Smallest singular value of W. If rows are dependent, the distance of the first dependent row
    * from the span of the independent rows. */

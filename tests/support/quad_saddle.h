@@ -5,9 +5,9 @@
  *   [ M  J^T ] [ a      ]   [ g     ]
  *   [ J   0  ] [ lambda ] = [ gamma ]
  *
- * With this order of the unknowns, the matrix of a chain has a narrow band, whatever the length of
- * the chain. Other matrices are eliminated like dense ones. The elimination uses partial pivoting.
- * It does not use any solver of the library.
+ * The unknowns are sorted. For a chain of bodies, the sorted matrix has a narrow band, whatever the
+ * length of the chain. Other matrices are eliminated like dense ones. The elimination uses partial
+ * pivoting. It does not use any solver of the library.
  */
 #ifndef BAUM_TEST_QUAD_SADDLE_H
 #define BAUM_TEST_QUAD_SADDLE_H
@@ -20,8 +20,8 @@
  * there is not enough memory. */
 
 /* Reads J and M from a workspace as dense matrices. This is suitable for up to several hundred
- * coordinates. Rows that omitted (nc) marks are omitted, so their lambda is 0. omitted may be
- * NULL. */
+ * coordinates. The array `omitted` (nc), which may be NULL, marks rows that are omitted. Their
+ * lambda is 0. */
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *omitted, double *a, double *lambda);
 

@@ -93,7 +93,8 @@ static bool is_angle(oracle_kind kind, int number)
          ((kind == ORACLE_CYLINDRICAL || kind == ORACLE_SCREW) && number == 1);
 }
 
-/* Prefers a joint that has a body in common with joint n, as gears on a carrier have. */
+/* Chooses the second joint of a coupling. Prefers a joint that has a body in common with joint n,
+ * as gears on a carrier have. */
 static int choose_second(random_spatial *r, int n, int *number)
 {
   const oracle_joint *joints = r->oracle.joints;

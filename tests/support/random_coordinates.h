@@ -9,13 +9,13 @@
  * driver, nothing is added. */
 void random_spatial_add_driver(random_spatial *r);
 
-/* Adds a joint spring to a random joint. Its free value differs from the coordinate in the design
- * by up to 1. */
+/* Adds a joint spring to a random joint. Its free value differs by up to 1 from the value of the
+ * coordinate in the design configuration. */
 void random_spatial_add_joint_spring(random_spatial *r);
 
-/* Couples two random coordinates of different joints, such as the angles of two gears, the angle of
- * a gear and the displacement of a rack, or the two coordinates of one joint. If a chosen joint has
- * no coordinate or already has a driver, nothing is added. */
+/* Couples two random coordinates, such as the angles of two gears, the angle of a gear and the
+ * displacement of a rack, or the two coordinates of one joint. If a chosen joint has no coordinate
+ * or already has a driver, nothing is added. */
 void random_spatial_add_coupling(random_spatial *r);
 
 #endif

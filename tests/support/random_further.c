@@ -98,7 +98,7 @@ static void add_edge(random_spatial *r, int a, int b)
 
 /* ---- bodies and loops ---- */
 
-/* Adds a joint that is not a basic one between two bodies with orientations. */
+/* Adds a joint between two bodies with orientations. Its kind is not one of the basic kinds. */
 static void add_pair(random_spatial *r, int a, int b)
 {
   int kind = chance_below(&r->chance, 4);
@@ -348,8 +348,8 @@ static void add_spatial_edge(random_spatial *r)
 
 /* ---- curves ---- */
 
-/* Computes F or G, and its derivatives with respect to y: three first ones, and the second ones by
- * y_1 twice, by y_2 twice and by y_3 twice. All mixed ones are 0. */
+/* Computes F or G, its three first derivatives with respect to y, and its second derivatives
+ * d^2/dy_1^2, d^2/dy_2^2 and d^2/dy_3^2. All mixed derivatives are 0. */
 static void curve_of(const oracle_curve *u, int row, const double y[3], double out[7])
 {
   const double r = u->r;
@@ -421,8 +421,8 @@ static void choose_curve(chance *c, oracle_curve *u, double y[3])
   y[2] = u->kind == ORACLE_HELIX ? along : 0.0;
 }
 
-/* Puts a point of body b on a curve on body a. The point is at body_a's point in half of all
- * cases. Otherwise, this vector is random. */
+/* Puts a point of body b on a curve on body a. In half of all cases, the point is also body_a's
+ * point. In the other cases, the vector from body_a's point to the point is random. */
 static void add_curve(random_spatial *r, int a, int b)
 {
   static const wide z[3] = {0, 0, 1};
@@ -463,8 +463,8 @@ static void add_curve(random_spatial *r, int a, int b)
   check(baum_mechanism_add_spatial_curve(r->mechanism, &def, &joint->id));
 }
 
-/* Adds a body or a particle, which is often in a plane, with a point on a curve. If it is a body,
- * it may have the curve instead. */
+/* Adds a body or a particle, which is often planar. Another body has a curve, on which a point of
+ * the new body moves. If the new body has an orientation, it may instead have the curve. */
 static void add_bead(random_spatial *r)
 {
   chance *c = &r->chance;
@@ -491,9 +491,10 @@ static void choose_path(random_spatial *r, oracle_force *f, baum_body_id bodies[
   }
 }
 
-/* The path often visits a body twice. The default of the free length makes the cable start where
- * it becomes taut, and a transition of 0 would make its damping jump there. The damper is often so
- * strong that it cancels the spring of a cable that becomes shorter. */
+/* The path often visits a body twice. With the default free length, the cable is just about to
+ * become taut at the start. A transition of 0 would make its damping jump there, so it is not used
+ * with the default. The damper is often so strong that it cancels the tension of a cable that
+ * becomes shorter. */
 static void add_cable(random_spatial *r)
 {
   static const double share = 1e-4; /* the default of the transition, relative to the free length */

@@ -14,7 +14,8 @@
 #include "quad_rows.h"
 #include "random_velocity_rows.h"
 
-/* If dependent rows contradict each other by more than this, the library must refuse. */
+/* If dependent rows contradict each other by more than this, the library must refuse the
+ * configuration. */
 static const double CONTRADICTION = 1e-9;
 
 /* Degrees of freedom are compared only if the rank is clear: independent rows are at least this far
@@ -149,7 +150,7 @@ static void compare_mobility(scene *s, const baum_mobility *mobility)
   }
   free(skipped);
   bool clear = fmin(rows[0].kept, rows[1].kept) >= CLEAR && !mobility->near_singular;
-  if (!clear || mobility->conflicting_rows > 0) { /* drivers may be out of reach at t = 0 */
+  if (!clear || mobility->conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
     return;
   }
   int want[2] = {s->nv - rows[0].rank, s->nv - rows[1].rank};

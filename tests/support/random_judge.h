@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares accelerations of random mechanisms, as computed by the library, with those in quadruple
- * precision. */
+/* Compares accelerations of random mechanisms that the library computes with accelerations that are
+ * computed in quadruple precision. */
 #ifndef BAUM_TEST_RANDOM_JUDGE_H
 #define BAUM_TEST_RANDOM_JUDGE_H
 
@@ -12,7 +12,7 @@ typedef enum random_verdict {
   RANDOM_WRONG,       /* the error is larger */
   RANDOM_CONFLICT,    /* accepted, although omitted rows contradict the others */
   RANDOM_FALSE_ALARM, /* refused, although the rows are independent */
-  RANDOM_MOBILITY,    /* other degrees of freedom than the ranks of J give */
+  RANDOM_MOBILITY,    /* the degrees of freedom disagree with the ranks of J */
   RANDOM_VERDICTS
 } random_verdict;
 
@@ -34,8 +34,8 @@ typedef struct random_tally {
 
 /* Makes the mechanism of a seed in `room`, and tests it with velocities. If `velocity_rows` is
  * true, rows of velocity level are added to the mechanism. It is tested in its design
- * configuration, and in another configuration on the constraints. In the latter, the ranks of J
- * must give the degrees of freedom that the library reports. If no rows are redundant, it is also
+ * configuration, and in another configuration on the constraints. In the second one, the ranks of
+ * J must give the degrees of freedom that the library reports. If no rows are redundant, it is also
  * tested in a configuration off the constraints. Prints wrong results and false alarms. */
 void random_judge(random_mechanism *room, uint64_t seed, bool velocity_rows, random_tally *tally);
 

@@ -50,9 +50,9 @@ typedef struct random_body {
   bool constant;
 } random_body;
 
-/* Random constraints. Row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. d^2
- * contains the squares of the elements of d. random_velocity_rows.c uses the numbers in another
- * way. */
+/* Random constraints. Row r is Phi_r = linear_r . d + square_r . d^2 / 2, with d = x - at. Here x
+ * contains the coordinates of the constrained bodies, and d^2 the squares of the elements of d.
+ * random_velocity_rows.c uses the numbers in another way. */
 typedef struct random_rows {
   int rows;
   int columns;

@@ -135,8 +135,8 @@ static void make_chain(builder *b, chain_kind kind)
   }
 }
 
-/* Makes equal, parallel cranks between a base and a coupler. Their feet may be in line or not. The
- * second crank is sometimes a massless rod. */
+/* Makes equal, parallel cranks between a base and a coupler. The pins on the base may lie on one
+ * line or not. The second crank is sometimes a massless rod. */
 static baum_body_id make_cranks(builder *b, baum_body_id base, const double corner[2], int cranks)
 {
   double crank[2] = {chance_number(&b->chance, -0.6, 0.6), chance_number(&b->chance, 0.5, 1.0)};

@@ -9,9 +9,9 @@
 
 #include <baum/baum.h>
 
-/* Returns a frozen mechanism. The seed determines of which kind it is: doubled pins, welds with
- * pins, parallel cranks, stacked parallelograms, or closed chains. Masses are between 1/ratio and 1
- * kg. *ratio is set. */
+/* Returns a frozen mechanism. The seed determines which kind of mechanism it is: doubled pins,
+ * welds with pins, parallel cranks, stacked parallelograms, or closed chains. Masses are between
+ * 1/ratio and 1 kg. *ratio is set. */
 baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio);
 
 /* Makes a bracket of 1/ratio kg that is both pinned and welded to ground. It carries a body of 1 kg
@@ -50,8 +50,8 @@ static const double REDUNDANT_ERROR = 1e-9;
 
 enum { REDUNDANT_STATES = 3 };
 
-/* Numbers of results in the three states, which are on the constraints, 1e-6 off them and 1e-3 off
- * them. */
+/* Counts of results. Every mechanism is tested in three states: on the constraints, 1e-6 off them,
+ * and 1e-3 off them. */
 typedef struct redundant_tally {
   long workspace[REDUNDANT_STATES][REDUNDANT_VERDICTS];
   long run[REDUNDANT_STATES][REDUNDANT_VERDICTS];

@@ -34,10 +34,10 @@ double saddle_random(uint64_t *seed);
  * random numbers. There is no shift, and no row is omitted. */
 saddle saddle_make_random(uint64_t seed, int bodies);
 
-/* Makes N coupled planar four-bars. They consist of N + 1 parallel rods of 1 m on the ground, and
- * of N rods of 1 m that join the tips of these. The system has 2 N + 1 bodies of 1 kg, and nc = 6
- * N + 2. saddle_pose_four_bar() computes mass and jacobian at a crank angle. At the angle 0, the
- * mechanism is flat and therefore singular. */
+/* Makes N coupled planar four-bars. They consist of N + 1 parallel rods of 1 m, which are pinned to
+ * the ground, and of N rods of 1 m between the tips of neighbouring parallel rods. The system has 2
+ * N + 1 bodies of 1 kg, and nc = 6 N + 2. saddle_pose_four_bar() computes mass and jacobian at a
+ * crank angle. At the angle 0, the mechanism is flat and therefore singular. */
 saddle saddle_make_four_bar(int loops);
 void saddle_pose_four_bar(saddle *system, double angle);
 

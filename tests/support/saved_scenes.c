@@ -73,8 +73,8 @@ static void open_driven(saved_scene *scene)
 
 /* ---- the list ---- */
 
-/* Opens a scene for every integrator with each of its formulations. The mechanism is one that the
- * integrator supports. */
+/* Opens scene `number` of a list that has one scene for each formulation of each integrator. The
+ * mechanism is one that the integrator supports. */
 static bool open_pair(saved_scene *scene, int *number)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {

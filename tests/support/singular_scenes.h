@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms whose motion is known and passes through singular configurations, and settings with
- * which they are run. If the motion stays on the right branch, one angle th describes it:
+ * which they are run. If the motion stays on the right branch, it is described by one angle th,
+ * which satisfies an equation with the constants i0, i1 and k:
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  */
@@ -32,7 +33,8 @@ typedef struct singular_scene {
   int count;                         /* how many angles in q are th or -th */
   int angle[SINGULAR_ANGLES];        /* the indices of these angles */
   double sign[SINGULAR_ANGLES];
-  /* ((SINGULAR_SAMPLES + 1) x nq) if there is no equation for th, otherwise NULL. */
+  /* Positions at the samples ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
+   * Otherwise NULL. */
   double *reference;
 } singular_scene;
 

@@ -23,7 +23,8 @@ static const double ILL_POSED = 1e-3;
 /* Rows whose distance from dependence is between this and QUAD_DEPENDENT cannot be judged. */
 static const double DEPENDENT = 1e-14;
 static const double UNIT_ROUNDING = 0x1p-53;
-/* The effect of rounding each number once, in three samples, is multiplied by this. */
+/* The effect of rounding is measured in three samples, in which every number is rounded once at
+ * random. The largest of the three effects is then multiplied by this. */
 static const double MANY = 1000.0;
 /* If joints prevent accelerations, errors are relative to this fraction of the accelerations that
  * the forces would cause without joints. */
@@ -104,7 +105,7 @@ static void choose_inertia(rods *r, rod *of, double tensor[6])
   set_inertia(c, moments, chance_below(c, 2) == 0, tensor, of->axis);
 }
 
-/* Chooses a point on the axis of a rod or beside it. */
+/* Chooses a point on the axis of a rod or near this axis. */
 static void choose_point(rods *r, const rod *of, double point[3])
 {
   chance *c = &r->chance;
@@ -126,7 +127,8 @@ static void axis_of(const double from[4], const double axis[3], const double to[
   rotate(back, ground, out);
 }
 
-/* Defines the joint of a new body and moves the body there. before = NULL: ground. */
+/* Defines the joint of a new body and moves the body there. If `before` is NULL, the joint is on
+ * ground. */
 static void choose_place(rods *r, const rod *before, int kind, rod *of,
                          baum_spatial_revolute_def *def)
 {
@@ -206,7 +208,7 @@ static void add_body(rods *r, int island, int before)
   }
 }
 
-/* Holds a point of a rod, on the axis or beside it. */
+/* Holds a point of a rod, which is on its axis or near it. */
 static void add_loop(rods *r, const rod *of)
 {
   baum_spatial_revolute_def joint = baum_spatial_revolute_def_default();
@@ -382,7 +384,8 @@ static bool solve(const rods *r, const double *v, chance *c, equations *e, wide 
 
 /* ---- errors ---- */
 
-/* Returns the components of three numbers along an axis and their largest entry across it. */
+/* Returns the component of a vector along the axis of a rod. The function across() returns the
+ * largest element of the remaining vector. */
 static double along(const rod *of, const double x[3])
 {
   return x[0] * of->axis[0] + x[1] * of->axis[1] + x[2] * of->axis[2];
@@ -397,7 +400,8 @@ static double across(const rod *of, const double x[3])
   return largest_of_three(rest);
 }
 
-/* Returns the accelerations of a body without its spin, in 1/s^2. */
+/* Returns the largest acceleration of a body in 1/s^2. The spin of a slender rod about its axis is
+ * not included. */
 static double size_of(const rods *r, int body, const double x[6])
 {
   const rod *of = &r->list[body];
@@ -415,8 +419,8 @@ static double ratio_of(double error, double size)
   return error == 0.0 ? 0.0 : error / size;
 }
 
-/* Returns the accelerations that the forces on a body would cause without joints, in 1/s^2. The
- * transverse moment of inertia is used for all axes. */
+/* Returns the largest acceleration that the forces on a body would cause without joints, in 1/s^2.
+ * The transverse moment of inertia is used for all axes. */
 static double free_size(const rods *r, const equations *e, int body)
 {
   const double *force = e->numbers + (e->nv + e->nc) * e->nv + 6 * body;

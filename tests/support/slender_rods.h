@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random mechanisms of slender rods, and a comparison of their accelerations with a solution in
- * quadruple precision of the same equations. A mechanism consists of up to three islands whose
- * masses, lengths and accelerations differ by large factors. Joints lie on the axes of the rods or
- * beside them, and half of the rods have full inertia tensors. The ratio of the axial moment of
- * inertia to the transverse one is 0, or between 1e-12 and 1e-3. */
+/* Random mechanisms of slender rods. Their accelerations are compared with a solution of the same
+ * equations in quadruple precision. A mechanism consists of up to three islands whose masses,
+ * lengths and accelerations differ by large factors. Joints lie on the axes of the rods or near
+ * them, and half of the rods have full inertia tensors. The ratio of the axial moment of inertia to
+ * the transverse one is 0, or between 1e-12 and 1e-3. */
 #ifndef BAUM_TEST_SLENDER_RODS_H
 #define BAUM_TEST_SLENDER_RODS_H
 
@@ -12,7 +12,7 @@
 typedef enum slender_verdict {
   SLENDER_RIGHT,    /* the error is at most SLENDER_ERROR */
   SLENDER_ROUNDED,  /* rounding M, J, g and gamma explains the error */
-  SLENDER_UNJUDGED, /* it does, but rounding changes the accelerations by more than 1e-3 */
+  SLENDER_UNJUDGED, /* rounding explains the error, but changes accelerations by more than 1e-3 */
   SLENDER_REFUSED,  /* refused, because rows are dependent or rounding changes everything */
   SLENDER_FALSE_REFUSAL,
   SLENDER_WRONG, /* wrong without a message */
@@ -22,10 +22,11 @@ typedef enum slender_verdict {
 /* The largest permitted error. Errors of each island are relative to the largest acceleration in
  * this island; those of spins about the axes of rods are also relative to the spin itself.
  * Accelerations of origins are divided by the length of the island. A thousand times the effect of
- * rounding is added. */
+ * rounding is added to this limit. */
 static const double SLENDER_ERROR = 1e-9;
 
-/* Classes of mechanisms by their smallest ratio of moments, in powers of ten. */
+/* Mechanisms are counted in classes. A class contains those whose smallest ratio of moments is
+ * within the same power of ten. */
 enum { SLENDER_CLASSES = 14 };
 
 typedef struct slender_tally {

@@ -100,7 +100,8 @@ spatial_scene spatial_scene_make(bool spheres)
     check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
   }
 
-/* The pitch of the screw is so large that Phi does not jump within a difference. */
+/* Phi of a screw jumps by the pitch. The pitch is so large that there is no jump between the points
+ * of a difference. */
 static void add_screw(spatial_scene *s, int a, int b)
 {
   static const double axis[3] = {0.3, -1.0, 0.7};
@@ -126,8 +127,8 @@ ADD_POINTS(distance)
 ADD_AXIS(point_on_line)
 ADD_AXIS(point_on_plane)
 
-/* Adds a wheel that rolls on a plane. The disc and the sphere are the limits of the wheel for
- * special values of the rim radius. */
+/* Adds a wheel that rolls on a plane. With special values of the rim radius, the wheel becomes a
+ * sharp disc or a sphere. */
 static void add_rolling(spatial_scene *s, int a, int b, double rim_radius)
 {
   static const double vectors[4][3] = {
@@ -170,8 +171,8 @@ static void add_knife_edge(spatial_scene *s, int a, int b)
   check(baum_mechanism_add_spatial_knife_edge(s->mechanism, &def, NULL));
 }
 
-/* F = c . x + 0.1 (c . x) (d . x) + 0.3 sin(d . x) with all derivatives nonzero, and the same
- * function G with other vectors. */
+/* The curve F = G = 0. F = c . x + 0.1 (c . x) (d . x) + 0.3 sin(d . x), of which no derivative is
+ * zero. G is the same function with other vectors c and d. */
 static int bent(const double xyz[3], double out[20], void *user)
 {
   static const double c[2][3] = {{0.9, 0.2, -0.4}, {-0.3, 0.8, 0.3}};
@@ -264,7 +265,7 @@ static void add_torsion_spring(spatial_scene *s, int a, int b)
   check(baum_mechanism_add_spatial_torsion_spring(s->mechanism, &def, NULL));
 }
 
-/* Both matrices are full. */
+/* The matrices of stiffness and damping are full. */
 static void add_bushing(spatial_scene *s, int a, int b)
 {
   static const double axis[3] = {0.3, -1.0, 0.7};

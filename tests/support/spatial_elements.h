@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism with bodies of all kinds, and every spatial element to add between two of them. */
+/* A mechanism with bodies of all kinds, and a list of all spatial elements that can be added
+ * between two of the bodies. */
 #ifndef BAUM_TEST_SPATIAL_ELEMENTS_H
 #define BAUM_TEST_SPATIAL_ELEMENTS_H
 

@@ -18,8 +18,9 @@ static const double ON_CONSTRAINTS = 1e-9;
  * from the span of the others. */
 static const double CLEAR = 1e-6;
 
-/* The largest effect of rounding that excuses an error. A larger one would excuse errors above
- * 1e-6, and could hide faults of the solver. Such configurations cannot be judged. */
+/* The largest effect of rounding that excuses an error. A larger effect would excuse errors above
+ * 1e-6, and could hide faults of the solver. Configurations in which it is larger cannot be
+ * judged. */
 static const double MOST_ROUNDING = 1e-8;
 
 enum { SIZE = 7 * ORACLE_BODIES, MULTIPLIERS = ORACLE_JOINTS * 6 };
@@ -242,7 +243,7 @@ static void compare_mobility(scene *s)
   assert_int_equal(baum_mechanism_mobility(s->random->mechanism, &mobility, sizeof mobility),
                    BAUM_OK);
   bool clear = fmin(want->rows.kept, want->position_rows.kept) >= CLEAR && !mobility.near_singular;
-  if (!clear || mobility.conflicting_rows > 0) { /* drivers may be out of reach at t = 0 */
+  if (!clear || mobility.conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
     return;
   }
   s->tally->mobilities++;

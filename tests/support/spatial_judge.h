@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the library's results for random spatial mechanisms with those of an oracle in quadruple
- * precision. */
+/* Compares the library's results for random spatial mechanisms with the results of an oracle, which
+ * uses quadruple precision. */
 #ifndef BAUM_TEST_SPATIAL_JUDGE_H
 #define BAUM_TEST_SPATIAL_JUDGE_H
 
@@ -17,14 +17,14 @@ typedef enum spatial_verdict {
   SPATIAL_REACTION,    /* the error of unique reactions is above the limit */
   SPATIAL_BALANCE,     /* reactions do not balance the forces */
   SPATIAL_FALSE_ALARM, /* refused, although the rows are independent */
-  SPATIAL_MOBILITY,    /* other degrees of freedom than the ranks of J give */
+  SPATIAL_MOBILITY,    /* the degrees of freedom disagree with the ranks of J */
   SPATIAL_VERDICTS
 } spatial_verdict;
 
 /* The largest permitted error. Errors of accelerations are relative to the largest acceleration,
- * either with or without constraints. Errors of reactions are relative to the largest element.
- * Rounding of positions and inertias changes the results of the oracle. 100 times this change is
- * added to the limit. */
+ * either with or without constraints. Errors of reactions are relative to the largest element of
+ * all reactions. Rounding of positions and inertias changes the results of the oracle. 100 times
+ * this change is added to the limit. */
 static const double SPATIAL_ERROR = 1e-9;
 
 /* Numbers of configurations tested so far. */
@@ -41,14 +41,15 @@ typedef struct spatial_tally {
   long reactions;       /* number of compared reactions */
   long unjudged;        /* errors are large, but so is the effect of rounding errors */
   long ill_conditioned; /* SPATIAL_MET configurations whose error exceeds SPATIAL_ERROR */
-  double worst;         /* largest error of the other SPATIAL_MET configurations */
+  double worst; /* largest error of the SPATIAL_MET configurations that are not ill-conditioned */
   double worst_reaction;
   uint64_t worst_seed;
 } spatial_tally;
 
 /* Makes the mechanism of a seed in `room`. The mechanism is tested with velocities, in its design
- * configuration and in another configuration on the constraints. In the latter, the ranks of J must
- * give the degrees of freedom that the library reports. Prints wrong results and false alarms. */
+ * configuration and in another configuration on the constraints. In the second one, the ranks of J
+ * must give the degrees of freedom that the library reports. Prints wrong results and false
+ * alarms. */
 void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_tally *tally);
 
 /* Returns how many results were wrong or false alarms. */

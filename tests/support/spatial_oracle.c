@@ -13,9 +13,9 @@
  * 1. */
 static const double NO_ROW = 1e-13;
 
-/* Some linear combinations of rows are zero. In each of them, the rows of one joint cause a
- * reaction of this joint. The reaction of the joint is considered unique if all these reactions are
- * smaller than NO_PART. */
+/* If rows are dependent, some linear combinations of rows are zero. The coefficients of such a
+ * combination can be added to the multipliers without any effect on the motion. The reaction of a
+ * joint is considered unique if it changes by less than NO_PART for every combination. */
 static const double NO_PART = 1e-8;
 
 static wide largest(const wide *x, int count)
@@ -123,7 +123,7 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
-/* Returns the element of -J^T lambda of a joint at a velocity of a body. */
+/* Returns the element of -J^T lambda in one column of J. Only the rows of one joint contribute. */
 static wide column_force(const row_list *list, int joint, const wide *lambda, int column)
 {
   wide sum = 0;

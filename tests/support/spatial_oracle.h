@@ -23,7 +23,7 @@ enum {
   ORACLE_FORCES = 14,
   ORACLE_ROWS = 12,     /* of one joint */
   ORACLE_MEMBERS = 4,   /* bodies of one joint */
-  ORACLE_REACTION = 24, /* numbers of the reaction of one joint */
+  ORACLE_REACTION = 24, /* numbers that describe the reaction of one joint */
   ORACLE_USER_ROWS = 2, /* of one user constraint */
   ORACLE_USER_COLUMNS = 12,
   ORACLE_PATH = 5, /* points of one cable */
@@ -170,7 +170,7 @@ typedef struct oracle_answer {
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
   int velocity_rows;       /* number of rows of velocity level */
-  quad_rows position_rows; /* without these rows; only rank and distances */
+  quad_rows position_rows; /* results without rows of velocity level; only rank and distances */
 } oracle_answer;
 
 /* Computes the points and axes of a joint in body axes. A point on each body and an axis are given

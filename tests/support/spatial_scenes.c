@@ -71,8 +71,8 @@ void spatial_translate_four_bar(const double *twin_q, double *q)
 
 /* ---- a four-bar in space ---- */
 
-/* Adds a rod between two points. The moment of inertia about its axis is a hundredth of that about
- * the transverse axes. */
+/* Adds a rod between two points. Its axial moment of inertia is a hundredth of the transverse
+ * one. */
 static baum_body_id add_rod(baum_mechanism *m, double mass, const double a[3], const double b[3],
                             double spin)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists every integrator with each kind of step that it has, which is fixed or variable. Include
+/* Lists all pairs of an integrator and a kind of step (fixed or variable) that it has. Include
  * after cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
@@ -11,7 +11,7 @@
 #include <baum/baum.h>
 
 typedef struct step_mode {
-  const baum_integrator *integrator; /* NULL if k is larger than the last pair */
+  const baum_integrator *integrator; /* NULL if there is no pair number k */
   bool fixed;
 } step_mode;
 
@@ -40,8 +40,8 @@ static inline bool step_mode_is_adams(step_mode mode)
   return strncmp(baum_integrator_name(mode.integrator), "ab", 2) == 0;
 }
 
-/* Tells whether the method uses data of earlier steps. Such a method restarts if the motion
- * changes. This applies to variable steps, multistep methods and the generalized-alpha method. */
+/* Tells whether the method uses data of earlier steps. Such a method restarts if the motion has a
+ * jump. This applies to variable steps, multistep methods and the generalized-alpha method. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;

@@ -15,7 +15,7 @@ void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
 /* Makes a mechanism with two coordinates, whose design values are (0.6, -0.8), and one row named
- * "circle". The functions of this row receive no `user`. */
+ * "circle". The functions of this row receive NULL as their `user`. */
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,
                                      baum_qv_fn *gamma, double scale);
 
