@@ -143,8 +143,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
  *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), the angular frequency of
  *  a pendulum of length L. For a mechanism at rest in equilibrium without gravity, alpha is 0.01/h
- *  at a fixed step. At variable steps it is 1 1/s, which only suits machines with time scales of
- *  seconds. docs/theory/gain_rules.md compares other factors.
+ *  at a fixed step. At variable steps alpha is 1 per second, which only suits machines with time
+ *  scales of seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests that signatures show the library's defaults, that types list its words, and that everything
-public has a docstring, whose examples work."""
+"""Tests that signatures show the defaults of the library, that type hints list all strings that the
+library accepts, and that everything public has a docstring with working examples."""
 
 import ast
 import ctypes

@@ -25,8 +25,8 @@ typedef enum slender_verdict {
  * rounding is added to this limit. */
 static const double SLENDER_ERROR = 1e-9;
 
-/* Mechanisms are counted in classes. A class contains those whose smallest ratio of moments is
- * within the same power of ten. */
+/* Mechanisms are counted in classes. Each class is one decade of the smallest ratio of the moments
+ * of inertia of a body in the mechanism. */
 enum { SLENDER_CLASSES = 14 };
 
 typedef struct slender_tally {
