@@ -40,7 +40,8 @@ static void print_sizes(const char *name, const baum_mechanism *m, const baum_pa
          (double)html * 1e-3, 1e3 * (end - between) / REPEATS);
 }
 
-/* Draws a mechanism of the catalogue, with all positions and the reactions of its joints. */
+/* Draws a motion of a mechanism of the catalogue. The page contains all positions and the reactions
+ * of the joints at `count` times. */
 static void show_catalog(const char *name, int count, double end)
 {
   baum_mechanism *m = NULL;

@@ -4,7 +4,7 @@
  *
  * Two threads compute the errors of the entries. Afterwards only one thread measures their CPU
  * times. The wall time is therefore more than half of that with one thread. In this study, each
- * time is measured once. The total CPU time should not grow.
+ * time is measured once. With two threads, the total CPU time should be the same as with one.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -110,7 +110,8 @@ def main():
     pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     print(f"medians of {pairs} pairs with two pages")
     print(f"{'':<40}{'calls':>11}{'a frame':>12}{'pages':>12}{'at most':>11}")
-    # outside of the main thread, calls are made directly and not by a second thread
+    # Baum runs every call of the main thread in a second thread, so that Ctrl-C can stop it. The
+    # measurements are made outside of the main thread, where calls are made directly.
     thread = threading.Thread(target=measure_all, args=[pairs])
     thread.start()
     thread.join()

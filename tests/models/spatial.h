@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial mechanisms for tests of accuracy and for timing: those of the catalogue in a moving
- * configuration, and larger ones. */
+/* Spatial mechanisms for tests of accuracy and for timing. Some are mechanisms of the catalogue
+ * that are set in motion. Others are larger. */
 #ifndef BAUM_TEST_MODELS_SPATIAL_H
 #define BAUM_TEST_MODELS_SPATIAL_H
 

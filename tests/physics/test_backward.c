@@ -18,21 +18,23 @@
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
 /* The largest violation of the backward run may be at most this many times the largest violation of
- * the forward run. Both come from local errors, which depend a little on the direction and on the
- * steps chosen. */
+ * the forward run. Both violations come from local errors, which depend a little on the direction
+ * and on the steps chosen. */
 static const double MOST_VIOLATION = 4.0;
 /* The error back at the start may be at most this many times the error at the far end. A ratio of 4
  * is expected. It is the sum of 1 from the position error at the far end, 2 from the velocity error
  * there, which acts for twice the time, and 1 from the backward run. The limit is larger, because
  * the error at the far end may be small by chance. */
 static const double MOST_ERROR = 20.0;
-/* Allows for the rounding errors of about 1e4 steps. The driven crank needs this term, because its
- * positions are a function of time alone and have no other errors. */
+/* The limits are increased by this value, which is the rounding error of about 1e4 steps. The
+ * driven crank needs this, because its positions depend on time alone and have only rounding
+ * errors. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s], or NaN for variable steps; it divides the sample times of tests/data */
+  /* [s], or NaN for variable steps; the sample times of tests/data are multiples of it */
+  double step;
   double rtol;
   baum_formulation formulation;
 } method;
@@ -102,7 +104,7 @@ static void assert_returns(physics_mechanism which, const method *with)
   (void)fflush(stdout);
   model_destroy(&m);
   /* If there are no degrees of freedom, the error at the far end may by chance be far below the
-   * tolerance. */
+   * tolerance. A fraction of the tolerance is therefore added to the limit. */
   double by_chance = which == DRIVEN_CRANK && !isnan(with->rtol) ? 0.1 * with->rtol : 0.0;
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
   assert_true(j.error[1] <= MOST_ERROR * j.error[0] + by_chance + ROUNDING);

@@ -20,10 +20,11 @@
 
 enum { BREAKS = 3 };
 
-/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
- * step apart. */
+/* The break times [s]. The first is a multiple of STEP, and the other two are not. The last two are
+ * less than a step apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
-/* [N m]; the moment of inertia about the pin is 1 kg m^2. */
+/* [N m] the torque before, between and after the breaks. The moment of inertia about the pin is 1
+ * kg m^2. */
 static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
@@ -117,7 +118,7 @@ static baum_counters counters_of(baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
+ * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a break has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -213,8 +214,8 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Only the torque does work. This work must therefore equal the kinetic energy. If a step crossed a
- * jump of the torque, the two would differ. */
+/* Only the torque does work, so its work must equal the kinetic energy. If a step crossed a jump of
+ * the torque, the work and the energy would differ. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -241,8 +242,8 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A law (s, s', s''). Its velocity jumps at the first break, and its acceleration jumps at the
- * second break. */
+/* A law of motion (s, s', s'') for the driver. Its velocity jumps at the first break, and its
+ * acceleration jumps at the second break. */
 static int kinked(double t, double s[3], void *user)
 {
   (void)user;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the errors that two studies of the same mechanism compute. One study computes its own
- * references, and the other uses the references stored in the catalogue. This test covers some
- * mechanisms. bench_catalog covers the whole catalogue. */
+ * references, and the other uses the references stored in the catalogue. This test covers only some
+ * mechanisms; bench_catalog covers the whole catalogue. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

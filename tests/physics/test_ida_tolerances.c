@@ -21,9 +21,9 @@ static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
 /* The largest allowed values of the final error divided by rtol, for each of FORMULATIONS. Lengths
  * are in m, and angles in rad. Driven mechanisms have no degrees of freedom, so stabilization
  * corrects their errors. In free mechanisms, errors grow during two revolutions or a swing. At
- * index 3 the error test omits velocities. In the order of FORMULATIONS, the values measured were
- * 0.7, 460, 0.1, 0.04, 13 (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits are four to
- * ten times as large, because the results change with rounding. */
+ * index 3 the error test omits velocities. In the order of FORMULATIONS, the measured values were
+ * 0.7, 460, 0.1, 0.04 and 13 for driven mechanisms, and 760, 800, 1.2e5, 3.1e3 and 1.8e3 for free
+ * ones. The limits are four to ten times as large, because the results change with rounding. */
 static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {5.0, 3e3, 1.0, 0.4, 1e2};
 static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e3, 5e3, 5e5, 2e4, 1e4};
 /* Errors are only judged if rtol >= 10^-TIGHTEST_JUDGED. At tighter tolerances, the errors also
@@ -70,8 +70,8 @@ static double largest_difference(const end *one, const end *other)
   return largest;
 }
 
-/* Sums over all initial configurations of a mechanism. There is one such struct for each
- * formulation and each rtol = 10^-k. */
+/* Results of the runs from all initial configurations of a mechanism. There is one such struct for
+ * each formulation and each rtol = 10^-k. */
 typedef struct tally {
   int runs;
   int64_t steps;

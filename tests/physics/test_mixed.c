@@ -123,8 +123,8 @@ static void add_bob(assembly *s, baum_body_id on, const double at[2], bool rigid
               : baum_mechanism_add_spatial_spherical(s->mechanism, &ball, &s->ball));
 }
 
-/* Makes the mechanism with a planar slider-crank, or with one of spatial bodies. If `driven` is
- * true, a driver moves the crank and the bob is welded to the rod. */
+/* Makes the mechanism. The bodies of its slider-crank are planar or spatial. If `driven` is true, a
+ * driver moves the crank and the bob is welded to the rod. */
 static assembly make(bool spatial, bool driven)
 {
   static const double crank = 0.3;
@@ -211,9 +211,9 @@ static double compare(const baum_simulation_options *options, const outcome *exa
   return apart(NUMBERS, mixed.places, spatial.places);
 }
 
-/* Projection and implicit methods keep both models on the same constraints. Their results therefore
- * differ only because the formulas for rotations differ. In other formulations the two models drift
- * apart. */
+/* With projection and with implicit methods, both models stay on the same constraints. Their
+ * results therefore differ only because the formulas for rotations differ. With other formulations,
+ * each model drifts off the constraints in a different way. */
 static void planar_links_move_as_spatial_ones(void **state)
 {
   (void)state;
@@ -335,7 +335,7 @@ static void add_distance(baum_mechanism *m, baum_body_id a, baum_body_id b)
 
 typedef void add_fn(baum_mechanism *m, baum_body_id a, baum_body_id b);
 
-/* The first two of these joints can be on particles. */
+/* The first two joints of this list can be on particles. */
 static add_fn *const KINDS[] = {
   add_spherical,   add_distance,          add_revolute,      add_universal,
   add_cylindrical, add_prismatic,         add_planar,        add_fixed,

@@ -27,7 +27,7 @@ static const double ANGLE = 0.7;
 
 typedef enum again {
   PIN_ASIDE, /* a pin whose two points are moved along the rod; it locks crank and rod */
-  PIN_APART, /* a pin of which only one point is moved; it contradicts the crank pin */
+  PIN_APART, /* a pin with only one of its two points moved; it contradicts the crank pin */
   /* a pin near the pin "foot" to ground, whose two points are moved; it locks the crank */
   FOOT_ASIDE,
   GUIDE_TURNED,
@@ -165,8 +165,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations. It is divided by the largest acceleration that occurs,
- * either with the constraints or without them. */
+/* Returns the error of the accelerations, divided by the largest acceleration. For the latter,
+ * accelerations without constraints also count. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -195,8 +195,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
 
 /* Returns the largest allowed error. At the start of a run, the library tolerates a relative
  * violation of Phi' of up to 1e-6 without a message (the constant OPEN in src/simulate/start.c).
- * Accelerations depend on the squares of velocities. Their relative error may therefore be more
- * than twice this violation. */
+ * Accelerations depend on the squares of velocities. The relative error of accelerations may
+ * therefore be more than twice this violation. */
 static double allowed(double rate)
 {
   /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by an angle of 1e-10,

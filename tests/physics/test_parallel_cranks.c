@@ -46,8 +46,8 @@ static void fall(const double x[2], double dx[2])
   dx[1] = -weight * cos(x[0]) / inertia;
 }
 
-/* Returns the angle after the time `span`. It is computed by the classical Runge-Kutta method with
- * steps of 1e-4 s. The result is accurate to 1e-13. */
+/* Returns the angle after the time `span`, computed by the classical Runge-Kutta method with steps
+ * of 1e-4 s. It is accurate to 1e-13. */
 static double swing(double span)
 {
   double x[2] = {ANGLE, RATE};
@@ -82,10 +82,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
 }
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
- * judged. Other fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and
- * rounding errors. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the
- * omitted rows change, and have errors of about 1e4 rtol. The errors of other methods are about 10
- * rtol. */
+ * judged. The errors of other fixed-step methods are the sum of (omega h)^p, which grows with the
+ * number of revolutions, and rounding errors. With variable steps the limit is 1e5 rtol. BDF and
+ * IDA restart whenever the omitted rows change, and have errors of about 1e4 rtol. The errors of
+ * other methods are about 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -156,7 +156,8 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* One crank is on a body that is welded to ground. All rows that fix this body must be kept. */
+/* The pin of one crank is on a body that is welded to ground. No row of the weld may be omitted,
+ * because the weld alone fixes this body. */
 static void a_fixed_body_stays_out_of_the_motion(void **state)
 {
   (void)state;
@@ -165,8 +166,8 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
   model_destroy(&m);
 }
 
-/* Takes states of another run at times up to 0.8 s, sets them in this run, and continues from each
- * for 0.2 s. In these states, the rows that this run chose at its own start may be nearly
+/* Takes states of one run at times up to 0.8 s, sets them in a second run, and continues from each
+ * for 0.2 s. In these states, the rows that the second run chose when it was created may be nearly
  * dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {

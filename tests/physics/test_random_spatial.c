@@ -57,8 +57,8 @@ static void contradictions_that_rounding_hides_are_refused(void **state)
   check_refused(seeds, 5);
 }
 
-/* In these design configurations, no acceleration satisfies all rows. Those that satisfy the kept
- * rows contradict the omitted rows. */
+/* In these design configurations, no acceleration satisfies all rows. Every acceleration that
+ * satisfies the other rows contradicts the omitted rows. */
 static void contradictions_of_omitted_rows_are_refused(void **state)
 {
   static const uint64_t seeds[] = {2161, 7114, 7849, 8244};

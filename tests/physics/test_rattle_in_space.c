@@ -20,9 +20,9 @@
 
 /* ---- mechanisms ---- */
 
-/* [rad/s] Angular velocity of the precession of the gyroscope below. The axis of this gyroscope is
- * horizontal, so that the precession is m g a / (I w). Its mass m, arm a, axial moment of inertia I
- * and spin w are the numbers below. */
+/* [rad/s] Angular velocity with which the gyroscope of build_gyroscope() precesses. Its axis is
+ * horizontal, so that this angular velocity is m g a / (I w), with the mass m = 2 kg, the arm a =
+ * 0.1 m, the axial moment of inertia I = 0.02 kg m^2 and the spin w = 300 rad/s. */
 static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 
 /* A heavy top on a spherical joint at the origin. */
@@ -115,7 +115,7 @@ static double error_at(build_fn *build, int nq, const double *want, double step)
   check(baum_simulation_advance_to(run, 0.5));
   double error = apart(baum_simulation_q(run), want, nq);
   baum_counters c = counters_of(run);
-  /* The tolerances are rounding errors of coordinates below 1 m, and of velocities below 20
+  /* The limits allow for rounding errors of coordinates below 1 m, and of velocities below 20
    * rad/s. */
   assert_true(c.max_phi <= 4e-15);
   assert_true(c.max_phi_rate <= 2e-13);
@@ -186,8 +186,8 @@ typedef struct variation {
   double m[3];
 } variation;
 
-/* Returns the symplectic form of two variations: eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x
- * eta_2). */
+/* Returns the symplectic form of two variations, eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x eta_2).
+ * Here m is the angular momentum of the state that is varied. */
 static double form_of(const double m[3], const variation *a, const variation *b)
 {
   double turned[3];
@@ -199,7 +199,7 @@ static double form_of(const double m[3], const variation *a, const variation *b)
   return sum;
 }
 
-/* Computes the angular momentum about the joint. It is in body axes. */
+/* Computes the angular momentum about the joint, in body axes. */
 static void momentum_of(const double w[3], double out[3])
 {
   static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
@@ -386,8 +386,8 @@ static void expect_same_end(build_fn *build, baum_solver solver, const double *w
   assert_true(apart(got, want, SPATIAL_RSSR_NQ) <= 1e-11);
 }
 
-/* All results may differ only by rounding. The four-bar with parallel axes has three redundant
- * rows. */
+/* Another solver, redundant rows or fixed bodies may change the results only by rounding. The
+ * four-bar with parallel axes has three redundant rows. */
 static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
   (void)state;
@@ -401,8 +401,8 @@ static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   expect_same_end(spatial_build_four_bar, BAUM_SOLVER_KLU, want);
 }
 
-/* Makes the top and a free ball, which has no gyroscopic moment. Neither of them may affect the
- * other. */
+/* Makes the top and a free ball, which has no gyroscopic moment. Neither body may affect the motion
+ * of the other. */
 static void build_top_and_ball(baum_mechanism *m)
 {
   baum_spatial_body_def ball = other_body();

@@ -29,8 +29,9 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* Checks that the reaction is the weight of the heavy body, 9.81 N, and the moment of this weight
- * about the joint. The joint is 0.4 m beside the centre of this body. */
+/* Checks that the reaction of the joint balances the weight of the heavy body, 9.81 N, and its
+ * moment about the joint. The joint is at a horizontal distance of 0.4 m from the centre of this
+ * body. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);

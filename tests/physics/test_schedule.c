@@ -18,10 +18,10 @@
 
 enum { JUMPS = 3 };
 
-/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
- * step apart. */
+/* The times of the jumps [s]. The first is a multiple of STEP, and the other two are not. The last
+ * two are less than a step apart. */
 static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
-/* [N m]; the moment of inertia is 1 kg m^2. */
+/* [N m] the torque before, between and after the jumps. The moment of inertia is 1 kg m^2. */
 static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
@@ -29,7 +29,7 @@ static const double RTOL = 1e-8;
 typedef struct disc {
   baum_mechanism *mechanism;
   baum_joint_id pin;
-  baum_joint_id motor; /* there is none if the disc is free */
+  baum_joint_id motor; /* not set if the disc has no motor */
   baum_input_id torque;
   baum_input_id other; /* a torque in the opposite direction; its initial value is 0 */
 } disc;
@@ -132,7 +132,7 @@ static double error_now(const baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
+ * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a jump has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -310,8 +310,8 @@ static void the_account_closes_over_jumps(void **state)
 
 /* ---- the driven disc ---- */
 
-/* A motor drives the disc. The torque therefore does not change the motion, but the effort of the
- * motor must balance it. */
+/* A motor prescribes the motion of the disc. The torque therefore does not change the motion, but
+ * the effort of the motor must balance the torque. */
 static void kinematics_give_the_effort_for_the_input_at_that_time(void **state)
 {
   (void)state;
@@ -374,8 +374,8 @@ static void another_method_takes_the_schedule_over(void **state)
   }
 }
 
-/* After it was saved, the run gets another schedule. Restoring the run must bring the first
- * schedule back. */
+/* A run is saved, and then gets another schedule. Restoring the run must bring the first schedule
+ * back. */
 static void restoring_brings_the_schedule_back(void **state)
 {
   (void)state;
@@ -428,7 +428,7 @@ static void setting_an_input_ends_its_schedule(void **state)
   close_all(run, &d);
 }
 
-/* If a scheduled value equals the one before it, there is no jump and no restart. */
+/* If a scheduled value equals the value before it, there is no jump and no restart. */
 static void equal_successive_values_are_no_jump(void **state)
 {
   (void)state;

@@ -12,13 +12,14 @@
 
 #include "models.h"
 
-/* The largest allowed number of accepted and rejected steps together. A run leaves the
- * configuration in a few steps, or it ends after 10 attempts without success. The largest number
- * that was measured is 34. It depends on rounding. A run that did not make progress would need more
- * than a hundred thousand steps. */
+/* The largest allowed number of accepted and rejected steps together. A run leaves the singular
+ * configuration in a few steps, or it ends after 10 unsuccessful attempts. The largest number that
+ * was measured is 34. It depends on rounding. A run that did not make progress would need more than
+ * a hundred thousand steps. */
 enum { MOST_TRIES = 1000 };
 
-static const double END = 0.3; /* [s] almost 1 rad at 3 rad/s */
+/* [s] the cranks start with 3 rad/s and rotate by almost 1 rad until then */
+static const double END = 0.3;
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
@@ -62,8 +63,8 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* On another branch, the angles would differ by radians. At the loosest tolerance, dp5 has an
-       * error of 2e-5. */
+      /* On another branch, the angles would differ by radians. The largest error, 2e-5 rad, is that
+       * of dp5 at the loosest tolerance. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
     baum_simulation_destroy(run);

@@ -47,8 +47,8 @@ static void results_do_not_depend_on_the_unit_of_length(void **state)
     slender_verdict verdicts[2] = {SLENDER_RIGHT, SLENDER_RIGHT};
     slender_judge(seed, 1.0, &tally, &verdicts[0]);
     slender_judge(seed, 1000.0, &tally, &verdicts[1]);
-    /* An error near the limit may count as right in one unit and as explained by rounding in the
-     * other. */
+    /* If an error is near the limit, the verdict may be "right" in one unit and "explained by
+     * rounding" in the other. This is not counted as a difference. */
     differ += (verdicts[0] > SLENDER_ROUNDED) != (verdicts[1] > SLENDER_ROUNDED) ? 1 : 0;
   }
   assert_int_equal(differ, 0);

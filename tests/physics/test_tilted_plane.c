@@ -147,8 +147,8 @@ static baum_counters counters_of(const baum_catalog_choice *choice,
 }
 
 /* The rod is longer than the crank by 1e-12. The folded configuration is therefore nearly singular.
- * One step of rk8 passes over it. Near this configuration, other rows are omitted than elsewhere.
- * The crossing must be reported nevertheless. */
+ * One step of rk8 passes over it. Near this configuration, the omitted rows are not the same as
+ * elsewhere. The crossing must be reported nevertheless. */
 static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 {
   (void)state;

@@ -145,7 +145,7 @@ static void variable_steps_are_the_same_within_two_percent(void **state)
     options.rtol = 1e-6;
     pair found = compare_units(k / methods_here, &options);
     print_pair(k / methods_here, &options, &found);
-    /* Rounding may change which steps are chosen. */
+    /* Rounding may change the choice of steps, and therefore their number. */
     double more = fabs((double)(found.steps[1] - found.steps[0]));
     bool same = more <= 0.02 * (double)found.steps[0];
     failures += same && found.apart <= 10.0 * options.rtol ? 0 : 1;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests rows of velocity level, that is, non-holonomic constraints. Chaplygin's sleigh is compared
  * with its closed form, with every integrator and formulation. Further tests cover the stability of
- * the gain of such rows, degrees of freedom, redundancy, work, and save and restore. */
+ * the gain for such rows, degrees of freedom, redundancy, work, and saving and restoring a run. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -260,8 +260,8 @@ static void unstable_gains_are_refused(void **state)
     options = with_alpha(integrator, 1.01 * limit);
     assert_int_equal(baum_simulation_create(m, &options, &run), BAUM_ERR_UNSTABLE);
     assert_non_null(strstr(baum_message(), "violations of velocities grow"));
-    /* A factor of 0.5 for the row does not make the same gain acceptable, because the gain is also
-     * checked without the factor. */
+    /* The same gain must also be refused if the row has a factor of 0.5, because the gain is
+     * checked without this factor, too. */
     const double half[1] = {0.5};
     options.row_gains = half;
     options.row_gain_count = 1;
@@ -346,8 +346,8 @@ static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
 }
 
 /* A guide along the blade makes the row of the blade redundant. The row of the blade must be
- * omitted, although the blade is added first. The reason is that only the guide also constrains
- * positions, so a projection can return the body to the guide only if the guide's row is kept. */
+ * omitted, although the blade is added first. Only the guide constrains positions. A projection can
+ * therefore return the body to the guide only if the row of the guide is not omitted. */
 static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **state)
 {
   (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the parts of the catalogue with each other and with the tables of tests/data, which were
  * computed in another way. References must satisfy the constraints of their mechanisms and agree
- * with the initial states. Runs must agree with the references. Formulas must be as accurate as the
- * catalogue states. */
+ * with the initial states. Runs must agree with the references. References that are given by
+ * formulas must be as accurate as the catalogue states. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -95,7 +95,7 @@ static double worst_of(const double *x, int count)
   return worst;
 }
 
-/* Computes J v - nu at sample i of the reference. This rate of the constraints must be 0. */
+/* Computes J v - nu, the time derivative of Phi, at sample i of the reference. It must be 0. */
 static void find_rate(const known *k, baum_workspace *workspace, int i, double *rate)
 {
   const double *q = k->q + (size_t)i * (size_t)k->nq;
@@ -131,7 +131,7 @@ static void look_at_constraints(const known *k)
     off_rate = fmax(off_rate, worst_of(rate, k->nc));
   }
   printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
-  /* The limit allows for rounding of coordinates up to 30, and of sums of a few sines and
+  /* The limit allows for rounding of coordinates up to 30 m or rad, and of sums of a few sines and
    * cosines. */
   assert_true(off <= 1e-14);
   assert_true(off_rate <= 1e-14 * fmax(1.0, fast));

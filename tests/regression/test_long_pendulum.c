@@ -91,8 +91,8 @@ static void a_pendulum_is_followed_through_2000_s(void **state)
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   o.integrator = baum_rk8();
   o.rtol = 1e-13;
-  /* The limit is a hundred times the measured error, because rounding on other processors is
-   * different. */
+  /* The limit is a hundred times the measured error, because rounding may be different on other
+   * processors. */
   assert_true(follow(&m, &o) <= 1e-6);
   model_destroy(&m);
 }

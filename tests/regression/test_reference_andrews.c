@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares Andrews' squeezing mechanism with the catalogue's samples. The mechanism is built from
  * user functions of 7 angles, with and without a Jacobian. It is also built from 7 rigid bodies.
- * The samples were computed for this project, and are correct to 15 digits. The published values
- * have only 10. */
+ * The samples were computed for this project, and are correct to 15 digits; the published values
+ * have only 10 digits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

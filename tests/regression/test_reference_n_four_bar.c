@@ -19,8 +19,8 @@ static double larger(double a, double b)
   return isnan(b) || b > a ? b : a;
 }
 
-/* Computes the angle of the first crank. Also computes by how much the coordinates differ at most
- * from those of parallel cranks at this angle. */
+/* Computes the angle of the first crank. Also computes the largest difference between the
+ * coordinates and those of parallel cranks at this angle. */
 static void angle_and_departure(const double *q, double *out)
 {
   double c = cos(q[2]);
@@ -41,7 +41,7 @@ static void angle_and_departure(const double *q, double *out)
 }
 
 /* The last sample is 5e-6 rad before the flat configuration. In the flat configuration itself J
- * loses rank, so that the accuracy there would be accidental. */
+ * loses rank, so that the errors there would depend on chance. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -50,7 +50,8 @@ static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .lengths = "rr",
                                   .columns = angle_and_departure};
 
-/* Returns the largest angle between two cranks, at a hundred times. */
+/* Runs for the time `end`, and reads the state at a hundred times. Returns the largest angle
+ * between two cranks. */
 static double apart_after(const model *m, int loops, double rtol, double end)
 {
   baum_simulation_options options = ggl_options();

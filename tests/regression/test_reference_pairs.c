@@ -64,7 +64,8 @@ static baum_status build_chain(model *m)
   }
 
 /* A problem, and the errors that are allowed for dp5 and for rk8. The limits for the pendulum and
- * the chain are larger. Their motions are long, and errors of 1e-12 in each step add up or grow. */
+ * the chain are larger, because their motions are long, and errors of 1e-12 in each step add up or
+ * grow. */
 typedef struct problem {
   reference with;
   baum_status (*build)(model *m);

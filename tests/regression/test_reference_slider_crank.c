@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the eccentric slider-crank, with and without a driver, with references that are correct
  * to 16 digits. Without a driver, the crank makes about five revolutions, and errors of its speed
- * add up to errors of its angle. It therefore needs tighter tolerances than with a driver. */
+ * add up to errors of its angle. Runs without a driver therefore need tighter tolerances. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,8 +35,8 @@ static const reference REFERENCES[2] = {
    .lengths = COLUMNS},
 };
 
-/* The samples for the crank with a driver are a table of tests/data. Those for the crank without a
- * driver come from the catalogue. */
+/* The samples for the crank with a driver are a table of tests/data. The samples for the crank
+ * without a driver come from the catalogue. */
 static void read_sample(bool driven, int i, double *q, double *v)
 {
   const baum_catalog_choice choice = {.name = "slider_crank_eccentric"};

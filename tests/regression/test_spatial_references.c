@@ -82,7 +82,7 @@ static void references_are_met(void **state)
 #endif
 }
 
-/* The governors are omitted, because they have dampers, which RATTLE refuses. */
+/* The two governors are not run, because they have dampers, which RATTLE refuses. */
 static void rattle_meets_them_with_its_order(void **state)
 {
   (void)state;
