@@ -152,7 +152,8 @@ static void print_head(void)
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
-/* Destroys the solvers. Returns false if there is no solver, a solver failed, or they disagree. */
+/* Destroys the solvers. Returns false if there is no solver, if a solver failed, or if their
+ * accelerations differ. */
 static bool finish_all(const measured *all, int count)
 {
   bool fine = count > 0;

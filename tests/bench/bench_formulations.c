@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares formulations. For the same tolerances or steps, the program prints their errors,
- * violations, steps and evaluations.
+/* Compares formulations. For each formulation, the program prints errors, violations, steps and
+ * evaluations at the same tolerances or steps.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *

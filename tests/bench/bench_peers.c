@@ -15,7 +15,7 @@
  * with compiled right-hand sides, and a hand-written RK4.
  *
  * For spatial problems, the errors include all positions at the end, compared with the references
- * of the catalogue. For all programs, a run counts in the column of an error if its error is at
+ * of the catalogue. For all programs, a run is considered to reach a given error if its error is at
  * most 10 % larger. The other programs are Pinocchio with RK4 and Baumgarte stabilization, MuJoCo
  * with RK4, and Exudyn with generalized-alpha.
  *
@@ -41,7 +41,7 @@ static const double LONGEST = 0.2;
 typedef struct peer {
   const char *entry;
   const char *what;
-  /* A parameter that has another value than its default, if there is one. */
+  /* One parameter whose value differs from its default, if there is one. */
   baum_catalog_setting setting;
   double span;          /* [s] */
   const double *target; /* (TARGETS) errors */

@@ -80,7 +80,8 @@ typedef struct model_slider_crank {
   double angle;    /* [rad] of the crank at the start */
   double rod;      /* [m] length of the rod, or 0 for the length in the paper */
   double rod_mass; /* [kg] mass of the rod, or 0 for the mass in the paper */
-  /* Number of frame bodies between the ground and the crank. Each is welded to the one before. */
+  /* Number of frame bodies between the ground and the crank. Each frame is welded to the frame
+   * before it. */
   int frames;
   const model_units *units; /* NULL for SI units */
 } model_slider_crank;

@@ -168,7 +168,7 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   unpose(&p);
 }
 
-static void the_oracle_reads_the_same_system_in_both_ways(void **state)
+static void both_oracles_give_the_same_solution(void **state)
 {
   (void)state;
   uint64_t seed = 4;
@@ -235,7 +235,7 @@ static errors measure_flat(double gap)
   return measure(&p);
 }
 
-static void near_singular_configurations_keep_what_their_condition_allows(void **state)
+static void near_singular_configurations_keep_the_digits_that_refinement_allows(void **state)
 {
   (void)state;
   table t = {0};
@@ -326,9 +326,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_oracle_finds_the_motion_of_the_n_four_bar),
-    cmocka_unit_test(the_oracle_reads_the_same_system_in_both_ways),
+    cmocka_unit_test(both_oracles_give_the_same_solution),
     cmocka_unit_test(ordinary_configurations_keep_twelve_digits),
-    cmocka_unit_test(near_singular_configurations_keep_what_their_condition_allows),
+    cmocka_unit_test(near_singular_configurations_keep_the_digits_that_refinement_allows),
     cmocka_unit_test(uneven_masses_keep_ten_digits),
     cmocka_unit_test(a_chain_of_100000_links_keeps_ten_digits_of_a),
   };

@@ -170,7 +170,7 @@ static outcome find_reference(const joint_scene *scene)
   return out;
 }
 
-static void every_method_carries_every_joint(void **state)
+static void every_method_reproduces_the_motion_of_every_joint(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -263,7 +263,7 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
 
 /* Without degrees of freedom, the equation Phi = 0 alone determines the positions. A run with the
  * kinematics integrator may therefore differ from a run with projection only by rounding. */
-static void kinematics_carries_every_joint(void **state)
+static void kinematics_agrees_with_projection_for_every_joint(void **state)
 {
   (void)state;
   int tried = 0;
@@ -391,7 +391,7 @@ static void check_balance(const joint_scene *scene, double t)
   close_balance(&b);
 }
 
-static void reactions_explain_the_motion_and_do_no_work(void **state)
+static void reactions_satisfy_the_equations_of_motion_and_do_no_work(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -404,9 +404,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_have_their_degrees_of_freedom_and_move_far),
-    cmocka_unit_test(every_method_carries_every_joint),
-    cmocka_unit_test(kinematics_carries_every_joint),
-    cmocka_unit_test(reactions_explain_the_motion_and_do_no_work),
+    cmocka_unit_test(every_method_reproduces_the_motion_of_every_joint),
+    cmocka_unit_test(kinematics_agrees_with_projection_for_every_joint),
+    cmocka_unit_test(reactions_satisfy_the_equations_of_motion_and_do_no_work),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -117,25 +117,25 @@ static void return_on_both(const baum_integrator *integrator, double step, doubl
   assert_returns(DRIVEN_CRANK, &with);
 }
 
-static void explicit_euler_finds_its_start_again(void **state)
+static void explicit_euler_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_euler(), 5e-6, (double)NAN);
 }
 
-static void semi_implicit_euler_finds_its_start_again(void **state)
+static void semi_implicit_euler_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_semi_implicit_euler(), 5e-6, (double)NAN);
 }
 
-static void rk4_finds_its_start_again(void **state)
+static void rk4_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_rk4(), 5e-5, (double)NAN);
 }
 
-static void pairs_find_their_start_again(void **state)
+static void runge_kutta_pairs_return_to_their_start(void **state)
 {
   (void)state;
   const baum_integrator *const pairs[] = {baum_dp5(), baum_rk8()};
@@ -145,28 +145,28 @@ static void pairs_find_their_start_again(void **state)
   }
 }
 
-static void adams_finds_its_start_again(void **state)
+static void adams_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_cvode_adams(), (double)NAN, 1e-8);
 }
 
-static void bdf_finds_its_start_again(void **state)
+static void bdf_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_cvode_bdf(), (double)NAN, 1e-8);
 }
 
-static void ida_finds_its_start_again(void **state)
+static void ida_at_index_1_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_ida(), (double)NAN, 1e-8);
 }
 
-static void ida_with_the_constraints_themselves_finds_its_start_again(void **state)
+static void ida_with_ggl_and_at_index_2_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
@@ -181,14 +181,14 @@ static void ida_with_the_constraints_themselves_finds_its_start_again(void **sta
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(explicit_euler_finds_its_start_again),
-    cmocka_unit_test(semi_implicit_euler_finds_its_start_again),
-    cmocka_unit_test(rk4_finds_its_start_again),
-    cmocka_unit_test(pairs_find_their_start_again),
-    cmocka_unit_test(adams_finds_its_start_again),
-    cmocka_unit_test(bdf_finds_its_start_again),
-    cmocka_unit_test(ida_finds_its_start_again),
-    cmocka_unit_test(ida_with_the_constraints_themselves_finds_its_start_again),
+    cmocka_unit_test(explicit_euler_returns_to_its_start),
+    cmocka_unit_test(semi_implicit_euler_returns_to_its_start),
+    cmocka_unit_test(rk4_returns_to_its_start),
+    cmocka_unit_test(runge_kutta_pairs_return_to_their_start),
+    cmocka_unit_test(adams_returns_to_its_start),
+    cmocka_unit_test(bdf_returns_to_its_start),
+    cmocka_unit_test(ida_at_index_1_returns_to_its_start),
+    cmocka_unit_test(ida_with_ggl_and_at_index_2_returns_to_its_start),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -132,7 +132,7 @@ static double allowed(step_mode mode)
   return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
 }
 
-static void motions_are_those_between_the_breaks(void **state)
+static void declared_breaks_keep_motions_accurate(void **state)
 {
   (void)state;
   baum_mechanism *declared = make(true);
@@ -164,7 +164,7 @@ static void motions_are_those_between_the_breaks(void **state)
 }
 
 /* Runs forward and backward through all breaks, with an output at each of them. */
-static void breaks_are_met_forward_and_backward(void **state)
+static void breaks_are_crossed_accurately_forward_and_backward(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -185,7 +185,7 @@ static void breaks_are_met_forward_and_backward(void **state)
 }
 
 /* Outputs must not change the motion, even if they are at breaks. */
-static void outputs_change_nothing(void **state)
+static void outputs_at_breaks_do_not_change_the_motion(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -216,7 +216,7 @@ static void outputs_change_nothing(void **state)
 
 /* Only the torque does work, so its work must equal the kinetic energy. If a step crossed a jump of
  * the torque, the work and the energy would differ. */
-static void the_account_closes_over_breaks(void **state)
+static void the_work_over_breaks_equals_the_energy(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -255,7 +255,7 @@ static int kinked(double t, double s[3], void *user)
   return 0;
 }
 
-static void kinematics_pass_breaks_in_both_directions(void **state)
+static void kinematics_crosses_breaks_in_both_directions(void **state)
 {
   (void)state;
   static const double targets[] = {0.3, 0.499999, 0.5, 0.7, 1.2345, 2.0, 1.2345, 1.234, 0.5, 0.4};
@@ -298,7 +298,7 @@ static void kinematics_pass_breaks_in_both_directions(void **state)
 }
 
 /* Breaks are treated as one if they are closer to each other than the shortest step. */
-static void breaks_next_to_each_other_are_one(void **state)
+static void breaks_closer_than_the_shortest_step_are_merged(void **state)
 {
   (void)state;
   const double near[4] = {0.5, 0.5 * (1.0 + 1e-15), 0.5 * (1.0 + 4e-15), 0.5 * (1.0 + 1e-14)};
@@ -320,7 +320,7 @@ static void breaks_next_to_each_other_are_one(void **state)
   baum_mechanism_destroy(single);
 }
 
-static void lists_are_checked_sorted_and_copied(void **state)
+static void break_times_are_checked_sorted_and_copied(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -347,13 +347,13 @@ static void lists_are_checked_sorted_and_copied(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(motions_are_those_between_the_breaks),
-    cmocka_unit_test(breaks_are_met_forward_and_backward),
-    cmocka_unit_test(outputs_change_nothing),
-    cmocka_unit_test(the_account_closes_over_breaks),
-    cmocka_unit_test(kinematics_pass_breaks_in_both_directions),
-    cmocka_unit_test(breaks_next_to_each_other_are_one),
-    cmocka_unit_test(lists_are_checked_sorted_and_copied),
+    cmocka_unit_test(declared_breaks_keep_motions_accurate),
+    cmocka_unit_test(breaks_are_crossed_accurately_forward_and_backward),
+    cmocka_unit_test(outputs_at_breaks_do_not_change_the_motion),
+    cmocka_unit_test(the_work_over_breaks_equals_the_energy),
+    cmocka_unit_test(kinematics_crosses_breaks_in_both_directions),
+    cmocka_unit_test(breaks_closer_than_the_shortest_step_are_merged),
+    cmocka_unit_test(break_times_are_checked_sorted_and_copied),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

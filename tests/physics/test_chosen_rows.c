@@ -141,7 +141,7 @@ static void *save(baum_simulation *run, size_t *size)
 
 /* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
  * must replace its choice by that of the saved run. */
-static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
+static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
 {
   (void)state;
   baum_mechanism *m = locked_pair_make(RATE, false);
@@ -184,7 +184,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(bars_locked_by_two_pins_rotate_as_if_welded),
     cmocka_unit_test(index_3_methods_make_several_revolutions),
-    cmocka_unit_test(a_restored_run_has_the_rows_of_the_saved_one),
+    cmocka_unit_test(a_restored_run_omits_the_same_rows_as_the_saved_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

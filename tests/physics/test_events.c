@@ -141,7 +141,7 @@ static double bounce_ten_times(step_mode mode, double sign)
   return worst;
 }
 
-static void pendulum_bounces_at_a_stop(void **state)
+static void a_pendulum_bounces_at_a_stop(void **state)
 {
   (void)state;
   printf("\n%-22s %12s %12s %12s\n", "ten bounces", "forward", "backward", "allowed");
@@ -178,7 +178,7 @@ static void check_records(const baum_simulation *run, const swing *s, step_mode 
   }
 }
 
-static void directions_are_those_of_time(void **state)
+static void directions_of_crossings_refer_to_increasing_time(void **state)
 {
   (void)state;
   static const expected forward[] = {{1, 0, -1}, {1, 2, -1}, {2, 3, 1}, {3, 0, 1}, {3, 1, 1},
@@ -255,7 +255,7 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 
 /* The times of the two events differ only by rounding. With IDA they differ by up to 5e-13 s,
  * because of its iteration. The tolerance of events must treat them as simultaneous. */
-static void two_bodies_at_their_stops_are_one_stop(void **state)
+static void simultaneous_terminal_events_stop_the_run_once(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -340,7 +340,7 @@ static bool is_there(baum_status status, step_mode mode)
   return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
 }
 
-static void zero_at_the_start_is_left_and_met_again(void **state)
+static void a_zero_at_the_start_is_only_reported_when_it_recurs(void **state)
 {
   (void)state;
   static const expected want[] = {{2, 0, 1}, {4, 0, -1}};
@@ -365,7 +365,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
 
 /* A run stops at an event, and then continues backward in time. It must not report the event
  * again. */
-static void reversing_at_an_event_finds_it_once(void **state)
+static void reversing_at_an_event_does_not_report_it_again(void **state)
 {
   (void)state;
   static const expected want[] = {{1, 0, -1}, {-1, 0, 1}};
@@ -471,13 +471,13 @@ static void no_event_is_lost_in_random_cases(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pendulum_bounces_at_a_stop),
-    cmocka_unit_test(directions_are_those_of_time),
+    cmocka_unit_test(a_pendulum_bounces_at_a_stop),
+    cmocka_unit_test(directions_of_crossings_refer_to_increasing_time),
     cmocka_unit_test(simultaneous_events_are_all_reported),
-    cmocka_unit_test(two_bodies_at_their_stops_are_one_stop),
+    cmocka_unit_test(simultaneous_terminal_events_stop_the_run_once),
     cmocka_unit_test(an_event_at_the_time_of_an_output_is_found_and_sampled),
-    cmocka_unit_test(zero_at_the_start_is_left_and_met_again),
-    cmocka_unit_test(reversing_at_an_event_finds_it_once),
+    cmocka_unit_test(a_zero_at_the_start_is_only_reported_when_it_recurs),
+    cmocka_unit_test(reversing_at_an_event_does_not_report_it_again),
     cmocka_unit_test(no_event_is_lost_in_random_cases),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

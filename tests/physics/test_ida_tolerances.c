@@ -149,7 +149,7 @@ static void turn(table *out, bool driven, int poses)
   judge(out);
 }
 
-static void a_driven_crank_turns_from_everywhere(void **state)
+static void a_driven_crank_runs_from_all_angles_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -157,7 +157,7 @@ static void a_driven_crank_turns_from_everywhere(void **state)
   turn(&out, true, 40);
 }
 
-static void a_free_crank_turns_from_everywhere(void **state)
+static void a_free_crank_runs_from_all_angles_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -176,7 +176,7 @@ static void move(const char *name, baum_status built, model *m, double t)
   judge(&out);
 }
 
-static void andrews_mechanism_moves_at_all_tolerances(void **state)
+static void andrews_mechanism_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -184,7 +184,7 @@ static void andrews_mechanism_moves_at_all_tolerances(void **state)
   move("Andrews", model_andrews_bodies(&m), &m, 0.03);
 }
 
-static void a_four_bar_moves_at_all_tolerances(void **state)
+static void a_four_bar_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -192,7 +192,7 @@ static void a_four_bar_moves_at_all_tolerances(void **state)
   move("four-bar", model_four_bar(&m), &m, 2.0);
 }
 
-static void a_chain_moves_at_all_tolerances(void **state)
+static void a_chain_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -203,11 +203,11 @@ static void a_chain_moves_at_all_tolerances(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_driven_crank_turns_from_everywhere),
-    cmocka_unit_test(a_free_crank_turns_from_everywhere),
-    cmocka_unit_test(andrews_mechanism_moves_at_all_tolerances),
-    cmocka_unit_test(a_four_bar_moves_at_all_tolerances),
-    cmocka_unit_test(a_chain_moves_at_all_tolerances),
+    cmocka_unit_test(a_driven_crank_runs_from_all_angles_at_all_tolerances),
+    cmocka_unit_test(a_free_crank_runs_from_all_angles_at_all_tolerances),
+    cmocka_unit_test(andrews_mechanism_runs_at_all_tolerances),
+    cmocka_unit_test(a_four_bar_runs_at_all_tolerances),
+    cmocka_unit_test(a_chain_runs_at_all_tolerances),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

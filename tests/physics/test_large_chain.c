@@ -100,7 +100,7 @@ static void freezing_and_starting_a_run_take_linear_time(void **state)
 
 /* In a straight horizontal chain, the rounding errors of all joints add up at the last links.
  * Projection must work in spite of this. */
-static void a_straight_chain_is_projected(void **state)
+static void projection_works_for_a_straight_chain(void **state)
 {
   (void)state;
   model m;
@@ -216,7 +216,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(freezing_and_starting_a_run_take_linear_time),
-    cmocka_unit_test(a_straight_chain_is_projected),
+    cmocka_unit_test(projection_works_for_a_straight_chain),
     cmocka_unit_test(degrees_of_freedom_are_counted),
     cmocka_unit_test(every_link_obeys_newton_and_euler),
   };

@@ -100,7 +100,7 @@ static void observe_all(const char *name)
   }
 }
 
-static void turned_bodies_keep_the_order(void **state)
+static void bodies_with_cosine_and_sine_keep_the_order(void **state)
 {
   (void)state;
   observe_all("slider-crank");
@@ -117,7 +117,7 @@ static void tops_keep_the_order(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(turned_bodies_keep_the_order),
+    cmocka_unit_test(bodies_with_cosine_and_sine_keep_the_order),
     cmocka_unit_test(tops_keep_the_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -149,7 +149,7 @@ static void try_run(const manifold_scene *scene, const method *with, const void 
   baum_simulation_destroy(run);
 }
 
-static void every_method_carries_every_scene(void **state)
+static void every_method_reproduces_the_motion_of_every_scene(void **state)
 {
   (void)state;
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
@@ -196,7 +196,7 @@ static void try_steps(const manifold_scene *scene, const method *with, const voi
   }
 }
 
-static void methods_that_move_step_as_their_twins(void **state)
+static void steps_along_the_manifold_equal_those_of_the_twin(void **state)
 {
   (void)state;
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
@@ -225,7 +225,7 @@ static double estimate_of(const baum_mechanism *mechanism)
 /* The error estimate of a run measures displacements along the manifold, which are angles in this
  * scene. It does not measure differences of q. It must therefore equal the error estimate of the
  * twin, whose coordinates are angles. */
-static void errors_are_displacements(void **state)
+static void error_estimates_measure_displacements(void **state)
 {
   (void)state;
   const manifold_scene *scene = manifold_scene_find("angle");
@@ -385,7 +385,7 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
 
 /* The residual of the energy account comes from the error of the method. It must be comparable with
  * the residual of the twin, because the representation of q only affects the choice of steps. */
-static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
+static void energy_residuals_are_comparable_with_those_of_the_twin(void **state)
 {
   (void)state;
   static const struct {
@@ -534,12 +534,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_move_far),
-    cmocka_unit_test(every_method_carries_every_scene),
-    cmocka_unit_test(methods_that_move_step_as_their_twins),
-    cmocka_unit_test(errors_are_displacements),
+    cmocka_unit_test(every_method_reproduces_the_motion_of_every_scene),
+    cmocka_unit_test(steps_along_the_manifold_equal_those_of_the_twin),
+    cmocka_unit_test(error_estimates_measure_displacements),
     cmocka_unit_test(runs_are_saved_and_restored),
     cmocka_unit_test(events_are_found),
-    cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),
+    cmocka_unit_test(energy_residuals_are_comparable_with_those_of_the_twin),
     cmocka_unit_test(kinematics_follows_the_driver),
     cmocka_unit_test(singular_configurations_are_crossed),
     cmocka_unit_test(studies_measure_errors),

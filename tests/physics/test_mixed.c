@@ -214,7 +214,7 @@ static double compare(const baum_simulation_options *options, const outcome *exa
 /* With projection and with implicit methods, both models stay on the same constraints. Their
  * results therefore differ only because the formulas for rotations differ. With other formulations,
  * each model drifts off the constraints in a different way. */
-static void planar_links_move_as_spatial_ones(void **state)
+static void planar_links_move_like_spatial_links(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -238,7 +238,7 @@ static void planar_links_move_as_spatial_ones(void **state)
 }
 
 /* Spatial reactions also contain the force normal to the plane and the moments about axes in it. */
-static void reactions_and_energies_are_the_same(void **state)
+static void planar_and_spatial_links_have_the_same_reactions_and_energies(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -253,7 +253,7 @@ static void reactions_and_energies_are_the_same(void **state)
   }
 }
 
-static void kinematics_are_the_same(void **state)
+static void planar_and_spatial_links_have_the_same_kinematics(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -453,9 +453,9 @@ static void equations_hold_for_every_joint(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(planar_links_move_as_spatial_ones),
-    cmocka_unit_test(reactions_and_energies_are_the_same),
-    cmocka_unit_test(kinematics_are_the_same),
+    cmocka_unit_test(planar_links_move_like_spatial_links),
+    cmocka_unit_test(planar_and_spatial_links_have_the_same_reactions_and_energies),
+    cmocka_unit_test(planar_and_spatial_links_have_the_same_kinematics),
     cmocka_unit_test(equations_hold_for_every_joint),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

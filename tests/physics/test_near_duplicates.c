@@ -165,8 +165,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations, divided by the largest acceleration. For the latter,
- * accelerations without constraints also count. */
+/* Returns the error of the accelerations, divided by the largest acceleration that occurs with or
+ * without the constraints. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -199,8 +199,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
  * therefore be more than twice this violation. */
 static double allowed(double rate)
 {
-  /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by an angle of 1e-10,
-   * the accelerations change by about this fraction. */
+  /* Rows that differ by 1e-10 may be treated as the same row. If a guide is rotated by an angle of
+   * 1e-10, the accelerations change by about this fraction. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
@@ -290,7 +290,7 @@ static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m
   return run;
 }
 
-static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(void **state)
+static void velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -318,7 +318,7 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
 /* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors of
  * the size that a projection leaves. The library must treat the rod as being at rest, both with
  * gravity and without. */
-static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
+static void velocities_of_locked_bodies_count_as_rest_if_they_are_rounding(void **state)
 {
   (void)state;
   for (int with_gravity = 0; with_gravity < 2; with_gravity++) {
@@ -347,8 +347,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(nearly_duplicate_joints_are_right_or_refused_by_name),
     cmocka_unit_test(nearly_duplicate_joints_in_motion_are_right_or_refused),
-    cmocka_unit_test(a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused),
-    cmocka_unit_test(velocities_of_rounding_against_a_lock_count_as_rest),
+    cmocka_unit_test(velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large),
+    cmocka_unit_test(velocities_of_locked_bodies_count_as_rest_if_they_are_rounding),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -193,7 +193,7 @@ static void projection_keeps_the_order(void **state)
   compare_all(BAUM_FORMULATION_PROJECTION);
 }
 
-static void index_3_has_its_order(void **state)
+static void index_3_methods_have_their_order(void **state)
 {
   (void)state;
   compare_all(BAUM_FORMULATION_INDEX3);
@@ -205,7 +205,7 @@ int main(void)
     cmocka_unit_test(baumgarte_with_constant_gains_keeps_the_order),
     cmocka_unit_test(no_stabilization_keeps_the_order),
     cmocka_unit_test(projection_keeps_the_order),
-    cmocka_unit_test(index_3_has_its_order),
+    cmocka_unit_test(index_3_methods_have_their_order),
     cmocka_unit_test(orders_5_and_8_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

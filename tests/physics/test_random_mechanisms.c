@@ -74,10 +74,10 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* number of configurations; the next two members are such numbers too */
-  int singular;
-  int projected;
-  int by_blocks; /* number of mechanisms */
+  int solved;    /* number of configurations whose accelerations were computed */
+  int singular;  /* number of singular configurations */
+  int projected; /* number of configurations that were projected */
+  int by_blocks; /* number of mechanisms that the block solver can handle */
 } pair;
 
 static baum_workspace *make_workspace(const baum_mechanism *m, bool blocks)
@@ -199,7 +199,7 @@ static void check_projection(pair *p)
   p->projected++;
 }
 
-static void blocks_agree_with_the_whole_system(void **state)
+static void the_block_solver_agrees_with_the_whole_system(void **state)
 {
   pair *p = *state;
   for (int k = 0; k < KINDS; k++) {
@@ -238,7 +238,7 @@ static void spoil(pair *p, int call)
 
 /* After a failed evaluation, the next evaluation must give exactly the same result as without the
  * failure. */
-static void failed_evaluations_leave_no_trace(void **state)
+static void failed_evaluations_do_not_change_later_results(void **state)
 {
   pair *p = *state;
   const random_kind rows_only = {
@@ -338,7 +338,7 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* Lets random_judge() compare accelerations of random mechanisms with those in quadruple precision.
  * bench_random tests more mechanisms in the same way. */
-static void accelerations_are_met_or_rightly_refused(void **state)
+static void accelerations_are_accurate_or_rightly_refused(void **state)
 {
   pair *p = *state;
   enum { MECHANISMS = 400 };
@@ -364,7 +364,7 @@ static void accelerations_are_met_or_rightly_refused(void **state)
  * leave rows that are nearly dependent. For seeds 10325, 15203, 23760 and 33361, no acceleration
  * satisfies the omitted rows together with the others. For seeds 32478 and 36235, rows contradict
  * each other, and the residual is divided by a pivot that is only a rounding error. */
-static void nearly_dependent_and_contradicting_rows_are_not_silent(void **state)
+static void nearly_dependent_and_contradicting_rows_are_not_silently_wrong(void **state)
 {
   static const uint64_t seeds[] = {39374, 10325, 15203, 23760, 33361, 32478, 36235};
   pair *p = *state;
@@ -397,11 +397,14 @@ static int tear_down(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test_setup_teardown(blocks_agree_with_the_whole_system, set_up, tear_down),
-    cmocka_unit_test_setup_teardown(accelerations_are_met_or_rightly_refused, set_up, tear_down),
-    cmocka_unit_test_setup_teardown(nearly_dependent_and_contradicting_rows_are_not_silent, set_up,
+    cmocka_unit_test_setup_teardown(the_block_solver_agrees_with_the_whole_system, set_up,
                                     tear_down),
-    cmocka_unit_test_setup_teardown(failed_evaluations_leave_no_trace, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(accelerations_are_accurate_or_rightly_refused, set_up,
+                                    tear_down),
+    cmocka_unit_test_setup_teardown(nearly_dependent_and_contradicting_rows_are_not_silently_wrong,
+                                    set_up, tear_down),
+    cmocka_unit_test_setup_teardown(failed_evaluations_do_not_change_later_results, set_up,
+                                    tear_down),
     cmocka_unit_test(loaded_light_bodies_keep_all_digits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
 
 #include "spatial_judge.h"
 
-static void accelerations_and_reactions_are_met(void **state)
+static void accelerations_and_reactions_are_accurate(void **state)
 {
   static random_spatial room;
   (void)state;
@@ -84,7 +84,7 @@ static void couplings_without_effect_are_redundant(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_and_reactions_are_met),
+    cmocka_unit_test(accelerations_and_reactions_are_accurate),
     cmocka_unit_test(contradictions_that_rounding_hides_are_refused),
     cmocka_unit_test(contradictions_of_omitted_rows_are_refused),
     cmocka_unit_test(couplings_without_effect_are_redundant),

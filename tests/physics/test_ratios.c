@@ -204,7 +204,7 @@ static void ratios_are_exact_over_100_revolutions(void **state)
 /* The rows are satisfied at any number of revolutions, but the energy of the spring depends on this
  * number. A workspace must compute the right energy after it has been given the angle of the
  * shaft. */
-static void a_workspace_is_given_the_revolutions(void **state)
+static void a_workspace_uses_the_revolutions_that_it_is_given(void **state)
 {
   (void)state;
   train t = make(AMPLITUDE * frequency());
@@ -347,7 +347,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(ratios_are_exact_over_100_revolutions),
-    cmocka_unit_test(a_workspace_is_given_the_revolutions),
+    cmocka_unit_test(a_workspace_uses_the_revolutions_that_it_is_given),
     cmocka_unit_test(every_method_keeps_the_ratios),
     cmocka_unit_test(rates_are_equal_at_any_angle),
   };

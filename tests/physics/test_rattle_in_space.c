@@ -334,7 +334,7 @@ static void check_band(const char *name, build_fn *build, double step)
   baum_simulation_destroy(run);
 }
 
-static void the_energy_of_long_runs_stays_in_its_band(void **state)
+static void the_energy_error_of_long_runs_is_bounded(void **state)
 {
   (void)state;
   check_band("heavy top", build_top, 5e-3);
@@ -388,7 +388,7 @@ static void expect_same_end(build_fn *build, baum_solver solver, const double *w
 
 /* Another solver, redundant rows or fixed bodies may change the results only by rounding. The
  * four-bar with parallel axes has three redundant rows. */
-static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
+static void solvers_redundant_rows_and_fixed_bodies_do_not_change_results(void **state)
 {
   (void)state;
   double want[SPATIAL_RSSR_NQ];
@@ -415,7 +415,7 @@ static void build_top_and_ball(baum_mechanism *m)
   check(baum_mechanism_add_spatial_body(m, &ball, NULL));
 }
 
-static void bodies_without_gyroscopic_moments_move_as_before(void **state)
+static void bodies_with_and_without_gyroscopic_moments_do_not_interact(void **state)
 {
   (void)state;
   baum_simulation *run = start(build_top_and_ball, baum_rattle(), 2e-3);
@@ -483,7 +483,7 @@ static double residual_at(double step)
   return fabs(account.residual);
 }
 
-static void the_energy_account_closes_with_the_order(void **state)
+static void the_energy_residual_falls_with_the_order(void **state)
 {
   (void)state;
   double residual[2] = {residual_at(2e-3), residual_at(1e-3)};
@@ -497,11 +497,11 @@ int main(void)
     cmocka_unit_test(the_order_is_two_and_constraints_hold_to_rounding),
     cmocka_unit_test(reversed_velocities_lead_back_to_the_start),
     cmocka_unit_test(the_symplectic_form_is_kept),
-    cmocka_unit_test(the_energy_of_long_runs_stays_in_its_band),
-    cmocka_unit_test(solvers_redundant_rows_and_fixed_bodies_alter_nothing),
-    cmocka_unit_test(bodies_without_gyroscopic_moments_move_as_before),
+    cmocka_unit_test(the_energy_error_of_long_runs_is_bounded),
+    cmocka_unit_test(solvers_redundant_rows_and_fixed_bodies_do_not_change_results),
+    cmocka_unit_test(bodies_with_and_without_gyroscopic_moments_do_not_interact),
     cmocka_unit_test(fast_gyroscopes_precess_steadily),
-    cmocka_unit_test(the_energy_account_closes_with_the_order),
+    cmocka_unit_test(the_energy_residual_falls_with_the_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -83,7 +83,7 @@ static double compare_pose(int pair, int k)
   return apart;
 }
 
-static void accelerations_are_those_without_redundant_rows(void **state)
+static void accelerations_equal_those_without_redundant_rows(void **state)
 {
   (void)state;
   double worst_of_all = 0.0;
@@ -101,7 +101,7 @@ static void accelerations_are_those_without_redundant_rows(void **state)
 
 /* The accelerations are compared with a solution in quadruple precision, which omits the same rows
  * as the workspace. */
-static void accelerations_are_those_of_quadruple_precision(void **state)
+static void accelerations_agree_with_quadruple_precision(void **state)
 {
   (void)state;
   for (int pair = 0; pair < PAIR_COUNT; pair++) {
@@ -140,7 +140,7 @@ static double compare_runs(int pair, const baum_simulation_options *options)
   return worst;
 }
 
-static void motions_are_those_without_redundant_rows(void **state)
+static void motions_equal_those_without_redundant_rows(void **state)
 {
   (void)state;
   const baum_integrator *methods[] = {baum_semi_implicit_euler(), baum_rk4()};
@@ -370,9 +370,9 @@ static void a_coupling_of_both_hinges_of_a_door_is_redundant(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_are_those_without_redundant_rows),
-    cmocka_unit_test(accelerations_are_those_of_quadruple_precision),
-    cmocka_unit_test(motions_are_those_without_redundant_rows),
+    cmocka_unit_test(accelerations_equal_those_without_redundant_rows),
+    cmocka_unit_test(accelerations_agree_with_quadruple_precision),
+    cmocka_unit_test(motions_equal_those_without_redundant_rows),
     cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
     cmocka_unit_test(permanent_and_momentary_redundancy_are_distinguished_in_any_unit),
     cmocka_unit_test(a_run_may_start_next_to_a_singular_configuration),

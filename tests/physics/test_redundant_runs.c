@@ -150,7 +150,7 @@ static void compare(const method *with, void *context)
   c->count++;
 }
 
-static void redundant_rows_change_no_motion(void **state)
+static void redundant_rows_do_not_change_the_motion(void **state)
 {
   (void)state;
   comparison c = {.with = make(true), .without = make(false)};
@@ -225,7 +225,7 @@ static void part(const method *with, void *context)
   }
 }
 
-static void omitted_rows_are_monitored(void **state)
+static void contradictions_of_omitted_rows_are_reported(void **state)
 {
   (void)state;
   baum_mechanism *mechanisms[2] = {driven_twice(0.0), driven_twice(2.0 * ANGLE / (END * END))};
@@ -238,8 +238,8 @@ static void omitted_rows_are_monitored(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(redundant_rows_change_no_motion),
-    cmocka_unit_test(omitted_rows_are_monitored),
+    cmocka_unit_test(redundant_rows_do_not_change_the_motion),
+    cmocka_unit_test(contradictions_of_omitted_rows_are_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -299,7 +299,7 @@ static void every_method_rolls_the_disc(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void degrees_of_freedom(void **state)
+static void a_disc_has_5_position_and_3_velocity_degrees_of_freedom(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -374,7 +374,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(general_motion_follows_the_reduced_equations),
     cmocka_unit_test(every_method_rolls_the_disc),
-    cmocka_unit_test(degrees_of_freedom),
+    cmocka_unit_test(a_disc_has_5_position_and_3_velocity_degrees_of_freedom),
     cmocka_unit_test(a_ball_on_a_turntable_moves_on_a_circle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -71,7 +71,7 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
 
 /* Tests the setting that docs/theory/singular.md recommends. The largest error in the table of that
  * page is 3e-8. The largest error measured here was 1e-8. */
-static void recommended_setting_is_accurate(void **state)
+static void the_recommended_setting_is_accurate(void **state)
 {
   (void)state;
   const singular_setting setting = {
@@ -116,7 +116,7 @@ static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 
 /* Checks which time, joint and branch are reported at the first flat configuration of a
  * four-bar. */
-static void intervals_have_times_joints_and_branches(void **state)
+static void near_singular_intervals_report_time_joint_and_branch(void **state)
 {
   (void)state;
   model m;
@@ -362,9 +362,9 @@ static void mechanisms_away_from_singular_configurations_are_silent(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(recommended_setting_is_accurate),
+    cmocka_unit_test(the_recommended_setting_is_accurate),
     cmocka_unit_test(fixed_steps_may_end_in_a_singular_configuration),
-    cmocka_unit_test(intervals_have_times_joints_and_branches),
+    cmocka_unit_test(near_singular_intervals_report_time_joint_and_branch),
     cmocka_unit_test(drifting_runs_that_leave_their_branch_warn),
     cmocka_unit_test(mechanisms_away_from_singular_configurations_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),

@@ -19,7 +19,7 @@ static void check_tally(const slender_tally *tally, long mechanisms)
 
 /* SEEDS are difficult mechanisms. For each of them, an earlier version of the library gave a result
  * that was wrong without a message, or refused a result without a reason. */
-static void accelerations_are_met(void **state)
+static void accelerations_are_accurate_or_rightly_refused(void **state)
 {
   static const uint64_t SEEDS[] = {300, 389, 494, 504, 587, 716, 808, 846, 944, 1284, 5282};
   enum { MECHANISMS = 150, COUNT = sizeof SEEDS / sizeof *SEEDS };
@@ -58,7 +58,7 @@ static void results_do_not_depend_on_the_unit_of_length(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_are_met),
+    cmocka_unit_test(accelerations_are_accurate_or_rightly_refused),
     cmocka_unit_test(results_do_not_depend_on_the_unit_of_length),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -389,7 +389,7 @@ static baum_body_id add_rod(baum_mechanism *m, int k, baum_body_id before, const
 
 /* The second and the third of three rods can turn about their common axis. Even a tiny moment about
  * this axis causes a large acceleration, which an increased moment of inertia would hide. */
-static void slender_rods_may_turn_freely(void **state)
+static void slender_rods_that_rotate_freely_have_accurate_accelerations(void **state)
 {
   (void)state;
   static const double AXES[3][3] = {{0.3, 1.0, 0.2}, {1.0, 0.0, 0.0}, {0.2, 1.0, 0.5}};
@@ -430,7 +430,7 @@ int main(void)
     cmocka_unit_test(accelerations_do_not_depend_on_the_unit_of_mass),
     cmocka_unit_test(thin_shafts_between_heavy_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_keep_eleven_digits),
-    cmocka_unit_test(slender_rods_may_turn_freely),
+    cmocka_unit_test(slender_rods_that_rotate_freely_have_accurate_accelerations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

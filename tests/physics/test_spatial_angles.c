@@ -133,7 +133,7 @@ static void angles_count_revolutions(void **state)
   }
 }
 
-static void a_restored_run_goes_on_counting(void **state)
+static void a_restored_run_continues_to_count_revolutions(void **state)
 {
   (void)state;
   baum_joint_id bearing;
@@ -154,7 +154,7 @@ static void a_restored_run_goes_on_counting(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void a_continued_run_goes_on_counting(void **state)
+static void a_continued_run_continues_to_count_revolutions(void **state)
 {
   (void)state;
   baum_joint_id bearing;
@@ -174,7 +174,7 @@ static void a_continued_run_goes_on_counting(void **state)
 /* During steps, the run updates its count of revolutions only every tenth of a radian. If a state
  * 3.1 rad ahead is set, its revolutions must nevertheless be counted from the present angle of the
  * run. */
-static void a_state_that_is_set_is_compared_with_the_present_angle(void **state)
+static void revolutions_of_a_set_state_are_counted_from_the_present_angle(void **state)
 {
   (void)state;
   static const double AHEAD = 3.1; /* [rad] */
@@ -282,7 +282,7 @@ static void check_energies(winding which)
   baum_mechanism_destroy(m);
 }
 
-static void energies_are_those_of_the_wound_spring(void **state)
+static void energies_include_the_revolutions_of_the_spring(void **state)
 {
   (void)state;
   for (int k = 0; k < WINDINGS; k++) {
@@ -401,12 +401,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(angles_count_revolutions),
-    cmocka_unit_test(a_restored_run_goes_on_counting),
-    cmocka_unit_test(a_continued_run_goes_on_counting),
-    cmocka_unit_test(a_state_that_is_set_is_compared_with_the_present_angle),
+    cmocka_unit_test(a_restored_run_continues_to_count_revolutions),
+    cmocka_unit_test(a_continued_run_continues_to_count_revolutions),
+    cmocka_unit_test(revolutions_of_a_set_state_are_counted_from_the_present_angle),
     cmocka_unit_test(a_driver_prescribes_many_revolutions),
     cmocka_unit_test(springs_wind_up_over_revolutions),
-    cmocka_unit_test(energies_are_those_of_the_wound_spring),
+    cmocka_unit_test(energies_include_the_revolutions_of_the_spring),
     cmocka_unit_test(a_restored_spring_stays_wound),
     cmocka_unit_test(a_state_that_is_set_stays_wound),
     cmocka_unit_test(revolutions_of_a_given_reference_are_counted),

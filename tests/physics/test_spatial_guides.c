@@ -190,7 +190,7 @@ static void a_bead_slides_down_a_helix(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void the_helix_carries_the_bead(void **state)
+static void the_reaction_of_the_helix_has_its_closed_form(void **state)
 {
   (void)state;
   baum_mechanism *m = make_helix();
@@ -270,7 +270,7 @@ static baum_mechanism *make_sleigh(bool spatial_body, bool spatial_edge)
   return m;
 }
 
-static void a_sleigh_in_space_moves_like_one_in_the_plane(void **state)
+static void a_spatial_sleigh_moves_like_a_planar_sleigh(void **state)
 {
   (void)state;
   double planar[NQ_MAX];
@@ -496,7 +496,7 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
 }
 
 /* The residual must stay small although the cable becomes taut and slack several times. */
-static void the_energy_account_holds_across_slack(void **state)
+static void the_energy_residual_stays_small_across_slack(void **state)
 {
   (void)state;
   baum_body_id weight;
@@ -523,7 +523,7 @@ static void the_energy_account_holds_across_slack(void **state)
 
 /* The tension, read from the force on the weight, is continuous where the cable becomes taut, and
  * never negative. */
-static void the_tension_is_continuous_and_only_pulls(void **state)
+static void the_tension_is_continuous_and_never_negative(void **state)
 {
   (void)state;
   baum_body_id weight;
@@ -586,14 +586,14 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_bead_slides_down_a_helix),
-    cmocka_unit_test(the_helix_carries_the_bead),
-    cmocka_unit_test(a_sleigh_in_space_moves_like_one_in_the_plane),
+    cmocka_unit_test(the_reaction_of_the_helix_has_its_closed_form),
+    cmocka_unit_test(a_spatial_sleigh_moves_like_a_planar_sleigh),
     cmocka_unit_test(three_knife_edges_are_a_ball_joint),
     cmocka_unit_test(weights_on_a_cable_are_a_damped_oscillator),
     cmocka_unit_test(a_cable_with_a_weight_in_the_middle_is_two_springs),
     cmocka_unit_test(a_weight_falls_into_the_cable_and_returns),
-    cmocka_unit_test(the_energy_account_holds_across_slack),
-    cmocka_unit_test(the_tension_is_continuous_and_only_pulls),
+    cmocka_unit_test(the_energy_residual_stays_small_across_slack),
+    cmocka_unit_test(the_tension_is_continuous_and_never_negative),
     cmocka_unit_test(coinciding_points_exert_no_force),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -94,7 +94,7 @@ static void check_entry(const baum_catalog_entry *entry)
   baum_mechanism_destroy(m);
 }
 
-static void own_references_agree_with_those_of_the_catalogue(void **state)
+static void computed_references_agree_with_those_of_the_catalogue(void **state)
 {
   (void)state;
   for (int32_t k = 0; k < baum_catalog_count(); k++) {
@@ -108,7 +108,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
 
 /* This motion passes through a flat configuration, which is a bifurcation. The study must not trust
  * a reference that it computes there. */
-static void a_motion_past_a_singular_configuration_has_no_trusted_reference(void **state)
+static void a_motion_through_a_singular_configuration_has_no_trusted_reference(void **state)
 {
   (void)state;
   model m;
@@ -169,7 +169,7 @@ static int circle_solution(double t, double *q, double *v, double *lambda, void 
 
 /* The solution that is given to the study is the motion of a particle on a circle without gravity.
  * The particle moves at a constant 1 rad/s. */
-static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
+static void errors_against_an_exact_solution_show_the_order_of_the_method(void **state)
 {
   (void)state;
   const model_pendulum free_turn = {.gravity = 0.0, .x = 1.0, .v = 1.0};
@@ -206,7 +206,7 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   model_destroy(&m);
 }
 
-static void two_threads_give_the_entries_of_one(void **state)
+static void two_threads_give_the_same_entries_as_one(void **state)
 {
   (void)state;
   model m;
@@ -247,7 +247,7 @@ static void check_front(const baum_study *study, const int32_t *entries, int32_t
   }
 }
 
-static void the_front_has_all_entries_that_none_beats_and_no_other(void **state)
+static void the_front_has_exactly_the_entries_that_no_entry_beats(void **state)
 {
   (void)state;
   model m;
@@ -303,7 +303,7 @@ static void recommendations_hold_over_twice_the_span(void **state)
   model_destroy(&m);
 }
 
-static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(void **state)
+static void costs_are_interpolated_between_entries_to_compare_methods(void **state)
 {
   (void)state;
   model m;
@@ -365,14 +365,14 @@ static void a_budget_gives_the_most_accurate_entry_within_it(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(own_references_agree_with_those_of_the_catalogue),
-    cmocka_unit_test(a_motion_past_a_singular_configuration_has_no_trusted_reference),
+    cmocka_unit_test(computed_references_agree_with_those_of_the_catalogue),
+    cmocka_unit_test(a_motion_through_a_singular_configuration_has_no_trusted_reference),
     cmocka_unit_test(a_driven_mechanism_is_compared_with_its_kinematics),
-    cmocka_unit_test(errors_from_a_solution_by_formulas_are_those_of_the_method),
-    cmocka_unit_test(two_threads_give_the_entries_of_one),
-    cmocka_unit_test(the_front_has_all_entries_that_none_beats_and_no_other),
+    cmocka_unit_test(errors_against_an_exact_solution_show_the_order_of_the_method),
+    cmocka_unit_test(two_threads_give_the_same_entries_as_one),
+    cmocka_unit_test(the_front_has_exactly_the_entries_that_no_entry_beats),
     cmocka_unit_test(recommendations_hold_over_twice_the_span),
-    cmocka_unit_test(cost_at_an_error_lies_between_that_of_entries_and_compares_methods),
+    cmocka_unit_test(costs_are_interpolated_between_entries_to_compare_methods),
     cmocka_unit_test(a_budget_gives_the_most_accurate_entry_within_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,7 +69,7 @@ static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 
 /* ---- one study ---- */
 
-static void entries_of_many_threads_are_those_of_one(void **state)
+static void many_threads_give_the_same_entries_as_one(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -135,7 +135,7 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
 
 /* Another thread cancels the study several times while it runs. Afterwards, the study is run to its
  * end. */
-static void a_study_of_many_threads_is_cancelled_from_another(void **state)
+static void a_study_of_many_threads_can_be_cancelled_from_another_thread(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -168,9 +168,9 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(entries_of_many_threads_are_those_of_one),
+    cmocka_unit_test(many_threads_give_the_same_entries_as_one),
     cmocka_unit_test(studies_of_one_mechanism_do_not_disturb_each_other),
-    cmocka_unit_test(a_study_of_many_threads_is_cancelled_from_another),
+    cmocka_unit_test(a_study_of_many_threads_can_be_cancelled_from_another_thread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

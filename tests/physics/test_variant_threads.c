@@ -128,7 +128,7 @@ static void each_variant_has_its_own_mass(void **state)
   }
 }
 
-static void variants_of_threads_are_those_of_one(void **state)
+static void many_threads_make_the_same_variants_as_one(void **state)
 {
   const fixture *f = *state;
   static const int threads[] = {1, 2, 4, MOST_THREADS};
@@ -148,7 +148,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_variant_has_its_own_mass),
-    cmocka_unit_test(variants_of_threads_are_those_of_one),
+    cmocka_unit_test(many_threads_make_the_same_variants_as_one),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

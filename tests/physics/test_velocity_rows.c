@@ -308,7 +308,7 @@ static void default_gains_are_stable(void **state)
 
 /* ---- what refuses rows of velocity level ---- */
 
-static void rattle_and_kinematics_refuse_them(void **state)
+static void rattle_and_kinematics_refuse_rows_of_velocity_level(void **state)
 {
   (void)state;
   baum_simulation *run = NULL;
@@ -327,7 +327,7 @@ static void rattle_and_kinematics_refuse_them(void **state)
 
 /* ---- degrees of freedom and redundancy ---- */
 
-static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
+static void position_and_velocity_degrees_of_freedom_differ(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -348,7 +348,7 @@ static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
 /* A guide along the blade makes the row of the blade redundant. The row of the blade must be
  * omitted, although the blade is added first. Only the guide constrains positions. A projection can
  * therefore return the body to the guide only if the row of the guide is not omitted. */
-static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **state)
+static void rows_of_velocity_level_are_omitted_before_rows_of_positions(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -382,7 +382,7 @@ static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **st
 
 /* ---- assembly ---- */
 
-static void assembly_of_velocities_includes_them(void **state)
+static void assembly_satisfies_rows_of_velocity_level(void **state)
 {
   (void)state;
   baum_workspace *w = NULL;
@@ -499,10 +499,10 @@ int main(void)
     cmocka_unit_test(predicted_and_simulated_stability_agree),
     cmocka_unit_test(unstable_gains_are_refused),
     cmocka_unit_test(default_gains_are_stable),
-    cmocka_unit_test(rattle_and_kinematics_refuse_them),
-    cmocka_unit_test(degrees_of_freedom_of_position_and_velocity_differ),
-    cmocka_unit_test(rows_of_positions_are_kept_rather_than_those_of_velocities),
-    cmocka_unit_test(assembly_of_velocities_includes_them),
+    cmocka_unit_test(rattle_and_kinematics_refuse_rows_of_velocity_level),
+    cmocka_unit_test(position_and_velocity_degrees_of_freedom_differ),
+    cmocka_unit_test(rows_of_velocity_level_are_omitted_before_rows_of_positions),
+    cmocka_unit_test(assembly_satisfies_rows_of_velocity_level),
     cmocka_unit_test(a_prescribed_velocity_does_work),
     cmocka_unit_test(a_restored_run_continues_identically),
   };

@@ -140,7 +140,7 @@ static void look_at_constraints(const known *k)
   baum_workspace_destroy(workspace);
 }
 
-static void references_fulfil_the_constraints(void **state)
+static void references_satisfy_the_constraints(void **state)
 {
   (void)state;
   for_each_reference(look_at_constraints);
@@ -193,7 +193,7 @@ static void look_at_run(const known *k)
   assert_true(error.q_final <= error.q && error.v_final <= error.v);
 }
 
-static void runs_begin_at_the_references_and_stay_there(void **state)
+static void runs_start_at_the_references_and_stay_close_to_them(void **state)
 {
   (void)state;
   for_each_reference(look_at_run);
@@ -221,7 +221,7 @@ static void compare_with_table(const char *name, int count, const double *t, con
   assert_true(worst <= pow(10.0, -entry.digits_q));
 }
 
-static void formulas_are_as_exact_as_they_say(void **state)
+static void formulas_are_as_accurate_as_the_catalogue_states(void **state)
 {
   (void)state;
   compare_with_table("pendulum", A01_PENDULUM_SAMPLES, A01_PENDULUM_T, A01_PENDULUM_Q[0],
@@ -232,7 +232,7 @@ static void formulas_are_as_exact_as_they_say(void **state)
                      SLIDER_CRANK_DRIVEN_Q[0], SLIDER_CRANK_DRIVEN_WIDTH);
 }
 
-static void forty_windows_follow_their_equation(void **state)
+static void the_reference_of_forty_windows_agrees_with_the_table(void **state)
 {
   (void)state;
   static double q[243];
@@ -297,10 +297,10 @@ static void formulas_hold_for_other_parameters(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(references_fulfil_the_constraints),
-    cmocka_unit_test(runs_begin_at_the_references_and_stay_there),
-    cmocka_unit_test(formulas_are_as_exact_as_they_say),
-    cmocka_unit_test(forty_windows_follow_their_equation),
+    cmocka_unit_test(references_satisfy_the_constraints),
+    cmocka_unit_test(runs_start_at_the_references_and_stay_close_to_them),
+    cmocka_unit_test(formulas_are_as_accurate_as_the_catalogue_states),
+    cmocka_unit_test(the_reference_of_forty_windows_agrees_with_the_table),
     cmocka_unit_test(formulas_hold_for_other_parameters),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -197,7 +197,7 @@ static double ratio_error(const baum_simulation *run)
   return fabs((v[V + 3] + v[2 * V + 3]) / 2 - v[3]);
 }
 
-static void the_mean_speed_of_the_wheels_is_that_of_the_carrier(void **state)
+static void the_mean_speed_of_the_wheels_equals_the_speed_of_the_carrier(void **state)
 {
   (void)state;
   baum_mechanism *m = build("differential");
@@ -375,7 +375,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_lengths_of_the_legs_follow_from_the_pose),
     cmocka_unit_test(assembly_solves_the_forward_kinematics_from_100_starts),
-    cmocka_unit_test(the_mean_speed_of_the_wheels_is_that_of_the_carrier),
+    cmocka_unit_test(the_mean_speed_of_the_wheels_equals_the_speed_of_the_carrier),
     cmocka_unit_test(the_wheel_follows_newtons_solution),
     cmocka_unit_test(the_quadruped_keeps_its_momenta),
     cmocka_unit_test(a_nodding_gyroscope_keeps_its_momenta_and_its_energy),

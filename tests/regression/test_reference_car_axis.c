@@ -44,7 +44,7 @@ static void adams_reaches_the_reference_with_phi_alone(void **state)
   model_destroy(&m);
 }
 
-static void rk4_with_projection_reaches_it_too(void **state)
+static void rk4_with_projection_reaches_the_reference(void **state)
 {
   (void)state;
   model m;
@@ -91,7 +91,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_reference_with_derivatives_given),
     cmocka_unit_test(adams_reaches_the_reference_with_phi_alone),
-    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+    cmocka_unit_test(rk4_with_projection_reaches_the_reference),
     cmocka_unit_test(multipliers_are_the_negative_of_the_test_set),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -71,7 +71,7 @@ static double apart_after(const model *m, int loops, double rtol, double end)
   return apart;
 }
 
-static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
+static void adams_reaches_the_first_flat_configuration_within_1e_8(void **state)
 {
   (void)state;
   need_sundials();
@@ -87,7 +87,7 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
  * may enter other branches, as it does with INDEX2 and BAUMGARTE. On those branches the angles of
  * the cranks differ by radians. On the right branch all cranks remain parallel, even if their
  * common angle is inaccurate. The largest difference measured is 5e-8 rad. */
-static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
+static void ida_with_ggl_stays_on_the_branch_through_flat_configurations(void **state)
 {
   (void)state;
   need_sundials();
@@ -109,8 +109,8 @@ static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(ida_with_ggl_stays_on_the_branch_through_flat_positions),
-    cmocka_unit_test(adams_reaches_the_first_flat_position_within_1e_8),
+    cmocka_unit_test(ida_with_ggl_stays_on_the_branch_through_flat_configurations),
+    cmocka_unit_test(adams_reaches_the_first_flat_configuration_within_1e_8),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

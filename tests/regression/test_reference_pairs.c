@@ -114,13 +114,13 @@ static void reach_all(const baum_integrator *integrator)
   }
 }
 
-static void dp5_reaches_them_all(void **state)
+static void dp5_reaches_all_references(void **state)
 {
   (void)state;
   reach_all(baum_dp5());
 }
 
-static void rk8_reaches_them_all(void **state)
+static void rk8_reaches_all_references(void **state)
 {
   (void)state;
   reach_all(baum_rk8());
@@ -129,8 +129,8 @@ static void rk8_reaches_them_all(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(dp5_reaches_them_all),
-    cmocka_unit_test(rk8_reaches_them_all),
+    cmocka_unit_test(dp5_reaches_all_references),
+    cmocka_unit_test(rk8_reaches_all_references),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

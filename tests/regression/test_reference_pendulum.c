@@ -51,14 +51,14 @@ static void adams_reaches_a01_within_1e_8(void **state)
   reach_with_adams(&A01, &MODEL_PENDULUM_A01);
 }
 
-static void adams_reaches_that_of_sundials_within_1e_8(void **state)
+static void adams_reaches_the_pendulum_of_sundials_within_1e_8(void **state)
 {
   (void)state;
   need_sundials();
   reach_with_adams(&SUNDIALS, &MODEL_PENDULUM_SUNDIALS);
 }
 
-static void rk4_with_projection_reaches_both(void **state)
+static void rk4_with_projection_reaches_both_references(void **state)
 {
   (void)state;
   model m;
@@ -77,8 +77,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_a01_within_1e_8),
-    cmocka_unit_test(adams_reaches_that_of_sundials_within_1e_8),
-    cmocka_unit_test(rk4_with_projection_reaches_both),
+    cmocka_unit_test(adams_reaches_the_pendulum_of_sundials_within_1e_8),
+    cmocka_unit_test(rk4_with_projection_reaches_both_references),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
