@@ -78,7 +78,7 @@ static void show_catalog(const char *name, int count, double end)
   baum_mechanism_destroy(m);
 }
 
-/* Draws a row of pendulums side by side. There is no run, so that every sample is the design
+/* Draws a row of pendulums side by side. There is no run, so every sample is the design
  * configuration. */
 static void show_many(int bodies, int count)
 {

@@ -78,8 +78,8 @@ def spend(work, s, steps):
 
 
 def measure(label, mechanism, work, pairs):
-    """Print the costs of a view. There are two runs, and each is measured both with and without the
-    view, because their memory is not equally fast."""
+    """Print the costs of a view. Two runs are used, because access to the memory of one may be faster.
+    Each is measured both with and without the view."""
     runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
     work(runs[0], 1000)
     steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)

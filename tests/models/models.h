@@ -131,8 +131,8 @@ typedef struct model_n_four_bar {
   /* [rad] of all cranks at the start; 0 is the flat configuration, which is singular. */
   double angle;
   double rate;              /* [rad/s] of all cranks at the start */
-  double crank_mass;        /* [kg] the benchmark has 1 */
-  double coupler_mass;      /* [kg] the benchmark has 1 */
+  double crank_mass;        /* [kg] 1 in the benchmark */
+  double coupler_mass;      /* [kg] 1 in the benchmark */
   const model_units *units; /* NULL for SI units */
 } model_n_four_bar;
 
@@ -175,7 +175,7 @@ typedef enum model_parallelogram {
 typedef struct model_parallelogram_data {
   model_parallelogram which;
   double angle; /* [rad] of the cranks at the start */
-  double rate;  /* [rad/s] of the cranks at the start; 0 stands for 2 rad/s */
+  double rate;  /* [rad/s] of the cranks at the start; if it is 0, they start with 2 rad/s */
   /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
    * rows. */
   bool doubled;

@@ -110,9 +110,9 @@ static double allowed(const method *with)
     return 3e-3; /* IDA is less accurate at index 3, where its error test omits velocities. */
   }
   /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
-   * constants of Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use
-   * derivatives of earlier steps. After a knot of a spline driver, some of these derivatives come
-   * from before the knot. */
+   * constants of Runge-Kutta methods, which are about 1 / (k + 1)! at order k. In addition, Adams
+   * methods use derivatives of earlier steps. After a knot of a spline driver, some of these
+   * derivatives come from before the knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }

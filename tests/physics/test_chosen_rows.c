@@ -74,8 +74,8 @@ static bool is_asked(const baum_simulation_options *o)
          o->formulation != BAUM_FORMULATION_INDEX3;
 }
 
-/* The largest allowed error. It is the error of a method of order 3 at this step, or of several
- * hundred steps at this tolerance. */
+/* The largest allowed error. With a fixed step, it is the error of a method of order 3. With a
+ * variable step, it is the error of several hundred steps at the given tolerance. */
 static const double ERROR = 2e-4;
 
 static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)

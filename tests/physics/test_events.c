@@ -131,8 +131,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* The limit is the sum of two rounding errors: the error of the time, 4 eps t, times 2.7 rad/s,
-     * and the rounding error of positions. */
+    /* The limit is the sum of two rounding errors: the error of the time, 4 eps t, times the
+     * angular velocity of 2.7 rad/s, and the rounding error of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }

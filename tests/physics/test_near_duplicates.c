@@ -28,7 +28,8 @@ static const double ANGLE = 0.7;
 typedef enum again {
   PIN_ASIDE, /* a pin whose two points are moved along the rod; it locks crank and rod */
   PIN_APART, /* a pin with only one of its two points moved; it contradicts the crank pin */
-  /* a pin near the pin "foot" to ground, whose two points are moved; it locks the crank */
+  /* a second pin near the pin "foot" to ground; both of its points are moved, so it locks the
+   * crank */
   FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,

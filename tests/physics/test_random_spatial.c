@@ -49,7 +49,7 @@ static void check_refused(const uint64_t *seeds, int count)
 
 /* In these design configurations, dependent rows contradict each other. Because of rounding,
  * however, a pivot is 2e-15 instead of zero. LU factorization alone would give accelerations of
- * 1e14 m/s^2, and the residual would be small. */
+ * 1e14 m/s^2. Their residual would be small, and would not reveal the contradiction. */
 static void contradictions_that_rounding_hides_are_refused(void **state)
 {
   static const uint64_t seeds[] = {1993, 2454, 2990, 3741, 5094};

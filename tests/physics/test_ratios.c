@@ -130,7 +130,7 @@ static train make(double speed)
   return t;
 }
 
-/* Reads the angles of shaft, other shaft, wheel and screw, and the displacement of the screw. */
+/* Reads the angles of both shafts, the wheel and the screw, and the displacement of the screw. */
 enum { READ = 5 };
 static void read(baum_simulation *run, const train *t, double out[READ])
 {

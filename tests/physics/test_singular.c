@@ -88,9 +88,9 @@ static void the_recommended_setting_is_accurate(void **state)
 }
 
 /* In these two cases, a step ends close to a flat configuration. In the first case it ends 5e-7 rad
- * from it. The acceleration that the equations give there has no correct digit. In the second case,
- * an ordinary projection does not converge at the end of the step. Runs whose steps do not end
- * close to it have errors of 4e-6. */
+ * from the flat configuration. The acceleration that the equations give there has no correct digit.
+ * In the second case, an ordinary projection does not converge at the end of the step. Runs whose
+ * steps do not end close to it have errors of 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;

@@ -71,8 +71,9 @@ static void set_rotated(const double n[3], double angle, double q[7])
   baum_i_quaternion_exp(rotation, q + 3);
 }
 
-/* With equal stiffnesses k the moment is k times the rotation vector, up to the largest angle.
- * Without couplings the force is k times the displacement, in the axes of body_a. */
+/* With equal rotational stiffnesses k, the moment is k times the rotation vector, for angles up to
+ * almost pi. If the stiffness matrix is diagonal, the force along each axis of the bushing is
+ * stiffness times displacement. */
 static void a_bushing_is_linear_in_its_rotation_vector(void **state)
 {
   (void)state;

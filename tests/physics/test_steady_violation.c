@@ -26,8 +26,8 @@ static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
 static const double TOLERANCE = 0.02;
 /* An additional difference is allowed, which is LAG h omega times the largest value that the
  * formula gives. Phi follows gamma with a delay of 2 alpha / beta^2 + 1 / alpha. This delay is at
- * most 10 h. During this time, gamma changes by 10 h omega of its largest value. This matters for
- * rows whose gamma is near zero. */
+ * most 10 h. During this time, gamma changes by the fraction 10 h omega of its largest value. This
+ * matters for rows whose gamma is near zero. */
 static const double LAG = 10.0;
 
 typedef struct motion {

@@ -116,8 +116,8 @@ static void bdf_needs_few_steps_for_a_stiff_bushing(void **state)
   (void)state;
   need_sundials();
   baum_mechanism *mechanism = make_rods();
-  /* The reference is computed by an explicit method. The bushing forces this method to short steps,
-   * so that its error is far below all others. */
+  /* The reference is computed by an explicit method. The bushing forces this method to take short
+   * steps, so that its error is far below the errors of the other runs. */
   stiff_run want = run_to_the_end(mechanism, baum_rk8(), BAUM_FORMULATION_PROJECTION, 1e-9);
   printf("\n%-12s %-13s %8s %8s %12s %10s\n", "bushing", "", "rtol", "steps", "evaluations",
          "error");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the car axis with the catalogue's samples, which have 18 digits. It has four user
- * coordinates and two rows that depend on time. The functions for the derivatives of these rows are
- * given or omitted. */
+ * coordinates and two rows that depend on time. It is tested with and without functions for the
+ * derivatives of these rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
