@@ -5,10 +5,10 @@
  *
  * usage: bench_catalog [ENTRY]
  *
- * The grid is small. It contains every integrator with each of its formulations. Each has the gains
- * of its default rule, of `auto` and of two constants, at three steps or tolerances. Runs that take
- * more than 0.05 s are stopped. tests/support/catalog_grid.h defines which entries of a study are
- * considered wrong.
+ * The grid is small. It contains every integrator with each of its formulations, at three steps or
+ * tolerances. If the formulation has gains, they are chosen by the integrator's default rule, by
+ * the rule `auto`, and as two constants. Runs that take more than 0.05 s are stopped.
+ * tests/support/catalog_grid.h defines which entries of a study are considered wrong.
  */
 #include <stdio.h>
 #include <string.h>

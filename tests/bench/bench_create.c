@@ -22,9 +22,9 @@
 static const struct {
   const char *name;
   const char *entry;
-  baum_catalog_setting setting; /* a parameter with another value than its default, if any */
-  double end;                   /* [s] of a short run */
-  double step;                  /* [s] of fixed steps */
+  baum_catalog_setting setting; /* one parameter whose value differs from its default, if any */
+  double end;                   /* [s] end time of the short run */
+  double step;                  /* [s] step of the fixed-step methods */
 } SCENES[] = {
   {"slider_crank", "slider_crank", {"speed", 10.0}, 2.0, 1e-2},
   {"andrews", "andrews_bodies", {NULL, 0.0}, 0.01, 1e-4},

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests whether inaccurate runs have a warning that doubts their motion (says that it may be
- * wrong).
+/* Tests whether every inaccurate run gives a warning that its motion may be wrong. Such a warning
+ * is said to doubt the motion.
  *
  *   bench_doubts [-n MECHANISMS] [-f FIRST_SEED] [-s SETTING] [-j THREADS] [-c] [-e]
  *
- *   -n, -f  mechanisms from the first seed on; 100 from 0 by default
+ *   -n, -f number of mechanisms, and seed of the first one; by default 100 and 0
  *   -s      only settings whose name contains the text
  *   -j      1 or 2 threads; 1 by default
  *   -c      print a line of CSV per run instead of the tables
@@ -14,9 +14,9 @@
  * with baum. A mechanism is used only if two runs of the reference agree to 1e-6. The error of a
  * run is its largest position error at ten samples. Lengths are relative to the characteristic
  * length. A run is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong.
- * The growth of a motion is the largest factor by which a perturbation grows from one of 20 times
- * to a later one. To make velocities comparable with positions, they are divided by the mean rate
- * of the motion.
+ * The growth of a motion is the largest factor by which a perturbation grows between any two of 20
+ * sample times. To make velocities comparable with positions, they are divided by the mean rate of
+ * the motion.
  *
  * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
  * too many wrong fixed-step runs are silent, which means that no warning doubts their motion. If

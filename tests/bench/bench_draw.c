@@ -40,7 +40,8 @@ static void print_sizes(const char *name, const baum_mechanism *m, const baum_pa
          (double)html * 1e-3, 1e3 * (end - between) / REPEATS);
 }
 
-/* Draws a mechanism of the catalogue, with all positions and the reactions of its joints. */
+/* Draws a motion of a mechanism of the catalogue. The page contains all positions and the reactions
+ * of the joints at `count` times. */
 static void show_catalog(const char *name, int count, double end)
 {
   baum_mechanism *m = NULL;
@@ -77,7 +78,7 @@ static void show_catalog(const char *name, int count, double end)
   baum_mechanism_destroy(m);
 }
 
-/* Draws a row of pendulums side by side. There is no run, so that every sample is the design
+/* Draws a row of pendulums side by side. There is no run, so every sample is the design
  * configuration. */
 static void show_many(int bodies, int count)
 {

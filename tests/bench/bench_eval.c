@@ -152,7 +152,8 @@ static void print_head(void)
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
-/* Destroys the solvers. Returns false if there is no solver, a solver failed, or they disagree. */
+/* Destroys the solvers. Returns false if there is no solver, if a solver failed, or if their
+ * accelerations differ. */
 static bool finish_all(const measured *all, int count)
 {
   bool fine = count > 0;
@@ -216,13 +217,13 @@ static bool bench_solvers(const arguments *given)
 
 /* ---- spatial scenes ---- */
 
-/* [s] Time of the driven planar slider-crank on the machine on which the other programs were
- * measured. */
+/* [s] Time that this library needs for one acceleration of the driven planar slider-crank. It was
+ * measured on the same machine as the other programs below. */
 static const double CRANK_OF_PEERS = 184e-9;
 
-/* [ns] Time that the fastest other program needs for one acceleration. The programs are Pinocchio
- * 4.1.0 and MuJoCo 4.0.0. They were measured on one machine of 3.2 GHz, with their fastest calls.
- * NaN means not measured. MuJoCo's flyball had no springs. No command repeats these
+/* [ns] Time that the faster one of two other programs needs for one acceleration. These programs
+ * are Pinocchio 4.1.0 and MuJoCo 4.0.0. They were measured on one machine of 3.2 GHz, with their
+ * fastest calls. NaN means not measured. MuJoCo's flyball had no springs. No command repeats these
  * measurements. */
 static const struct {
   model_spatial which;
@@ -268,7 +269,8 @@ static void print_spatial_row(const scene *at, const measured *m, double crank, 
   (void)fflush(stdout);
 }
 
-/* Times the solvers of a spatial scene in turn with the planar slider-crank `crank`. */
+/* Measures the solvers of a spatial scene. These measurements alternate with those of the planar
+ * slider-crank `crank`. */
 static bool bench_spatial_scene(int k, measured *crank, bool json)
 {
   scene at;
@@ -372,8 +374,8 @@ static bool bench_steps(const arguments *given)
 
 /* ---- fixed bodies ---- */
 
-/* Returns the time of a step [s] of a mechanism with fixed bodies. If `all` is set, the fixed
- * bodies and their joints are not omitted from the equations. */
+/* Returns the time of a step [s] of a mechanism with fixed bodies. If `all` is set, the equations
+ * include the fixed bodies and their joints. */
 static double time_mounted(int frames, bool all)
 {
   model m;

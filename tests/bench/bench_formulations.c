@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares formulations. For the same tolerances or steps, the program prints their errors,
- * violations, steps and evaluations.
+/* Compares formulations. For each formulation, the program prints errors, violations, steps and
+ * evaluations at the same tolerances or steps.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *
  * An argument names an integrator and a formulation, for example ida/ggl or rk4/projection. Without
- * arguments, the program compares the formulations of IDA, beginning with index 3. Fixed steps are
- * 1/100, 1/1000 and 1/10000 of the span. The references are taken from tests/data. The error is the
- * largest one over all samples. Lengths are relative to the characteristic length, and angles are
- * in radians. Phi [m or rad] and Phi' [m/s or rad/s] are the largest violations over all steps. The
- * number of evaluations counts evaluations of residuals or of accelerations. Setups are
- * factorizations of matrices.
+ * arguments, the program compares the formulations of IDA. Fixed steps are 1/100, 1/1000 and
+ * 1/10000 of the span. The references are taken from tests/data. The error is the largest one over
+ * all samples. Lengths are relative to the characteristic length, and angles are in radians. Phi [m
+ * or rad] and Phi' [m/s or rad/s] are the largest violations over all steps. The number of
+ * evaluations counts evaluations of residuals or of accelerations. Setups are factorizations of
+ * matrices.
  */
 #include <math.h>
 #include <stdio.h>

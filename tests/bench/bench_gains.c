@@ -6,16 +6,17 @@
  * A cell is a combination of a problem, an integrator and an rtol. The cost and the error of a cell
  * are geometric means over perturbed starts. The cost is a number of factorizations. Each
  * evaluation of the accelerations by equation (7) of docs/theory/formulations.md factors a matrix.
- * The factorizations of the integrator's own matrix are added. The cost of `auto` includes its
- * pilot run. The error is the largest one over all coordinates and samples. Lengths are relative to
- * the characteristic length, and angles are in radians. In a cell, a constant beats `auto` if it
+ * If the integrator is implicit, the factorizations of its iteration matrix are added. The cost of
+ * `auto` includes its pilot run. The error is the largest one over all coordinates and samples.
+ * Lengths are relative to the characteristic length, and angles are in radians. In a cell, a
+ * constant beats `auto` if it
  *   costs no more than `auto` and has less than a third of its error, or
  *   has no larger error than `auto` and costs less than 1 / 1.25 of its cost.
  * The sweep has 49 constants. They cover 12 decades, with four constants in each. A run with
  * constant gains is stopped when it has taken twice the steps of `auto`, because it can then no
  * longer beat `auto`. A constant for which a run fails does not beat `auto` either. With --table,
  * the program prints every constant, and runs may take six times the steps of `auto`. With --quick,
- * it uses every fourth alpha and two starts.
+ * it uses every fourth constant and only two starts.
  */
 #include <math.h>
 #include <stdio.h>

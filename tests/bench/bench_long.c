@@ -6,12 +6,12 @@
  *
  *   bench_long [STEPS [INTEGRATOR]]      default: 10000000 steps, all integrators
  *
- * The program prints a line for every decade of steps. The line contains the smallest and the
- * largest change of energy since the start that occurs in this decade, relative to the largest
- * kinetic energy. The next number is the power p with which the change grows over time. It is
- * computed from this decade and the one before. The last numbers are the largest violations since
- * the start, the heap in use, and the computing time in seconds. If a run fails, its message is
- * printed.
+ * The program prints a line for every decade of steps. At every sample in this decade, the energy
+ * is compared with the initial energy. The line contains the smallest and the largest of these
+ * differences, relative to the largest kinetic energy. The next number is the exponent p if the
+ * difference grows like t^p. It is computed from this decade and the one before. The last numbers
+ * are the largest violations since the start, the heap in use, and the computing time in seconds.
+ * If a run fails, its message is printed.
  */
 #include <malloc.h>
 #include <math.h>

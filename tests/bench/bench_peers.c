@@ -15,9 +15,9 @@
  * with compiled right-hand sides, and a hand-written RK4.
  *
  * For spatial problems, the errors include all positions at the end, compared with the references
- * of the catalogue. For all programs, an error is accepted if it is at most 10 % above its nominal
- * value. The other programs are Pinocchio with RK4 and Baumgarte stabilization, MuJoCo with RK4,
- * and Exudyn with generalized-alpha.
+ * of the catalogue. For all programs, a run is considered to reach a given error if its error is at
+ * most 10 % larger. The other programs are Pinocchio with RK4 and Baumgarte stabilization, MuJoCo
+ * with RK4, and Exudyn with generalized-alpha.
  *
  * The times of other programs were measured for this table on similar machines. They are the times
  * of whole runs, and the table shows the cheapest of them. There is no command that repeats these
@@ -35,13 +35,13 @@ enum { TARGETS = 4, SAMPLES = 50 };
 static const double PLANAR[TARGETS] = {1e-4, 1e-6, 1e-8, 1e-10};
 static const double SPATIAL[TARGETS] = {1.1e-3, 1.1e-6, 1.1e-8, 1.1e-10};
 
-/* [s] Limit of a run. The table shows the cheapest runs, which are much shorter. */
+/* [s] Time limit of a run. The cheapest runs, which the table shows, take much less time. */
 static const double LONGEST = 0.2;
 
 typedef struct peer {
   const char *entry;
   const char *what;
-  /* A parameter that has another value than its default, if there is one. */
+  /* One parameter whose value differs from its default, if there is one. */
   baum_catalog_setting setting;
   double span;          /* [s] */
   const double *target; /* (TARGETS) errors */

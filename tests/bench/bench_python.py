@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measures what short runs and user functions cost in Python. The short runs are runs of the
-slider-crank over 2 s. The user functions are those of the pendulum of the README. For them, the
-program prints the number of calls in a step of rk4, and the overhead of a call. The overhead is the
-time of a call without the time of the function itself.
+slider-crank over 2 s. The user functions are those of the pendulum of the README. For user
+functions, the program prints the number of calls in a step of rk4, and the overhead of a call. The
+overhead is the time of a call without the time of the function itself.
 
     PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
 

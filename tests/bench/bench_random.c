@@ -4,8 +4,9 @@
  *   bench_random [COUNT [FIRST SEED]]     10000 seeds from seed 0 by default
  *
  * Each seed gives two mechanisms, one without and one with velocity-level constraints. The program
- * prints every acceleration with an error above 1e-9, every refusal of independent rows, every
- * wrong number of degrees of freedom, and how many there are of each. It fails if there is any.
+ * prints and counts accelerations with an error above 1e-9, mechanisms that are refused although
+ * their rows are independent, and wrong numbers of degrees of freedom. It fails if there is any of
+ * these.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,8 +9,8 @@
  * 1e-12. If a run of rk8 with gains and KLU does not agree with this reference, the mechanism is
  * skipped. The error of a run is its largest position error at the end. Lengths are relative to the
  * characteristic length. The growth of a motion is the factor by which it amplifies small
- * perturbations of the start. With a variable step, the allowed error is about PROMISE rtol times
- * the growth. With a fixed step, the allowed error is the step times the growth, but at least
+ * perturbations of the start. With a variable step, the allowed error is about PROMISE times rtol
+ * times the growth. With a fixed step, the allowed error is the step times the growth, but at least
  * WRONG. A run with a larger error and no warning is called poor. If its error is above WRONG, it
  * is called silently wrong. However, a fixed-step run is only called poor if a step four times
  * shorter halves its error. Errors that arise during the motion may grow more than perturbations of
@@ -62,7 +62,7 @@ typedef struct scene {
   double scale;
   double begin;
   double span;
-  double unit[SIZE]; /* units of position errors: the characteristic length, or 1 */
+  double unit[SIZE]; /* units of position errors: the characteristic length, or 1 rad */
   double q0[SIZE];
   double v0[SIZE];
   double q[SIZE]; /* at the end */

@@ -4,8 +4,9 @@
  *
  *   bench_slender [COUNT [FIRST SEED [UNITS OF LENGTH IN A METRE]]]   1000 seeds from 0 by default
  *
- * Prints how many results are right, refused or wrong, for each decade of the smallest ratio of
- * moments of inertia. Fails if a result is wrong without a message, or refused without a reason. */
+ * Prints how many results are right, refused or wrong, for each decade of the smallest ratio of an
+ * axial to a transverse moment of inertia. Fails if a result is wrong without a message, or refused
+ * without a reason. */
 #include <stdio.h>
 #include <stdlib.h>
 

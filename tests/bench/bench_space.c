@@ -67,8 +67,8 @@ static known know(int32_t k)
   return out;
 }
 
-/* Converts samples of the tilted mechanism to planar coordinates. Angles get the same numbers of
- * revolutions as in the reference. */
+/* Converts samples of the tilted mechanism to planar coordinates. Adds whole revolutions to the
+ * angles, so that they are close to those of the reference. */
 static void untilt(const known *of, const double *times, const double *tilted, double *q)
 {
   const baum_catalog_choice choice = {.name = of->entry.name};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the cost of a step, including all checks that a run makes in it, with the cost of its
- * evaluations of the accelerations.
+/* Compares the cost of a step with the cost of the evaluations of accelerations that this step
+ * needs. The cost of a step includes all checks that a run makes during the step.
  *
  * usage: bench_step                     prints a table
  *        bench_step CASE METHOD COUNT   simulates one case COUNT times, for callgrind
@@ -130,8 +130,8 @@ static bool evaluate(bench *b)
   return fine;
 }
 
-/* Number of measurements of a cost, of which the smallest is used. The resolution of CPU times is
- * better than a tenth of a measurement. */
+/* Every cost is measured this many times, and the smallest result is used. The resolution of CPU
+ * times is better than a tenth of a measurement. */
 enum { REPETITIONS = 5 };
 
 typedef struct cost {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the settings that a study recommends: whether they keep their errors in other runs, and how
- * much they cost compared with the cheapest setting.
+/* Tests the settings that a study recommends. In other runs, their errors should also be as small
+ * as requested. The program also shows how much they cost compared with the cheapest setting.
  *
  * usage: bench_study [PROBLEM]
  *
  * A study with the standard grid recommends a setting for each error. A second study runs the
- * recommended settings and the whole grid from perturbed starts over twice the span. A
- * recommendation is met if, in the second study, its error is at most the requested one. The price
- * of a recommendation is its cost divided by the cost of the cheapest entry of the grid whose error
- * in the second study is also at most the requested one.
+ * recommended settings and the whole grid from perturbed starts over twice the span. An entry is
+ * good enough if its error in the second study is at most the requested one. A recommendation is
+ * met if it is good enough. Its price is its cost divided by the cost of the cheapest entry of the
+ * grid that is good enough.
  */
 #include <math.h>
 #include <stdio.h>
@@ -154,8 +154,8 @@ static double cost_of(const baum_study_entry *entry)
   return (double)(entry->evaluations + entry->factorizations);
 }
 
-/* Returns the smallest cost of those among the first `count` entries whose error is at most
- * `target`. */
+/* Finds the cheapest of the first `count` entries whose error is at most `target`, and returns its
+ * cost. */
 static double cheapest(const baum_study *study, int count, double target, char *name, size_t size)
 {
   double least = (double)INFINITY;

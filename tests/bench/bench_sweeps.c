@@ -37,7 +37,7 @@ typedef struct arguments {
   FILE *csv;
 } arguments;
 
-/* Returns number k of n numbers, which form a geometric progression from `first` to `last`. */
+/* Returns term k of a geometric progression, which has n terms from `first` to `last`. */
 static double spread(double first, double last, int k, int n)
 {
   return first * pow(last / first, (double)k / (n - 1));

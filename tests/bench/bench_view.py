@@ -78,8 +78,8 @@ def spend(work, s, steps):
 
 
 def measure(label, mechanism, work, pairs):
-    """Print the costs of a view. There are two runs, and each is measured both with and without the
-    view, because their memory is not equally fast."""
+    """Print the costs of a view. Two runs are used, because access to the memory of one may be faster.
+    Each is measured both with and without the view."""
     runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
     work(runs[0], 1000)
     steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)
@@ -110,7 +110,8 @@ def main():
     pairs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     print(f"medians of {pairs} pairs with two pages")
     print(f"{'':<40}{'calls':>11}{'a frame':>12}{'pages':>12}{'at most':>11}")
-    # outside of the main thread, calls are made directly and not by a second thread
+    # Baum runs every call of the main thread in a second thread, so that Ctrl-C can stop it. The
+    # measurements are made outside of the main thread, where calls are made directly.
     thread = threading.Thread(target=measure_all, args=[pairs])
     thread.start()
     thread.join()

@@ -40,7 +40,8 @@ extern const model_units MODEL_MILLI; /* millimetres, grams and milliseconds */
 /* Replaces a frozen mechanism in SI units by the same mechanism in other units. If this fails, the
  * mechanism is destroyed. */
 baum_status model_change_units(baum_mechanism **mechanism, const model_units *units);
-/* Freezes parts that are in SI units. NULL for `units` also means SI. */
+/* Freezes parts that are in SI units, and converts them to `units`. If `units` is NULL, they stay
+ * in SI units. */
 baum_status model_finish(baum_i_parts *parts, const model_units *units, model *out);
 
 /* ---- pendulum: a point of 1 kg on a circle of 1 m -------------------------------------------- */
@@ -66,7 +67,8 @@ enum { MODEL_CRANK, MODEL_ROD, MODEL_SLIDER };
 enum { MODEL_PIN_GROUND, MODEL_PIN_CRANK, MODEL_PIN_SLIDER, MODEL_GUIDE, MODEL_MOTOR };
 
 typedef struct model_slider_crank {
-  /* Whether a motor keeps the crank at 150 rad/s; otherwise this is the initial velocity. */
+  /* Whether a motor keeps the crank at 150 rad/s; otherwise the crank only starts with 150
+   * rad/s. */
   bool driven;
   /* Whether only the crank is in its exact pose, so that assembly has to move the other bodies. */
   bool rough;
@@ -76,9 +78,10 @@ typedef struct model_slider_crank {
    * given. */
   bool moving;
   double angle;    /* [rad] of the crank at the start */
-  double rod;      /* [m] length of the rod, or 0 for that of the paper */
-  double rod_mass; /* [kg] mass of the rod, or 0 for that of the paper */
-  /* Number of frame bodies between the ground and the crank. Each is welded to the one before. */
+  double rod;      /* [m] length of the rod, or 0 for the length in the paper */
+  double rod_mass; /* [kg] mass of the rod, or 0 for the mass in the paper */
+  /* Number of frame bodies between the ground and the crank. Each frame is welded to the frame
+   * before it. */
   int frames;
   const model_units *units; /* NULL for SI units */
 } model_slider_crank;
@@ -91,8 +94,8 @@ baum_status model_slider_crank_build(model_slider_crank options, model *out);
 
 enum { MODEL_ANDREWS_ANGLES = 7 };
 
-/* Makes Andrews' mechanism in the 7 angles of the Bari test set, with 6 user rows. The function for
- * their Jacobian may be given or not. */
+/* Makes Andrews' mechanism in the 7 angles of the Bari test set. A user function gives its 6 rows.
+ * `with_jacobian` tells whether a second one gives their Jacobian. */
 baum_status model_andrews_angles(bool with_jacobian, model *out);
 /* Makes Andrews' mechanism of 7 planar bodies (K1 to K7) and 10 pins. It has 21 coordinates and 20
  * rows. */
@@ -104,8 +107,8 @@ void model_andrews_from_bodies(const double *q, double angles[MODEL_ANDREWS_ANGL
 
 /* ---- car axis: 4 coordinates, 2 rows that depend on time ------------------------------------- */
 
-/* Makes the car axis. The functions for its Jacobian J and for nu (of J v = nu) may be given or
- * not. The signs of the multipliers are opposite to those in the Bari test set. */
+/* Makes the car axis. `with_derivatives` tells whether user functions give the Jacobian J and nu
+ * (of J v = nu). The signs of the multipliers are opposite to those in the Bari test set. */
 baum_status model_car_axis(bool with_derivatives, model *out);
 
 /* ---- slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies --------------------------------- */
@@ -128,8 +131,8 @@ typedef struct model_n_four_bar {
   /* [rad] of all cranks at the start; 0 is the flat configuration, which is singular. */
   double angle;
   double rate;              /* [rad/s] of all cranks at the start */
-  double crank_mass;        /* [kg] the benchmark has 1 */
-  double coupler_mass;      /* [kg] the benchmark has 1 */
+  double crank_mass;        /* [kg] 1 in the benchmark */
+  double coupler_mass;      /* [kg] 1 in the benchmark */
   const model_units *units; /* NULL for SI units */
 } model_n_four_bar;
 
@@ -156,8 +159,8 @@ typedef struct model_chain {
  * data, from which variants can be made. */
 baum_status model_chain_3(model *out);
 model_chain model_chain_3_data(void);
-/* Makes a chain. Its positions are q = (x, y, angle) of each link. It has 3 N coordinates and 2 N
- * rows. */
+/* Makes a chain. Its positions are q = (x, y, angle) of each link. N links have 3 N coordinates and
+ * 2 N rows. */
 baum_status model_chain_build(const model_chain *data, model *out);
 
 /* ---- parallelogram: cranks of 1 m that carry one coupler of 2 m ---- */
@@ -172,19 +175,19 @@ typedef enum model_parallelogram {
 typedef struct model_parallelogram_data {
   model_parallelogram which;
   double angle; /* [rad] of the cranks at the start */
-  double rate;  /* [rad/s] of the cranks at the start; 0 stands for 2 rad/s */
+  double rate;  /* [rad/s] of the cranks at the start; if it is 0, they start with 2 rad/s */
   /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
    * rows. */
   bool doubled;
   double aside; /* [m] how far the second pin is from the first, on both of its bodies */
-  double gap;   /* [m] distance along the crank by which the points of the second pin differ */
+  double gap;   /* [m] distance along the crank between the two points that the second pin joins */
   double above; /* [m] how much higher the foot of the middle crank is than those of the others */
   bool framed;  /* whether there is an additional body, which is welded to the ground */
   const model_units *units; /* NULL for SI units */
 } model_parallelogram_data;
 
-/* Make a parallelogram. Its positions are q = (x, y, angle) of the first crank, the last crank, the
- * coupler and the middle crank. */
+/* Both functions make a parallelogram. Its positions are q = (x, y, angle) of the first crank, the
+ * last crank, the coupler and the middle crank. */
 baum_status model_parallelogram_build_of(const model_parallelogram_data *data, model *out);
 baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out);
 

@@ -72,8 +72,8 @@ static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodie
   change_body(parts, bodies->id[2], slider, NULL);
 }
 
-/* Adds frames. Returns the last one, whose centre of mass is at the pin of the crank. If there are
- * no frames, returns ground. */
+/* Adds frames. Returns the last frame, whose centre of mass is at the pin of the crank. If there
+ * are no frames, returns ground. */
 static baum_body_id add_frames(baum_i_parts *parts, int count)
 {
   baum_body_id last = BAUM_GROUND;

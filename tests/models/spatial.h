@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial mechanisms for tests of accuracy and for timing: those of the catalogue in a moving
- * configuration, and larger ones. */
+/* Spatial mechanisms for tests of accuracy and for timing. Some are mechanisms of the catalogue
+ * that are set in motion. Others are larger. */
 #ifndef BAUM_TEST_MODELS_SPATIAL_H
 #define BAUM_TEST_MODELS_SPATIAL_H
 
@@ -15,7 +15,7 @@ typedef enum model_spatial {
   MODEL_QUADRUPED,            /* 14 bodies, 65 rows: a free trunk with four legs and a neck */
   MODEL_FLYBALL,              /* 4 bodies, 20 rows, with springs and dampers */
   MODEL_SPHERICAL_CHAIN,      /* links of 1 m and 1 kg on spherical joints: 3 rows a link */
-  MODEL_REVOLUTE_CHAIN,       /* the same on revolute joints with skew axes: 5 rows a link */
+  MODEL_REVOLUTE_CHAIN,       /* the same links on revolute joints with skew axes: 5 rows a link */
   MODEL_SPATIAL_COUNT
 } model_spatial;
 

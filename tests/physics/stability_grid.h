@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares baum_stability_at() with runs of mechanisms. In such a run, all rows of the mechanism
- * are violated at the start. A pair of gains is considered stable if the largest violation in the
- * last quarter of the run is smaller than in the first quarter. For every fixed-step integrator,
- * pairs on a grid are tested. The grid covers the part of the plane of (alpha h, beta^2 h^2) that
- * contains the predicted region. Each mechanism has a separate test program, so that they can run
- * in parallel. Include after cmocka.h.
+ * are violated at the start. A pair of gains (alpha, beta) is considered stable if the largest
+ * violation in the last quarter of the run is smaller than in the first quarter. For every
+ * fixed-step integrator, pairs on a grid are tested. The grid covers the part of the plane of
+ * (alpha h, beta^2 h^2) that contains the predicted region. Each mechanism has a separate test
+ * program, so that they can run in parallel. Include after cmocka.h.
  *
- * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / beta^2
- * h^2) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the characteristic
- * length. If h omega = 1e-5, the steady violation is 1e-10 of the characteristic length. In the
- * corner of the grid where alpha h is largest and beta^2 h^2 is smallest, it is about 20 times as
- * large. For methods of higher order it is smaller.
+ * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / (beta^2
+ * h^2)) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the
+ * characteristic length. If h omega = 1e-5, the steady violation is 1e-10 of the characteristic
+ * length. In the corner of the grid where alpha h is largest and beta^2 h^2 is smallest, it is
+ * about 20 times as large. For methods of higher order it is smaller.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H
@@ -21,7 +21,8 @@
 
 enum { CELLS = 44, STEPS = 3000, CALM = 32, OUTLINE = 2000 };
 
-/* initial error, as a fraction of the characteristic length, or in rad */
+/* Initial position error. For lengths, it is a fraction of the characteristic length; for angles,
+ * it is in rad. */
 static const double OFF = 1e-6;
 /* A violation is considered to have grown if it is this many times the initial one. It is then 1e-3
  * of the characteristic length. Much larger violations would no longer follow the linear
@@ -138,7 +139,8 @@ static inline window make_window(const baum_integrator *integrator)
   window w = {integrator, 0.0, 0.0};
   check(baum_stability_outline(integrator, 1.0, OUTLINE, alpha_h, beta2_h2, &count));
   assert_true(count > 0 && count <= OUTLINE);
-  for (int32_t k = 0; k < count; k++) { /* fmax() ignores the NaN that separates parts */
+  /* fmax() ignores the NaN between two parts of the outline */
+  for (int32_t k = 0; k < count; k++) {
     w.alpha_h = fmax(w.alpha_h, BEYOND * alpha_h[k]);
     w.beta2_h2 = fmax(w.beta2_h2, BEYOND * beta2_h2[k]);
   }

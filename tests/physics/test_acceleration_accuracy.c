@@ -14,7 +14,7 @@
 static const double PI = 3.14159265358979324;
 
 /* The limit for ordinary configurations. It is about ten times the error that remains after
- * refinement. This error is a rounding error, amplified by condition numbers of a few hundred. */
+ * refinement. The remaining error is rounding, amplified by condition numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
@@ -22,7 +22,8 @@ static const double ORDINARY = 1e-12;
  * and seven digits at 1e-6 rad. */
 static const double NEAR = 1e-12;
 static const double NEAREST = 1e-7;
-/* Masses differ by a factor of 1e6, so six digits could be lost. Only about two are lost. */
+/* Masses differ by a factor of 1e6, so six digits could be lost. In fact only about two are
+ * lost. */
 static const double UNEVEN = 1e-10;
 
 /* ---- table ---- */
@@ -46,7 +47,7 @@ static double worse(double a, double b)
   return isnan(a) || a > b ? a : b;
 }
 
-/* Prints a case and checks its errors. `lambda_limit` may be infinite. */
+/* Prints the errors of a case and checks them. `lambda_limit` may be infinite. */
 static void note(table *t, const char *name, errors found, double limit, double lambda_limit)
 {
   bool fine = found.a <= limit && (found.lambda <= lambda_limit || isinf(lambda_limit));
@@ -116,7 +117,8 @@ static posed pose_n_four_bar(model_n_four_bar data)
   return pose_model(status, m);
 }
 
-/* Chooses a configuration of an N-four-bar that is at least 0.2 rad from its flat configuration. */
+/* Makes an N-four-bar in a random configuration. All cranks are at least 0.2 rad from the flat
+ * configuration. */
 static posed n_four_bar(uint64_t *seed, int size)
 {
   model_n_four_bar data = model_n_four_bar_a02(size);
@@ -149,8 +151,8 @@ static posed chain(uint64_t *seed, int size)
 
 /* ---- ordinary configurations ---- */
 
-/* The mechanism has one degree of freedom, the crank angle. Its equation of motion gives the
- * acceleration of this angle. The oracle must find the same acceleration. */
+/* The mechanism has one degree of freedom, the crank angle. The equation of motion for this angle
+ * gives the angular acceleration. The oracle must find the same value. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
 {
   (void)state;
@@ -166,14 +168,14 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   unpose(&p);
 }
 
-static void the_oracle_reads_the_same_system_in_both_ways(void **state)
+static void both_oracles_give_the_same_solution(void **state)
 {
   (void)state;
   uint64_t seed = 4;
   posed p = chain(&seed, 30);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   assert_true(quad_acceleration_of_blocks(p.workspace, 0.0, p.q, p.v, p.a, p.lambda));
-  /* Both results were rounded once to double precision. */
+  /* Each result was rounded once, from quadruple to double precision. */
   assert_true(quad_error(p.nv, p.a, p.want_a) <= 0x1p-52);
   assert_true(quad_error(p.nc, p.lambda, p.want_lambda) <= 0x1p-52);
   unpose(&p);
@@ -233,7 +235,7 @@ static errors measure_flat(double gap)
   return measure(&p);
 }
 
-static void near_singular_configurations_keep_what_their_condition_allows(void **state)
+static void near_singular_configurations_keep_the_digits_that_refinement_allows(void **state)
 {
   (void)state;
   table t = {0};
@@ -324,9 +326,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_oracle_finds_the_motion_of_the_n_four_bar),
-    cmocka_unit_test(the_oracle_reads_the_same_system_in_both_ways),
+    cmocka_unit_test(both_oracles_give_the_same_solution),
     cmocka_unit_test(ordinary_configurations_keep_twelve_digits),
-    cmocka_unit_test(near_singular_configurations_keep_what_their_condition_allows),
+    cmocka_unit_test(near_singular_configurations_keep_the_digits_that_refinement_allows),
     cmocka_unit_test(uneven_masses_keep_ten_digits),
     cmocka_unit_test(a_chain_of_100000_links_keeps_ten_digits_of_a),
   };

@@ -110,9 +110,9 @@ static double allowed(const method *with)
     return 3e-3; /* IDA is less accurate at index 3, where its error test omits velocities. */
   }
   /* The error constants of Adams methods, 5/12, 3/8 and 251/720, are larger than the error
-   * constants of Runge-Kutta methods, which are about 1/k!. In addition, Adams methods use
-   * derivatives of earlier steps. After a knot of a spline driver, some of these derivatives come
-   * from before the knot. */
+   * constants of Runge-Kutta methods, which are about 1 / (k + 1)! at order k. In addition, Adams
+   * methods use derivatives of earlier steps. After a knot of a spline driver, some of these
+   * derivatives come from before the knot. */
   double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
@@ -170,7 +170,7 @@ static outcome find_reference(const joint_scene *scene)
   return out;
 }
 
-static void every_method_carries_every_joint(void **state)
+static void every_method_reproduces_the_motion_of_every_joint(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -263,7 +263,7 @@ static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation
 
 /* Without degrees of freedom, the equation Phi = 0 alone determines the positions. A run with the
  * kinematics integrator may therefore differ from a run with projection only by rounding. */
-static void kinematics_carries_every_joint(void **state)
+static void kinematics_agrees_with_projection_for_every_joint(void **state)
 {
   (void)state;
   int tried = 0;
@@ -391,7 +391,7 @@ static void check_balance(const joint_scene *scene, double t)
   close_balance(&b);
 }
 
-static void reactions_explain_the_motion_and_do_no_work(void **state)
+static void reactions_satisfy_the_equations_of_motion_and_do_no_work(void **state)
 {
   (void)state;
   for (int k = 0; k < JOINT_SCENES; k++) {
@@ -404,9 +404,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_have_their_degrees_of_freedom_and_move_far),
-    cmocka_unit_test(every_method_carries_every_joint),
-    cmocka_unit_test(kinematics_carries_every_joint),
-    cmocka_unit_test(reactions_explain_the_motion_and_do_no_work),
+    cmocka_unit_test(every_method_reproduces_the_motion_of_every_joint),
+    cmocka_unit_test(kinematics_agrees_with_projection_for_every_joint),
+    cmocka_unit_test(reactions_satisfy_the_equations_of_motion_and_do_no_work),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,21 +18,23 @@
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
 /* The largest violation of the backward run may be at most this many times the largest violation of
- * the forward run. Both come from local errors, which depend a little on the direction and on the
- * steps chosen. */
+ * the forward run. Both violations come from local errors, which depend a little on the direction
+ * and on the steps chosen. */
 static const double MOST_VIOLATION = 4.0;
 /* The error back at the start may be at most this many times the error at the far end. A ratio of 4
  * is expected. It is the sum of 1 from the position error at the far end, 2 from the velocity error
  * there, which acts for twice the time, and 1 from the backward run. The limit is larger, because
  * the error at the far end may be small by chance. */
 static const double MOST_ERROR = 20.0;
-/* Allows for the rounding errors of about 1e4 steps. The driven crank needs this term, because its
- * positions are a function of time alone and have no other errors. */
+/* The limits are increased by this value, which is the rounding error of about 1e4 steps. The
+ * driven crank needs this, because its positions depend on time alone and have only rounding
+ * errors. */
 static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  double step; /* [s], or NaN for variable steps; it divides the sample times of tests/data */
+  /* [s], or NaN for variable steps; the sample times of tests/data are multiples of it */
+  double step;
   double rtol;
   baum_formulation formulation;
 } method;
@@ -102,7 +104,7 @@ static void assert_returns(physics_mechanism which, const method *with)
   (void)fflush(stdout);
   model_destroy(&m);
   /* If there are no degrees of freedom, the error at the far end may by chance be far below the
-   * tolerance. */
+   * tolerance. A fraction of the tolerance is therefore added to the limit. */
   double by_chance = which == DRIVEN_CRANK && !isnan(with->rtol) ? 0.1 * with->rtol : 0.0;
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
   assert_true(j.error[1] <= MOST_ERROR * j.error[0] + by_chance + ROUNDING);
@@ -115,25 +117,25 @@ static void return_on_both(const baum_integrator *integrator, double step, doubl
   assert_returns(DRIVEN_CRANK, &with);
 }
 
-static void explicit_euler_finds_its_start_again(void **state)
+static void explicit_euler_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_euler(), 5e-6, (double)NAN);
 }
 
-static void semi_implicit_euler_finds_its_start_again(void **state)
+static void semi_implicit_euler_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_semi_implicit_euler(), 5e-6, (double)NAN);
 }
 
-static void rk4_finds_its_start_again(void **state)
+static void rk4_returns_to_its_start(void **state)
 {
   (void)state;
   return_on_both(baum_rk4(), 5e-5, (double)NAN);
 }
 
-static void pairs_find_their_start_again(void **state)
+static void runge_kutta_pairs_return_to_their_start(void **state)
 {
   (void)state;
   const baum_integrator *const pairs[] = {baum_dp5(), baum_rk8()};
@@ -143,28 +145,28 @@ static void pairs_find_their_start_again(void **state)
   }
 }
 
-static void adams_finds_its_start_again(void **state)
+static void adams_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_cvode_adams(), (double)NAN, 1e-8);
 }
 
-static void bdf_finds_its_start_again(void **state)
+static void bdf_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_cvode_bdf(), (double)NAN, 1e-8);
 }
 
-static void ida_finds_its_start_again(void **state)
+static void ida_at_index_1_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
   return_on_both(baum_ida(), (double)NAN, 1e-8);
 }
 
-static void ida_with_the_constraints_themselves_finds_its_start_again(void **state)
+static void ida_with_ggl_and_at_index_2_returns_to_its_start(void **state)
 {
   (void)state;
   need_sundials();
@@ -179,14 +181,14 @@ static void ida_with_the_constraints_themselves_finds_its_start_again(void **sta
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(explicit_euler_finds_its_start_again),
-    cmocka_unit_test(semi_implicit_euler_finds_its_start_again),
-    cmocka_unit_test(rk4_finds_its_start_again),
-    cmocka_unit_test(pairs_find_their_start_again),
-    cmocka_unit_test(adams_finds_its_start_again),
-    cmocka_unit_test(bdf_finds_its_start_again),
-    cmocka_unit_test(ida_finds_its_start_again),
-    cmocka_unit_test(ida_with_the_constraints_themselves_finds_its_start_again),
+    cmocka_unit_test(explicit_euler_returns_to_its_start),
+    cmocka_unit_test(semi_implicit_euler_returns_to_its_start),
+    cmocka_unit_test(rk4_returns_to_its_start),
+    cmocka_unit_test(runge_kutta_pairs_return_to_their_start),
+    cmocka_unit_test(adams_returns_to_its_start),
+    cmocka_unit_test(bdf_returns_to_its_start),
+    cmocka_unit_test(ida_at_index_1_returns_to_its_start),
+    cmocka_unit_test(ida_with_ggl_and_at_index_2_returns_to_its_start),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,10 +20,11 @@
 
 enum { BREAKS = 3 };
 
-/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
- * step apart. */
+/* The break times [s]. The first is a multiple of STEP, and the other two are not. The last two are
+ * less than a step apart. */
 static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
-/* [N m]; the moment of inertia about the pin is 1 kg m^2. */
+/* [N m] the torque before, between and after the breaks. The moment of inertia about the pin is 1
+ * kg m^2. */
 static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
@@ -117,7 +118,7 @@ static baum_counters counters_of(baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
+ * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a break has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -131,7 +132,7 @@ static double allowed(step_mode mode)
   return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
 }
 
-static void motions_are_those_between_the_breaks(void **state)
+static void declared_breaks_keep_motions_accurate(void **state)
 {
   (void)state;
   baum_mechanism *declared = make(true);
@@ -163,7 +164,7 @@ static void motions_are_those_between_the_breaks(void **state)
 }
 
 /* Runs forward and backward through all breaks, with an output at each of them. */
-static void breaks_are_met_forward_and_backward(void **state)
+static void breaks_are_crossed_accurately_forward_and_backward(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -184,7 +185,7 @@ static void breaks_are_met_forward_and_backward(void **state)
 }
 
 /* Outputs must not change the motion, even if they are at breaks. */
-static void outputs_change_nothing(void **state)
+static void outputs_at_breaks_do_not_change_the_motion(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -213,9 +214,9 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Only the torque does work. This work must therefore equal the kinetic energy. If a step crossed a
- * jump of the torque, the two would differ. */
-static void the_account_closes_over_breaks(void **state)
+/* Only the torque does work, so its work must equal the kinetic energy. If a step crossed a jump of
+ * the torque, the work and the energy would differ. */
+static void the_work_over_breaks_equals_the_energy(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -241,8 +242,8 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A law (s, s', s''). Its velocity jumps at the first break, and its acceleration jumps at the
- * second break. */
+/* A law of motion (s, s', s'') for the driver. Its velocity jumps at the first break, and its
+ * acceleration jumps at the second break. */
 static int kinked(double t, double s[3], void *user)
 {
   (void)user;
@@ -254,7 +255,7 @@ static int kinked(double t, double s[3], void *user)
   return 0;
 }
 
-static void kinematics_pass_breaks_in_both_directions(void **state)
+static void kinematics_crosses_breaks_in_both_directions(void **state)
 {
   (void)state;
   static const double targets[] = {0.3, 0.499999, 0.5, 0.7, 1.2345, 2.0, 1.2345, 1.234, 0.5, 0.4};
@@ -297,7 +298,7 @@ static void kinematics_pass_breaks_in_both_directions(void **state)
 }
 
 /* Breaks are treated as one if they are closer to each other than the shortest step. */
-static void breaks_next_to_each_other_are_one(void **state)
+static void breaks_closer_than_the_shortest_step_are_merged(void **state)
 {
   (void)state;
   const double near[4] = {0.5, 0.5 * (1.0 + 1e-15), 0.5 * (1.0 + 4e-15), 0.5 * (1.0 + 1e-14)};
@@ -319,7 +320,7 @@ static void breaks_next_to_each_other_are_one(void **state)
   baum_mechanism_destroy(single);
 }
 
-static void lists_are_checked_sorted_and_copied(void **state)
+static void break_times_are_checked_sorted_and_copied(void **state)
 {
   (void)state;
   baum_mechanism *m = make(true);
@@ -346,13 +347,13 @@ static void lists_are_checked_sorted_and_copied(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(motions_are_those_between_the_breaks),
-    cmocka_unit_test(breaks_are_met_forward_and_backward),
-    cmocka_unit_test(outputs_change_nothing),
-    cmocka_unit_test(the_account_closes_over_breaks),
-    cmocka_unit_test(kinematics_pass_breaks_in_both_directions),
-    cmocka_unit_test(breaks_next_to_each_other_are_one),
-    cmocka_unit_test(lists_are_checked_sorted_and_copied),
+    cmocka_unit_test(declared_breaks_keep_motions_accurate),
+    cmocka_unit_test(breaks_are_crossed_accurately_forward_and_backward),
+    cmocka_unit_test(outputs_at_breaks_do_not_change_the_motion),
+    cmocka_unit_test(the_work_over_breaks_equals_the_energy),
+    cmocka_unit_test(kinematics_crosses_breaks_in_both_directions),
+    cmocka_unit_test(breaks_closer_than_the_shortest_step_are_merged),
+    cmocka_unit_test(break_times_are_checked_sorted_and_copied),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

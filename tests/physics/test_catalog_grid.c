@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the errors that two studies of the same mechanism compute. One study computes its own
- * references, and the other uses the references stored in the catalogue. This test covers some
- * mechanisms. bench_catalog covers the whole catalogue. */
+ * references, and the other uses the references stored in the catalogue. This test covers only some
+ * mechanisms; bench_catalog covers the whole catalogue. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,7 +27,7 @@ static void judge(const char *name, const baum_integrator *integrator, catalog_t
   catalog_tally_add(sum, &one);
 }
 
-static void errors_of_entries_are_those_that_stored_references_tell(void **state)
+static void computed_and_stored_references_give_the_same_errors(void **state)
 {
   (void)state;
   const char *const names[] = {"slider_crank_simeon", "four_bar", "n_four_bar"};
@@ -47,7 +47,7 @@ static void errors_of_entries_are_those_that_stored_references_tell(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(errors_of_entries_are_those_that_stored_references_tell),
+    cmocka_unit_test(computed_and_stored_references_give_the_same_errors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,8 +74,8 @@ static bool is_asked(const baum_simulation_options *o)
          o->formulation != BAUM_FORMULATION_INDEX3;
 }
 
-/* The largest allowed error. It is the error of a method of order 3 at this step, or of several
- * hundred steps at this tolerance. */
+/* The largest allowed error. With a fixed step, it is the error of a method of order 3. With a
+ * variable step, it is the error of several hundred steps at the given tolerance. */
 static const double ERROR = 2e-4;
 
 static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
@@ -141,7 +141,7 @@ static void *save(baum_simulation *run, size_t *size)
 
 /* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
  * must replace its choice by that of the saved run. */
-static void a_restored_run_has_the_rows_of_the_saved_one(void **state)
+static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
 {
   (void)state;
   baum_mechanism *m = locked_pair_make(RATE, false);
@@ -184,7 +184,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(bars_locked_by_two_pins_rotate_as_if_welded),
     cmocka_unit_test(index_3_methods_make_several_revolutions),
-    cmocka_unit_test(a_restored_run_has_the_rows_of_the_saved_one),
+    cmocka_unit_test(a_restored_run_omits_the_same_rows_as_the_saved_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

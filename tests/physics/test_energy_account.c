@@ -2,8 +2,8 @@
 /* The energy account of a run compares the change of its energy with the work that was done. The
  * difference is called the residual. With variable steps, the residual must be below 100 rtol. With
  * fixed steps, it must have the order of the method. The test covers all mechanisms of
- * account_scenes.h with every formulation. The residual of a run is the largest of the residuals at
- * 8 times. It is divided by the largest energy or work. */
+ * account_scenes.h with every formulation. The residual is read at 8 times, and the largest value
+ * counts. It is divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -92,14 +92,14 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   double slope = log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  /* If the residual is below 1e-12, it is only the rounding error of summing the works of several
-   * thousand steps. */
+  /* A residual below 1e-12 is only the rounding error that arises when the works of several
+   * thousand steps are added. */
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
-/* Tells whether the order of a method can be observed in a scene. This is impossible at index 3 if
- * the start violates the constraints, because the first step moves the state onto the constraints.
- * RATTLE supports neither dampers nor M(q). */
+/* Tells whether the order of a method can be observed in a scene. At index 3 it cannot be observed
+ * if the start violates the constraints, because the first step then moves the state onto the
+ * constraints. RATTLE supports neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -196,7 +196,7 @@ static void residuals_of_sundials_fall_with_the_tolerance(void **state)
  * energy account. The error of q is known only if an exact motion is given. */
 typedef struct motion {
   double q[TIMES][WIDTH];
-  double error; /* largest error of q, in m or rad; links are 1 m long */
+  double error; /* largest error of q [m or rad]; links are 1 m long, so both count equally */
   /* The next two are divided by the largest kinetic energy. */
   double residual; /* of the account */
   double works;    /* work done by violations and by projection */
@@ -230,9 +230,9 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
 }
 
 /* If almost no work is done, the residual is the change of T + V and contains no errors of computed
- * works. Then the integrator alone causes both the residual and the error of the motion, and the
- * two must be comparable. This shows that the residuals of BDF and IDA at tight tolerances come
- * from the integrators, and not from the account. */
+ * works. The integrator alone then causes both the residual and the error of the motion. These two
+ * must therefore be comparable. This shows that the residuals of BDF and IDA at tight tolerances
+ * come from the integrators, and not from the account. */
 static void residuals_are_comparable_with_the_error_of_the_motion(void **state)
 {
   (void)state;

@@ -47,7 +47,8 @@ static int32_t add_angle(baum_simulation *run, const swing *s, double value, int
   return index;
 }
 
-/* An event function. It is the angular velocity, which is zero where the pendulum reverses. */
+/* An event function. Its value is the angular velocity, which is zero where the pendulum
+ * reverses. */
 static int rate(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -78,7 +79,7 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
 }
 
 /* Returns the largest allowed error of an event at about the time t. Events are located on the
- * computed motion. The error is therefore the error of the motion, expressed as a time. */
+ * computed motion. The error of their times therefore comes from the error of this motion. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
@@ -130,8 +131,8 @@ static double bounce_ten_times(step_mode mode, double sign)
     worst = fmax(worst, fabs(t - want));
     assert_true(record_of(run, k).t == t);
     assert_int_equal(record_of(run, k).direction, sign > 0.0 ? -1 : 1);
-    /* The limit is the sum of two rounding errors: that of the time, 4 eps t, times 2.7 rad/s, and
-     * that of positions. */
+    /* The limit is the sum of two rounding errors: the error of the time, 4 eps t, times the
+     * angular velocity of 2.7 rad/s, and the rounding error of positions. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-13);
     bounce(run);
   }
@@ -140,7 +141,7 @@ static double bounce_ten_times(step_mode mode, double sign)
   return worst;
 }
 
-static void pendulum_bounces_at_a_stop(void **state)
+static void a_pendulum_bounces_at_a_stop(void **state)
 {
   (void)state;
   printf("\n%-22s %12s %12s %12s\n", "ten bounces", "forward", "backward", "allowed");
@@ -163,8 +164,8 @@ typedef struct expected {
   int32_t direction;
 } expected;
 
-/* Compares all records of a run with the expected ones, in their order. The expected times are
- * given in quarter periods. */
+/* Compares all event records of a run with the expected ones, in their order. The expected times
+ * are given in quarter periods. */
 static void check_records(const baum_simulation *run, const swing *s, step_mode mode,
                           const expected *want, int count)
 {
@@ -177,7 +178,7 @@ static void check_records(const baum_simulation *run, const swing *s, step_mode 
   }
 }
 
-static void directions_are_those_of_time(void **state)
+static void directions_of_crossings_refer_to_increasing_time(void **state)
 {
   (void)state;
   static const expected forward[] = {{1, 0, -1}, {1, 2, -1}, {2, 3, 1}, {3, 0, 1}, {3, 1, 1},
@@ -254,7 +255,7 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 
 /* The times of the two events differ only by rounding. With IDA they differ by up to 5e-13 s,
  * because of its iteration. The tolerance of events must treat them as simultaneous. */
-static void two_bodies_at_their_stops_are_one_stop(void **state)
+static void simultaneous_terminal_events_stop_the_run_once(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -317,7 +318,7 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
       /* The search for the time of an event is accurate to 4 eps t. */
       ASSERT_NEAR(record_of(run, 0).t, t, 4e-16, 0.0);
       assert_true(baum_simulation_time(run) == (terminal ? record_of(run, 0).t : times[3]));
-      /* The run now makes the samples at the remaining times. One of them is the time of the
+      /* The run now makes the samples at the remaining times, which include the time of the
        * event. */
       times[1] = baum_simulation_time(run);
       if (terminal) {
@@ -339,7 +340,7 @@ static bool is_there(baum_status status, step_mode mode)
   return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
 }
 
-static void zero_at_the_start_is_left_and_met_again(void **state)
+static void a_zero_at_the_start_is_only_reported_when_it_recurs(void **state)
 {
   (void)state;
   static const expected want[] = {{2, 0, 1}, {4, 0, -1}};
@@ -364,7 +365,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
 
 /* A run stops at an event, and then continues backward in time. It must not report the event
  * again. */
-static void reversing_at_an_event_finds_it_once(void **state)
+static void reversing_at_an_event_does_not_report_it_again(void **state)
 {
   (void)state;
   static const expected want[] = {{1, 0, -1}, {-1, 0, 1}};
@@ -388,7 +389,7 @@ enum { CASES = 1000, FIXED_CASES = 100 };
 
 static const double RANDOM_RTOL = 1e-6;
 
-/* Makes a call that is chosen at random. It advances the run, but not beyond `end`. */
+/* Makes a randomly chosen call that advances the run, but not beyond `end`. */
 static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 {
   double t = baum_simulation_time(run);
@@ -441,8 +442,8 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
   return wrong;
 }
 
-/* Returns the largest allowed error of a time, divided by this time. For variable steps it is ten
- * times rtol. For high swings, up to 8 times rtol was measured. */
+/* Returns the largest allowed relative error of an event's time. For variable steps it is ten times
+ * rtol. For high swings, errors of up to 8 times rtol were measured. */
 static double random_error(step_mode mode)
 {
   return mode.fixed ? 0.1 : 10.0 * RANDOM_RTOL;
@@ -470,13 +471,13 @@ static void no_event_is_lost_in_random_cases(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pendulum_bounces_at_a_stop),
-    cmocka_unit_test(directions_are_those_of_time),
+    cmocka_unit_test(a_pendulum_bounces_at_a_stop),
+    cmocka_unit_test(directions_of_crossings_refer_to_increasing_time),
     cmocka_unit_test(simultaneous_events_are_all_reported),
-    cmocka_unit_test(two_bodies_at_their_stops_are_one_stop),
+    cmocka_unit_test(simultaneous_terminal_events_stop_the_run_once),
     cmocka_unit_test(an_event_at_the_time_of_an_output_is_found_and_sampled),
-    cmocka_unit_test(zero_at_the_start_is_left_and_met_again),
-    cmocka_unit_test(reversing_at_an_event_finds_it_once),
+    cmocka_unit_test(a_zero_at_the_start_is_only_reported_when_it_recurs),
+    cmocka_unit_test(reversing_at_an_event_does_not_report_it_again),
     cmocka_unit_test(no_event_is_lost_in_random_cases),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,9 +21,9 @@ static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
 /* The largest allowed values of the final error divided by rtol, for each of FORMULATIONS. Lengths
  * are in m, and angles in rad. Driven mechanisms have no degrees of freedom, so stabilization
  * corrects their errors. In free mechanisms, errors grow during two revolutions or a swing. At
- * index 3 the error test omits velocities. In the order of FORMULATIONS, the values measured were
- * 0.7, 460, 0.1, 0.04, 13 (driven) and 760, 800, 1.2e5, 3.1e3, 1.8e3 (free). The limits are four to
- * ten times as large, because the results change with rounding. */
+ * index 3 the error test omits velocities. In the order of FORMULATIONS, the measured values were
+ * 0.7, 460, 0.1, 0.04 and 13 for driven mechanisms, and 760, 800, 1.2e5, 3.1e3 and 1.8e3 for free
+ * ones. The limits are four to ten times as large, because the results change with rounding. */
 static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {5.0, 3e3, 1.0, 0.4, 1e2};
 static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e3, 5e3, 5e5, 2e4, 1e4};
 /* Errors are only judged if rtol >= 10^-TIGHTEST_JUDGED. At tighter tolerances, the errors also
@@ -70,8 +70,8 @@ static double largest_difference(const end *one, const end *other)
   return largest;
 }
 
-/* Sums over all initial configurations of a mechanism. There is one such struct for each
- * formulation and each rtol = 10^-k. */
+/* Results of the runs from all initial configurations of a mechanism. There is one such struct for
+ * each formulation and each rtol = 10^-k. */
 typedef struct tally {
   int runs;
   int64_t steps;
@@ -149,7 +149,7 @@ static void turn(table *out, bool driven, int poses)
   judge(out);
 }
 
-static void a_driven_crank_turns_from_everywhere(void **state)
+static void a_driven_crank_runs_from_all_angles_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -157,7 +157,7 @@ static void a_driven_crank_turns_from_everywhere(void **state)
   turn(&out, true, 40);
 }
 
-static void a_free_crank_turns_from_everywhere(void **state)
+static void a_free_crank_runs_from_all_angles_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -176,7 +176,7 @@ static void move(const char *name, baum_status built, model *m, double t)
   judge(&out);
 }
 
-static void andrews_mechanism_moves_at_all_tolerances(void **state)
+static void andrews_mechanism_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -184,7 +184,7 @@ static void andrews_mechanism_moves_at_all_tolerances(void **state)
   move("Andrews", model_andrews_bodies(&m), &m, 0.03);
 }
 
-static void a_four_bar_moves_at_all_tolerances(void **state)
+static void a_four_bar_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -192,7 +192,7 @@ static void a_four_bar_moves_at_all_tolerances(void **state)
   move("four-bar", model_four_bar(&m), &m, 2.0);
 }
 
-static void a_chain_moves_at_all_tolerances(void **state)
+static void a_chain_runs_at_all_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -203,11 +203,11 @@ static void a_chain_moves_at_all_tolerances(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_driven_crank_turns_from_everywhere),
-    cmocka_unit_test(a_free_crank_turns_from_everywhere),
-    cmocka_unit_test(andrews_mechanism_moves_at_all_tolerances),
-    cmocka_unit_test(a_four_bar_moves_at_all_tolerances),
-    cmocka_unit_test(a_chain_moves_at_all_tolerances),
+    cmocka_unit_test(a_driven_crank_runs_from_all_angles_at_all_tolerances),
+    cmocka_unit_test(a_free_crank_runs_from_all_angles_at_all_tolerances),
+    cmocka_unit_test(andrews_mechanism_runs_at_all_tolerances),
+    cmocka_unit_test(a_four_bar_runs_at_all_tolerances),
+    cmocka_unit_test(a_chain_runs_at_all_tolerances),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,7 +100,7 @@ static void freezing_and_starting_a_run_take_linear_time(void **state)
 
 /* In a straight horizontal chain, the rounding errors of all joints add up at the last links.
  * Projection must work in spite of this. */
-static void a_straight_chain_is_projected(void **state)
+static void projection_works_for_a_straight_chain(void **state)
 {
   (void)state;
   model m;
@@ -139,10 +139,10 @@ static void degrees_of_freedom_are_counted(void **state)
 /* ---- mechanics ---- */
 
 /* Each link must satisfy Newton's and Euler's equations. The pin at the start of link k carries
- * this link and all links after it. Its force is F_k = sum of m (a_j - g) over j >= k. With the
- * moment of inertia J of a link, Euler's equation is J alpha_k = -p x F_k - p x F_(k+1), where p is
- * the vector from the centre of the link to its end. The ends of adjacent links must have the same
- * acceleration. */
+ * this link and all links after it. The force of this pin is F_k, the sum of m (a_j - g) over j >=
+ * k. With the moment of inertia J of a link, Euler's equation is J alpha_k = -p x F_k - p x
+ * F_(k+1), where p is the vector from the centre of the link to its end. The ends of adjacent links
+ * must have the same acceleration. */
 typedef struct worst {
   double force;
   double moment; /* [N m] largest residual */
@@ -216,7 +216,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(freezing_and_starting_a_run_take_linear_time),
-    cmocka_unit_test(a_straight_chain_is_projected),
+    cmocka_unit_test(projection_works_for_a_straight_chain),
     cmocka_unit_test(degrees_of_freedom_are_counted),
     cmocka_unit_test(every_link_obeys_newton_and_euler),
   };

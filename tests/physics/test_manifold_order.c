@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator for mechanisms whose positions are on a manifold.
  * There are two: a heavy top, and a slider-crank whose bodies represent their angle by (cos, sin).
- * The step is halved repeatedly, and the errors are compared. The gains are chosen by the rule
- * `auto`. They are the same for all these steps. */
+ * The step is halved repeatedly, and the errors are compared. The rule `auto` chooses the gains,
+ * which are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,7 +26,8 @@ static const double END = 0.5;
  * test_order.c. The runs take only half a second, so that error terms of the next order are larger.
  * Such terms may also increase the slope. */
 static const double TOO_FLAT = 0.25;
-/* The limit for the orders 5 and 8. A wrong coefficient would give slopes of at most 2. */
+/* This is the limit for the orders 5 and 8, instead of TOO_FLAT. It is wide enough, because a wrong
+ * coefficient would give slopes of at most 2. */
 static const double TOO_FLAT_HIGH = 0.6;
 static const double TOO_STEEP = 0.8;
 
@@ -75,7 +76,7 @@ static void observe(const manifold_scene *scene, const double *want,
   double slope = log2(error[0] / error[rungs - 1]) / (rungs - 1);
   printf("   order %.2f\n", slope);
   (void)fflush(stdout);
-  bool high = order >= 5; /* the small errors of these orders reach rounding */
+  bool high = order >= 5; /* the errors of these orders are so small that rounding matters */
   double flat = high ? TOO_FLAT_HIGH : TOO_FLAT;
   if (!(slope >= order - flat && (high || slope <= order + TOO_STEEP))) {
     fail_msg("%s by %s, %s: order %.2f", scene->name, baum_integrator_name(integrator),
@@ -99,7 +100,7 @@ static void observe_all(const char *name)
   }
 }
 
-static void turned_bodies_keep_the_order(void **state)
+static void bodies_with_cosine_and_sine_keep_the_order(void **state)
 {
   (void)state;
   observe_all("slider-crank");
@@ -116,7 +117,7 @@ static void tops_keep_the_order(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(turned_bodies_keep_the_order),
+    cmocka_unit_test(bodies_with_cosine_and_sine_keep_the_order),
     cmocka_unit_test(tops_keep_the_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c). Every integrator
  * of this build is used with all formulations that it offers. The results are compared with those
- * of the twin, which is the same mechanism made of the library's planar bodies. If there is no
- * twin, they are compared with a known motion about a fixed point. */
+ * of a twin, which is the same mechanism made of the library's planar bodies. A mechanism without a
+ * twin is compared with its known motion about a fixed point. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -104,7 +104,7 @@ static void expect(const char *what, double got, double most, const manifold_sce
 /* ---- every method ---- */
 
 /* Returns the largest allowed error. It is three times the limit in test_all_joints.c, because the
- * tops rotate by 3 rad. */
+ * tops rotate through a larger angle, 3 rad. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
@@ -149,7 +149,7 @@ static void try_run(const manifold_scene *scene, const method *with, const void 
   baum_simulation_destroy(run);
 }
 
-static void every_method_carries_every_scene(void **state)
+static void every_method_reproduces_the_motion_of_every_scene(void **state)
 {
   (void)state;
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
@@ -175,7 +175,7 @@ static const double *twin_at(const manifold_scene *scene, const method *with, do
 }
 
 /* If angles are represented by (cos, sin), the function move() of the manifold is exact. A method
- * that changes q only by move() must therefore take the same steps as with the twin. For
+ * that changes q only by move() must therefore reach the same states as with the twin. For
  * quaternions, the Euler methods add h q' instead of calling move(). In scenes with quaternions,
  * only RATTLE and generalized-alpha are therefore tested. */
 static void try_steps(const manifold_scene *scene, const method *with, const void *context)
@@ -196,7 +196,7 @@ static void try_steps(const manifold_scene *scene, const method *with, const voi
   }
 }
 
-static void methods_that_move_step_as_their_twins(void **state)
+static void steps_along_the_manifold_equal_those_of_the_twin(void **state)
 {
   (void)state;
   for (int k = 0; k < MANIFOLD_SCENES; k++) {
@@ -222,9 +222,10 @@ static double estimate_of(const baum_mechanism *mechanism)
   return counters.error_estimate;
 }
 
-/* The error estimate measures displacements along the manifold, which are angles in rad here. It
- * does not measure differences of q. It must therefore equal the error estimate of the twin. */
-static void errors_are_displacements(void **state)
+/* The error estimate of a run measures displacements along the manifold, which are angles in this
+ * scene. It does not measure differences of q. It must therefore equal the error estimate of the
+ * twin, whose coordinates are angles. */
+static void error_estimates_measure_displacements(void **state)
 {
   (void)state;
   const manifold_scene *scene = manifold_scene_find("angle");
@@ -382,10 +383,9 @@ static double residual_of(const baum_mechanism *mechanism, const baum_simulation
   return fabs(account.residual);
 }
 
-/* The residual of the energy account is caused by the error of the method. It must be comparable
- * with the residual of the twin, because the representation of q only affects the choice of
- * steps. */
-static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
+/* The residual of the energy account comes from the error of the method. It must be comparable with
+ * the residual of the twin, because the representation of q only affects the choice of steps. */
+static void energy_residuals_are_comparable_with_those_of_the_twin(void **state)
 {
   (void)state;
   static const struct {
@@ -534,12 +534,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_move_far),
-    cmocka_unit_test(every_method_carries_every_scene),
-    cmocka_unit_test(methods_that_move_step_as_their_twins),
-    cmocka_unit_test(errors_are_displacements),
+    cmocka_unit_test(every_method_reproduces_the_motion_of_every_scene),
+    cmocka_unit_test(steps_along_the_manifold_equal_those_of_the_twin),
+    cmocka_unit_test(error_estimates_measure_displacements),
     cmocka_unit_test(runs_are_saved_and_restored),
     cmocka_unit_test(events_are_found),
-    cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),
+    cmocka_unit_test(energy_residuals_are_comparable_with_those_of_the_twin),
     cmocka_unit_test(kinematics_follows_the_driver),
     cmocka_unit_test(singular_configurations_are_crossed),
     cmocka_unit_test(studies_measure_errors),

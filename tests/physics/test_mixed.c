@@ -123,8 +123,8 @@ static void add_bob(assembly *s, baum_body_id on, const double at[2], bool rigid
               : baum_mechanism_add_spatial_spherical(s->mechanism, &ball, &s->ball));
 }
 
-/* Makes the mechanism with a planar slider-crank, or with one of spatial bodies. If `driven` is
- * true, a driver moves the crank and the bob is welded to the rod. */
+/* Makes the mechanism. The bodies of its slider-crank are planar or spatial. If `driven` is true, a
+ * driver moves the crank and the bob is welded to the rod. */
 static assembly make(bool spatial, bool driven)
 {
   static const double crank = 0.3;
@@ -211,10 +211,10 @@ static double compare(const baum_simulation_options *options, const outcome *exa
   return apart(NUMBERS, mixed.places, spatial.places);
 }
 
-/* Projection and implicit methods keep both models on the same constraints. Their results therefore
- * differ only because the formulas for rotations differ. In other formulations the two models drift
- * apart. */
-static void planar_links_move_as_spatial_ones(void **state)
+/* With projection and with implicit methods, both models stay on the same constraints. Their
+ * results therefore differ only because the formulas for rotations differ. With other formulations,
+ * each model drifts off the constraints in a different way. */
+static void planar_links_move_like_spatial_links(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -238,7 +238,7 @@ static void planar_links_move_as_spatial_ones(void **state)
 }
 
 /* Spatial reactions also contain the force normal to the plane and the moments about axes in it. */
-static void reactions_and_energies_are_the_same(void **state)
+static void planar_and_spatial_links_have_the_same_reactions_and_energies(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -253,7 +253,7 @@ static void reactions_and_energies_are_the_same(void **state)
   }
 }
 
-static void kinematics_are_the_same(void **state)
+static void planar_and_spatial_links_have_the_same_kinematics(void **state)
 {
   (void)state;
   baum_simulation_options options = baum_simulation_options_default();
@@ -335,7 +335,7 @@ static void add_distance(baum_mechanism *m, baum_body_id a, baum_body_id b)
 
 typedef void add_fn(baum_mechanism *m, baum_body_id a, baum_body_id b);
 
-/* The first two of these joints can be on particles. */
+/* The first two joints of this list can be on particles. */
 static add_fn *const KINDS[] = {
   add_spherical,   add_distance,          add_revolute,      add_universal,
   add_cylindrical, add_prismatic,         add_planar,        add_fixed,
@@ -453,9 +453,9 @@ static void equations_hold_for_every_joint(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(planar_links_move_as_spatial_ones),
-    cmocka_unit_test(reactions_and_energies_are_the_same),
-    cmocka_unit_test(kinematics_are_the_same),
+    cmocka_unit_test(planar_links_move_like_spatial_links),
+    cmocka_unit_test(planar_and_spatial_links_have_the_same_reactions_and_energies),
+    cmocka_unit_test(planar_and_spatial_links_have_the_same_kinematics),
     cmocka_unit_test(equations_hold_for_every_joint),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

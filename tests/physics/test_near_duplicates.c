@@ -27,8 +27,9 @@ static const double ANGLE = 0.7;
 
 typedef enum again {
   PIN_ASIDE, /* a pin whose two points are moved along the rod; it locks crank and rod */
-  PIN_APART, /* a pin of which only one point is moved; it contradicts the crank pin */
-  /* a pin near the pin "foot" to ground, whose two points are moved; it locks the crank */
+  PIN_APART, /* a pin with only one of its two points moved; it contradicts the crank pin */
+  /* a second pin near the pin "foot" to ground; both of its points are moved, so it locks the
+   * crank */
   FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,
@@ -165,8 +166,8 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Returns the error of the accelerations. It is divided by the largest acceleration that occurs,
- * either with the constraints or without them. */
+/* Returns the error of the accelerations, divided by the largest acceleration that occurs with or
+ * without the constraints. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -195,12 +196,12 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
 
 /* Returns the largest allowed error. At the start of a run, the library tolerates a relative
  * violation of Phi' of up to 1e-6 without a message (the constant OPEN in src/simulate/start.c).
- * Accelerations depend on the squares of velocities. Their relative error may therefore be more
- * than twice this violation. */
+ * Accelerations depend on the squares of velocities. The relative error of accelerations may
+ * therefore be more than twice this violation. */
 static double allowed(double rate)
 {
-  /* Rows that are 1e-10 apart may be treated as one. If a guide is rotated by an angle of 1e-10,
-   * the accelerations change by about this fraction. */
+  /* Rows that differ by 1e-10 may be treated as the same row. If a guide is rotated by an angle of
+   * 1e-10, the accelerations change by about this fraction. */
   return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
@@ -290,7 +291,7 @@ static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m
   return run;
 }
 
-static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(void **state)
+static void velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -318,7 +319,7 @@ static void a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused(voi
 /* If both ends of a rod are pinned, it cannot move. Its initial velocities are rounding errors of
  * the size that a projection leaves. The library must treat the rod as being at rest, both with
  * gravity and without. */
-static void velocities_of_rounding_against_a_lock_count_as_rest(void **state)
+static void velocities_of_locked_bodies_count_as_rest_if_they_are_rounding(void **state)
 {
   (void)state;
   for (int with_gravity = 0; with_gravity < 2; with_gravity++) {
@@ -347,8 +348,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(nearly_duplicate_joints_are_right_or_refused_by_name),
     cmocka_unit_test(nearly_duplicate_joints_in_motion_are_right_or_refused),
-    cmocka_unit_test(a_small_rate_against_a_lock_is_warned_of_and_a_large_one_refused),
-    cmocka_unit_test(velocities_of_rounding_against_a_lock_count_as_rest),
+    cmocka_unit_test(velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large),
+    cmocka_unit_test(velocities_of_locked_bodies_count_as_rest_if_they_are_rounding),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator with every formulation. The step is halved
  * repeatedly for a pendulum, a free slider-crank and a four-bar, and the errors relative to
- * references are compared. The gains are chosen by the rule `auto`. They are the same for all these
+ * references are compared. The rule `auto` chooses the gains, which are the same for all these
  * steps. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,9 +20,9 @@
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
-/* The slope may differ from the order by at most this. There are 4 runs, and the step changes by a
- * factor of 8 from the first to the last. An error term of the next order that is 1/4 of the error
- * at the largest step changes the mean slope by less than 0.11. */
+/* The largest allowed difference between slope and order. There are 4 runs, and the step changes by
+ * a factor of 8 from the first to the last. Suppose that an error term of the next order is 1/4 of
+ * the error at the largest step. Even then, it changes the mean slope by less than 0.11. */
 static const double TOLERANCE = 0.2;
 
 /* `samples` is chosen so that runs end after 2 rad of the crank, or 3 rad of the pendulum. */
@@ -43,13 +43,13 @@ static const reference REFERENCES[] = {
 
 /* Number of steps of the coarsest run, for each order. At order 4 with gains, fewer than 128 steps
  * would let the error term of order 5 dominate. The errors of the finest run are between 1e-12 and
- * 1e-3, the latter for order 1. Rounding errors are below 1e-13. The error terms of the next order
- * are larger for Adams methods. Their coarsest run therefore has 4 times as many steps. */
+ * 1e-3; the largest are those of order 1. Rounding errors are below 1e-13. Adams methods have
+ * larger error terms of the next order, so their coarsest run has 4 times as many steps. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
 /* Series of runs for orders 5 and 8. Their errors reach rounding before error terms of the next
- * order become small, particularly with gains. Each series therefore has fewer runs, and its slope
- * may be larger than the order. */
+ * order become small, particularly with gains. Each series therefore has fewer runs. Its slope may
+ * exceed the order by `too_steep`. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;
@@ -193,7 +193,7 @@ static void projection_keeps_the_order(void **state)
   compare_all(BAUM_FORMULATION_PROJECTION);
 }
 
-static void index_3_has_its_order(void **state)
+static void index_3_methods_have_their_order(void **state)
 {
   (void)state;
   compare_all(BAUM_FORMULATION_INDEX3);
@@ -205,7 +205,7 @@ int main(void)
     cmocka_unit_test(baumgarte_with_constant_gains_keeps_the_order),
     cmocka_unit_test(no_stabilization_keeps_the_order),
     cmocka_unit_test(projection_keeps_the_order),
-    cmocka_unit_test(index_3_has_its_order),
+    cmocka_unit_test(index_3_methods_have_their_order),
     cmocka_unit_test(orders_5_and_8_are_kept),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

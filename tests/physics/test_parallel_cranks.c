@@ -46,8 +46,8 @@ static void fall(const double x[2], double dx[2])
   dx[1] = -weight * cos(x[0]) / inertia;
 }
 
-/* Returns the angle after the time `span`. It is computed by the classical Runge-Kutta method with
- * steps of 1e-4 s. The result is accurate to 1e-13. */
+/* Returns the angle after the time `span`, computed by the classical Runge-Kutta method with steps
+ * of 1e-4 s. It is accurate to 1e-13. */
 static double swing(double span)
 {
   double x[2] = {ANGLE, RATE};
@@ -82,10 +82,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
 }
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
- * judged. Other fixed-step methods have errors of (omega h)^p, which grow with the revolutions, and
- * rounding errors. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the
- * omitted rows change, and have errors of about 1e4 rtol. The errors of other methods are about 10
- * rtol. */
+ * judged. The errors of other fixed-step methods are the sum of (omega h)^p, which grows with the
+ * number of revolutions, and rounding errors. With variable steps the limit is 1e5 rtol. BDF and
+ * IDA restart whenever the omitted rows change, and have errors of about 1e4 rtol. The errors of
+ * other methods are about 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -115,7 +115,7 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
 
 /* The formulation UNSTABILIZED is tested as well. Its violation grows whenever the omitted rows
  * change (docs/limits.md). */
-static void every_stabilized_method_goes_round(void **state)
+static void every_stabilized_method_makes_full_revolutions(void **state)
 {
   (void)state;
   double want = swing(END);
@@ -146,7 +146,7 @@ static void goes_on_a_second(const model *m, baum_solver solver)
   baum_simulation_destroy(run);
 }
 
-static void every_solver_goes_round(void **state)
+static void every_solver_makes_full_revolutions(void **state)
 {
   (void)state;
   model m = make(false);
@@ -156,8 +156,9 @@ static void every_solver_goes_round(void **state)
   model_destroy(&m);
 }
 
-/* One crank is on a body that is welded to ground. All rows that fix this body must be kept. */
-static void a_fixed_body_stays_out_of_the_motion(void **state)
+/* The pin of one crank is on a body that is welded to ground. No row of the weld may be omitted,
+ * because the weld alone fixes this body. */
+static void rows_that_fix_a_body_are_not_omitted(void **state)
 {
   (void)state;
   model m = make(true);
@@ -165,10 +166,10 @@ static void a_fixed_body_stays_out_of_the_motion(void **state)
   model_destroy(&m);
 }
 
-/* Takes states of another run at times up to 0.8 s, sets them in this run, and continues from each
- * for 0.2 s. In these states, the rows that this run chose at its own start may be nearly
+/* Takes states of one run at times up to 0.8 s, sets them in a second run, and continues from each
+ * for 0.2 s. In these states, the rows that the second run chose when it was created may be nearly
  * dependent. */
-static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
+static void setting_a_state_chooses_again_which_rows_are_omitted(void **state)
 {
   (void)state;
   model there = make(false);
@@ -193,7 +194,7 @@ static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 }
 
 /* When the omitted rows change, the run must not remove a violation that the user has given. */
-static void a_violation_that_was_given_stays(void **state)
+static void changing_the_omitted_rows_keeps_a_given_violation(void **state)
 {
   (void)state;
   model m = make(false);
@@ -230,7 +231,7 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
 
 /* A buffer is restored in a run that omits other rows than the saved run. This run must then omit
  * the same rows as the saved run. */
-static void a_restored_run_leaves_out_the_same_rows(void **state)
+static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
 {
   (void)state;
   static unsigned char buffer[1 << 16];
@@ -252,7 +253,7 @@ static void a_restored_run_leaves_out_the_same_rows(void **state)
   model_destroy(&m);
 }
 
-static void the_energy_account_closes(void **state)
+static void the_energy_residual_is_small(void **state)
 {
   (void)state;
   model m = make(false);
@@ -267,7 +268,7 @@ static void the_energy_account_closes(void **state)
 
 /* At every angle, the angular acceleration of the cranks is -weight cos(angle) / inertia. If two
  * cranks are in line with the coupler, the rows of these two cranks alone are singular. */
-static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
+static void accelerations_are_right_where_the_initial_rows_are_singular(void **state)
 {
   (void)state;
   model m = make(false);
@@ -303,14 +304,14 @@ static void accelerations_are_right_where_rows_of_the_start_are_singular(void **
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_stabilized_method_goes_round),
-    cmocka_unit_test(every_solver_goes_round),
-    cmocka_unit_test(a_fixed_body_stays_out_of_the_motion),
-    cmocka_unit_test(a_state_from_elsewhere_has_rows_of_its_own),
-    cmocka_unit_test(a_violation_that_was_given_stays),
-    cmocka_unit_test(a_restored_run_leaves_out_the_same_rows),
-    cmocka_unit_test(the_energy_account_closes),
-    cmocka_unit_test(accelerations_are_right_where_rows_of_the_start_are_singular),
+    cmocka_unit_test(every_stabilized_method_makes_full_revolutions),
+    cmocka_unit_test(every_solver_makes_full_revolutions),
+    cmocka_unit_test(rows_that_fix_a_body_are_not_omitted),
+    cmocka_unit_test(setting_a_state_chooses_again_which_rows_are_omitted),
+    cmocka_unit_test(changing_the_omitted_rows_keeps_a_given_violation),
+    cmocka_unit_test(a_restored_run_omits_the_same_rows_as_the_saved_run),
+    cmocka_unit_test(the_energy_residual_is_small),
+    cmocka_unit_test(accelerations_are_right_where_the_initial_rows_are_singular),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,9 @@
  *
  * Here scale_j is the unit of coordinate j: the characteristic length, or 1 rad. The test covers
  * every integrator that offers this formulation, with fixed and variable steps. The mechanisms stay
- * away from singular configurations. Rounding errors are relative to the terms of a row. For
- * velocities, they are relative to the fastest velocity of the mechanism, because all velocities
- * are solved together.
+ * away from singular configurations. For Phi_i, rounding is relative to the terms of this row. For
+ * Phi'_i, it is relative to L_i times the largest |v_j| / scale_j of the mechanism, because all
+ * velocities are solved together.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -163,7 +163,7 @@ static void assert_kept_by_all(model *m, const scene *of)
 
 /* ---- mechanisms ---- */
 
-static void pendulum(void **state)
+static void the_rows_of_a_pendulum_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -171,7 +171,7 @@ static void pendulum(void **state)
   assert_kept_by_all(&m, &(scene){"pendulum", "mmm", 4.0});
 }
 
-static void slider_crank(void **state)
+static void the_rows_of_a_slider_crank_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -179,7 +179,7 @@ static void slider_crank(void **state)
   assert_kept_by_all(&m, &(scene){"slider-crank, free", "mmr", 0.1});
 }
 
-static void driven_slider_crank(void **state)
+static void the_rows_of_a_driven_slider_crank_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -187,7 +187,7 @@ static void driven_slider_crank(void **state)
   assert_kept_by_all(&m, &(scene){"slider-crank, driven", "mmr", 0.1});
 }
 
-static void four_bar(void **state)
+static void the_rows_of_a_four_bar_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -195,7 +195,7 @@ static void four_bar(void **state)
   assert_kept_by_all(&m, &(scene){"four-bar", "mmr", 4.0});
 }
 
-static void andrews(void **state)
+static void the_rows_of_andrews_mechanism_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -203,7 +203,7 @@ static void andrews(void **state)
   assert_kept_by_all(&m, &(scene){"Andrews, 7 bodies", "mmr", 0.02});
 }
 
-static void car_axis(void **state)
+static void the_rows_of_a_car_axis_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -211,7 +211,7 @@ static void car_axis(void **state)
   assert_kept_by_all(&m, &(scene){"car axis", "mmm", 1.0});
 }
 
-static void chain(void **state)
+static void the_rows_of_a_chain_are_satisfied_to_rounding(void **state)
 {
   (void)state;
   model m;
@@ -222,13 +222,13 @@ static void chain(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(pendulum),
-    cmocka_unit_test(slider_crank),
-    cmocka_unit_test(driven_slider_crank),
-    cmocka_unit_test(four_bar),
-    cmocka_unit_test(andrews),
-    cmocka_unit_test(car_axis),
-    cmocka_unit_test(chain),
+    cmocka_unit_test(the_rows_of_a_pendulum_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_a_slider_crank_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_a_driven_slider_crank_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_a_four_bar_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_andrews_mechanism_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_a_car_axis_are_satisfied_to_rounding),
+    cmocka_unit_test(the_rows_of_a_chain_are_satisfied_to_rounding),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,7 @@ static const double AS_OTHERS = 30.0;
 static const double ROUNDING = 1e-11;
 
 /* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
- * coordinates, in structures without joints, without loops, and with many loops. One kind has
+ * coordinates. Some have no joints, some have no loops, and some have many loops. One kind has
  * velocity-level rows. The last two kinds have a hub, which is a body that has most of the joints.
  * The block solver can handle the smaller hub, but not the larger one. */
 static const random_kind kinds[] = {
@@ -74,10 +74,10 @@ typedef struct pair {
   double v[SIZE];
   double a[SIZE];
   double lambda[SIZE];
-  int solved; /* number of configurations, as are the next two members */
-  int singular;
-  int projected;
-  int by_blocks; /* number of mechanisms */
+  int solved;    /* number of configurations whose accelerations were computed */
+  int singular;  /* number of singular configurations */
+  int projected; /* number of configurations that were projected */
+  int by_blocks; /* number of mechanisms that the block solver can handle */
 } pair;
 
 static baum_workspace *make_workspace(const baum_mechanism *m, bool blocks)
@@ -199,7 +199,7 @@ static void check_projection(pair *p)
   p->projected++;
 }
 
-static void blocks_agree_with_the_whole_system(void **state)
+static void the_block_solver_agrees_with_the_whole_system(void **state)
 {
   pair *p = *state;
   for (int k = 0; k < KINDS; k++) {
@@ -226,7 +226,7 @@ static void blocks_agree_with_the_whole_system(void **state)
 
 /* ---- after a failure ---- */
 
-/* Arranges that call number `call` of the first user constraint returns NaN. */
+/* Makes the first user constraint return NaN in call number `call`. */
 static void spoil(pair *p, int call)
 {
   random_rows *rows = &p->random->rows[0];
@@ -236,9 +236,9 @@ static void spoil(pair *p, int call)
   assert_int_equal(rows->fail_at, 0);
 }
 
-/* After a failed evaluation, the next evaluation must give the same result as without the failure.
- * It must be the same to the last digit. */
-static void failed_evaluations_leave_no_trace(void **state)
+/* After a failed evaluation, the next evaluation must give exactly the same result as without the
+ * failure. */
+static void failed_evaluations_do_not_change_later_results(void **state)
 {
   pair *p = *state;
   const random_kind rows_only = {
@@ -311,8 +311,8 @@ static baum_mechanism *make_light(double mass)
 }
 
 /* Without the weld, the acceleration of the light body would be 5 N / mass. The weld cancels almost
- * all of this acceleration. This cancellation must not cost digits if the masses differ by more
- * than a factor of 1e3. */
+ * all of this acceleration. If the masses differ by more than a factor of 1e3, the cancellation
+ * must not cost digits. */
 static void loaded_light_bodies_keep_all_digits(void **state)
 {
   (void)state;
@@ -338,7 +338,7 @@ static void loaded_light_bodies_keep_all_digits(void **state)
 
 /* Lets random_judge() compare accelerations of random mechanisms with those in quadruple precision.
  * bench_random tests more mechanisms in the same way. */
-static void accelerations_are_met_or_rightly_refused(void **state)
+static void accelerations_are_accurate_or_rightly_refused(void **state)
 {
   pair *p = *state;
   enum { MECHANISMS = 400 };
@@ -347,8 +347,8 @@ static void accelerations_are_met_or_rightly_refused(void **state)
     random_judge(p->random, seed, false, &tally);
     random_judge(p->random, seed, true, &tally);
   }
-  /* In the mechanism of seed 3070, several rows are dependent, and the first of these rows are
-   * nearly dependent on each other. */
+  /* In the mechanism of seed 3070, several rows are dependent. The first few of them are nearly
+   * dependent even without the others. */
   random_judge(p->random, 3070, false, &tally);
   assert_int_equal(random_bad(&tally), 0);
   /* Each seed gives two mechanisms, and up to three configurations of each are tested. On average,
@@ -360,11 +360,11 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   assert_true(tally.dependent > MECHANISMS / 10);
 }
 
-/* The numbers are seeds of difficult cases. In 39374, a poor choice of rows would keep rows that
- * are nearly dependent. In 10325, 15203, 23760 and 33361, no acceleration satisfies the omitted
- * rows together with the others. In 32478 and 36235, the residual of a contradiction is divided by
- * a pivot that is only a rounding error. */
-static void nearly_dependent_and_contradicting_rows_are_not_silent(void **state)
+/* The numbers are seeds of difficult cases. For seed 39374, a poor choice of omitted rows would
+ * leave rows that are nearly dependent. For seeds 10325, 15203, 23760 and 33361, no acceleration
+ * satisfies the omitted rows together with the others. For seeds 32478 and 36235, rows contradict
+ * each other, and the residual is divided by a pivot that is only a rounding error. */
+static void nearly_dependent_and_contradicting_rows_are_not_silently_wrong(void **state)
 {
   static const uint64_t seeds[] = {39374, 10325, 15203, 23760, 33361, 32478, 36235};
   pair *p = *state;
@@ -397,11 +397,14 @@ static int tear_down(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test_setup_teardown(blocks_agree_with_the_whole_system, set_up, tear_down),
-    cmocka_unit_test_setup_teardown(accelerations_are_met_or_rightly_refused, set_up, tear_down),
-    cmocka_unit_test_setup_teardown(nearly_dependent_and_contradicting_rows_are_not_silent, set_up,
+    cmocka_unit_test_setup_teardown(the_block_solver_agrees_with_the_whole_system, set_up,
                                     tear_down),
-    cmocka_unit_test_setup_teardown(failed_evaluations_leave_no_trace, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(accelerations_are_accurate_or_rightly_refused, set_up,
+                                    tear_down),
+    cmocka_unit_test_setup_teardown(nearly_dependent_and_contradicting_rows_are_not_silently_wrong,
+                                    set_up, tear_down),
+    cmocka_unit_test_setup_teardown(failed_evaluations_do_not_change_later_results, set_up,
+                                    tear_down),
     cmocka_unit_test(loaded_light_bodies_keep_all_digits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,7 +9,7 @@
 
 #include "spatial_judge.h"
 
-static void accelerations_and_reactions_are_met(void **state)
+static void accelerations_and_reactions_are_accurate(void **state)
 {
   static random_spatial room;
   (void)state;
@@ -49,7 +49,7 @@ static void check_refused(const uint64_t *seeds, int count)
 
 /* In these design configurations, dependent rows contradict each other. Because of rounding,
  * however, a pivot is 2e-15 instead of zero. LU factorization alone would give accelerations of
- * 1e14 m/s^2, and the residual would be small. */
+ * 1e14 m/s^2. Their residual would be small, and would not reveal the contradiction. */
 static void contradictions_that_rounding_hides_are_refused(void **state)
 {
   static const uint64_t seeds[] = {1993, 2454, 2990, 3741, 5094};
@@ -57,8 +57,8 @@ static void contradictions_that_rounding_hides_are_refused(void **state)
   check_refused(seeds, 5);
 }
 
-/* In these design configurations, no acceleration satisfies all rows. Those that satisfy the kept
- * rows contradict the omitted rows. */
+/* In these design configurations, no acceleration satisfies all rows. Every acceleration that
+ * satisfies the other rows contradicts the omitted rows. */
 static void contradictions_of_omitted_rows_are_refused(void **state)
 {
   static const uint64_t seeds[] = {2161, 7114, 7849, 8244};
@@ -84,7 +84,7 @@ static void couplings_without_effect_are_redundant(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_and_reactions_are_met),
+    cmocka_unit_test(accelerations_and_reactions_are_accurate),
     cmocka_unit_test(contradictions_that_rounding_hides_are_refused),
     cmocka_unit_test(contradictions_of_omitted_rows_are_refused),
     cmocka_unit_test(couplings_without_effect_are_redundant),

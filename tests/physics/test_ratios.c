@@ -130,7 +130,7 @@ static train make(double speed)
   return t;
 }
 
-/* Reads the angles of shaft, other shaft, wheel and screw, and the displacement of the screw. */
+/* Reads the angles of both shafts, the wheel and the screw, and the displacement of the screw. */
 enum { READ = 5 };
 static void read(baum_simulation *run, const train *t, double out[READ])
 {
@@ -202,8 +202,9 @@ static void ratios_are_exact_over_100_revolutions(void **state)
 }
 
 /* The rows are satisfied at any number of revolutions, but the energy of the spring depends on this
- * number. A workspace computes this energy after it has been given the angle of the shaft. */
-static void a_workspace_is_given_the_revolutions(void **state)
+ * number. A workspace must compute the right energy after it has been given the angle of the
+ * shaft. */
+static void a_workspace_uses_the_revolutions_that_it_is_given(void **state)
 {
   (void)state;
   train t = make(AMPLITUDE * frequency());
@@ -246,7 +247,7 @@ static void a_workspace_is_given_the_revolutions(void **state)
 
 /* ---- all methods ---- */
 
-/* Returns the allowed error of the angle. It is at least three times the measured one. */
+/* Returns the allowed error of the angle. It is at least three times the measured error. */
 static double allowed(step_mode mode, baum_formulation formulation)
 {
   static const double by_order[] = {5e-7, 1e-3, 2e-5, 3e-8, 3e-10, 1e-13, 1e-13, 1e-13, 1e-13};
@@ -296,7 +297,7 @@ static void every_method_keeps_the_ratios(void **state)
 
 /* ---- constant-velocity joints ---- */
 
-/* A shaft that rotates at a constant rate drives another one. The angle between the shafts ranges
+/* A shaft that rotates at a constant rate drives another shaft. The angle between the shafts ranges
  * from 3 to 123 degrees. */
 static void rates_are_equal_at_any_angle(void **state)
 {
@@ -346,7 +347,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(ratios_are_exact_over_100_revolutions),
-    cmocka_unit_test(a_workspace_is_given_the_revolutions),
+    cmocka_unit_test(a_workspace_uses_the_revolutions_that_it_is_given),
     cmocka_unit_test(every_method_keeps_the_ratios),
     cmocka_unit_test(rates_are_equal_at_any_angle),
   };

@@ -20,9 +20,9 @@
 
 /* ---- mechanisms ---- */
 
-/* [rad/s] Angular velocity of the precession of the gyroscope below. The axis of this gyroscope is
- * horizontal, so that the precession is m g a / (I w). Its mass m, arm a, axial moment of inertia I
- * and spin w are the numbers below. */
+/* [rad/s] Angular velocity with which the gyroscope of build_gyroscope() precesses. Its axis is
+ * horizontal, so that this angular velocity is m g a / (I w), with the mass m = 2 kg, the arm a =
+ * 0.1 m, the axial moment of inertia I = 0.02 kg m^2 and the spin w = 300 rad/s. */
 static const double PRECESSION = 2.0 * 9.81 * 0.1 / (0.02 * 300.0);
 
 /* A heavy top on a spherical joint at the origin. */
@@ -115,7 +115,7 @@ static double error_at(build_fn *build, int nq, const double *want, double step)
   check(baum_simulation_advance_to(run, 0.5));
   double error = apart(baum_simulation_q(run), want, nq);
   baum_counters c = counters_of(run);
-  /* The tolerances are rounding errors of coordinates below 1 m, and of velocities below 20
+  /* The limits allow for rounding errors of coordinates below 1 m, and of velocities below 20
    * rad/s. */
   assert_true(c.max_phi <= 4e-15);
   assert_true(c.max_phi_rate <= 2e-13);
@@ -186,8 +186,8 @@ typedef struct variation {
   double m[3];
 } variation;
 
-/* Returns the symplectic form of two variations: eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x
- * eta_2). */
+/* Returns the symplectic form of two variations, eta_1 . m_2 - eta_2 . m_1 + m . (eta_1 x eta_2).
+ * Here m is the angular momentum of the state that is varied. */
 static double form_of(const double m[3], const variation *a, const variation *b)
 {
   double turned[3];
@@ -199,7 +199,7 @@ static double form_of(const double m[3], const variation *a, const variation *b)
   return sum;
 }
 
-/* Computes the angular momentum about the joint. It is in body axes. */
+/* Computes the angular momentum about the joint, in body axes. */
 static void momentum_of(const double w[3], double out[3])
 {
   static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
@@ -334,7 +334,7 @@ static void check_band(const char *name, build_fn *build, double step)
   baum_simulation_destroy(run);
 }
 
-static void the_energy_of_long_runs_stays_in_its_band(void **state)
+static void the_energy_error_of_long_runs_is_bounded(void **state)
 {
   (void)state;
   check_band("heavy top", build_top, 5e-3);
@@ -386,9 +386,9 @@ static void expect_same_end(build_fn *build, baum_solver solver, const double *w
   assert_true(apart(got, want, SPATIAL_RSSR_NQ) <= 1e-11);
 }
 
-/* All results may differ only by rounding. The four-bar with parallel axes has three redundant
- * rows. */
-static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
+/* Another solver, redundant rows or fixed bodies may change the results only by rounding. The
+ * four-bar with parallel axes has three redundant rows. */
+static void solvers_redundant_rows_and_fixed_bodies_do_not_change_results(void **state)
 {
   (void)state;
   double want[SPATIAL_RSSR_NQ];
@@ -401,8 +401,8 @@ static void solvers_redundant_rows_and_fixed_bodies_alter_nothing(void **state)
   expect_same_end(spatial_build_four_bar, BAUM_SOLVER_KLU, want);
 }
 
-/* Makes the top and a free ball, which has no gyroscopic moment. Neither of them may affect the
- * other. */
+/* Makes the top and a free ball, which has no gyroscopic moment. Neither body may affect the motion
+ * of the other. */
 static void build_top_and_ball(baum_mechanism *m)
 {
   baum_spatial_body_def ball = other_body();
@@ -415,7 +415,7 @@ static void build_top_and_ball(baum_mechanism *m)
   check(baum_mechanism_add_spatial_body(m, &ball, NULL));
 }
 
-static void bodies_without_gyroscopic_moments_move_as_before(void **state)
+static void bodies_with_and_without_gyroscopic_moments_do_not_interact(void **state)
 {
   (void)state;
   baum_simulation *run = start(build_top_and_ball, baum_rattle(), 2e-3);
@@ -483,7 +483,7 @@ static double residual_at(double step)
   return fabs(account.residual);
 }
 
-static void the_energy_account_closes_with_the_order(void **state)
+static void the_energy_residual_falls_with_the_order(void **state)
 {
   (void)state;
   double residual[2] = {residual_at(2e-3), residual_at(1e-3)};
@@ -497,11 +497,11 @@ int main(void)
     cmocka_unit_test(the_order_is_two_and_constraints_hold_to_rounding),
     cmocka_unit_test(reversed_velocities_lead_back_to_the_start),
     cmocka_unit_test(the_symplectic_form_is_kept),
-    cmocka_unit_test(the_energy_of_long_runs_stays_in_its_band),
-    cmocka_unit_test(solvers_redundant_rows_and_fixed_bodies_alter_nothing),
-    cmocka_unit_test(bodies_without_gyroscopic_moments_move_as_before),
+    cmocka_unit_test(the_energy_error_of_long_runs_is_bounded),
+    cmocka_unit_test(solvers_redundant_rows_and_fixed_bodies_do_not_change_results),
+    cmocka_unit_test(bodies_with_and_without_gyroscopic_moments_do_not_interact),
     cmocka_unit_test(fast_gyroscopes_precess_steadily),
-    cmocka_unit_test(the_energy_account_closes_with_the_order),
+    cmocka_unit_test(the_energy_residual_falls_with_the_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

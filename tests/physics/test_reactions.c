@@ -29,8 +29,9 @@ static baum_simulation *run_bracket(const baum_mechanism *m)
   return run;
 }
 
-/* Checks that the reaction is the weight of the heavy body, 9.81 N, and the moment of this weight
- * about the joint. The joint is 0.4 m beside the centre of this body. */
+/* Checks that the reaction of the joint balances the weight of the heavy body, 9.81 N, and its
+ * moment about the joint. The joint is at a horizontal distance of 0.4 m from the centre of this
+ * body. */
 static void check_hold(const double reaction[3])
 {
   assert_true(fabs(reaction[0]) <= 9.81e-9);
@@ -38,7 +39,7 @@ static void check_hold(const double reaction[3])
   assert_true(fabs(reaction[2] - 0.4 * 9.81) <= 9.81e-9);
 }
 
-static void a_light_bracket_carries_what_hangs_on_it(void **state)
+static void a_light_bracket_carries_a_heavy_body(void **state)
 {
   (void)state;
   for (int k = 0; k < RATIOS; k++) {
@@ -89,7 +90,7 @@ static void only_joints_that_share_forces_are_named(void **state)
 /* The multipliers are those of least norm. For this norm, each row is scaled with the mass matrix
  * M. Two joints on the same body therefore each take half of the force, whatever the mass of the
  * body. */
-static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
+static void a_pin_and_a_weld_each_carry_half_at_any_mass(void **state)
 {
   (void)state;
   for (int k = 0; k < RATIOS; k++) {
@@ -129,7 +130,7 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
 /* A spatial body of 2 kg is welded to a planar body. The planar body cannot leave its plane, so it
  * has no velocity normal to this plane. The reaction of the weld must nevertheless contain the
  * component of the weight in this direction. */
-static void planar_bodies_bear_forces_across_their_plane(void **state)
+static void planar_bodies_carry_forces_normal_to_their_plane(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
@@ -170,10 +171,10 @@ static void planar_bodies_bear_forces_across_their_plane(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(planar_bodies_bear_forces_across_their_plane),
-    cmocka_unit_test(a_light_bracket_carries_what_hangs_on_it),
+    cmocka_unit_test(planar_bodies_carry_forces_normal_to_their_plane),
+    cmocka_unit_test(a_light_bracket_carries_a_heavy_body),
     cmocka_unit_test(only_joints_that_share_forces_are_named),
-    cmocka_unit_test(a_pin_and_a_weld_share_by_halves_at_any_mass),
+    cmocka_unit_test(a_pin_and_a_weld_each_carry_half_at_any_mass),
     cmocka_unit_test(random_redundant_mechanisms_are_in_balance),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,8 +15,8 @@
 enum { POSES = 8 };
 
 /* The largest allowed difference between the results with and without redundant rows. Both results
- * have the accuracy of ordinary configurations. The redundant rows are satisfied only up to
- * rounding, which adds to the difference. */
+ * are as accurate as in ordinary configurations. In addition, the redundant rows are satisfied only
+ * up to rounding, which increases the difference. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs of mechanisms ---- */
@@ -83,7 +83,7 @@ static double compare_pose(int pair, int k)
   return apart;
 }
 
-static void accelerations_are_those_without_redundant_rows(void **state)
+static void accelerations_equal_those_without_redundant_rows(void **state)
 {
   (void)state;
   double worst_of_all = 0.0;
@@ -99,9 +99,9 @@ static void accelerations_are_those_without_redundant_rows(void **state)
   assert_true(worst_of_all <= LIMIT);
 }
 
-/* The accelerations are compared with those in quadruple precision, for which the same rows are
- * omitted as in the workspace. */
-static void accelerations_are_those_of_quadruple_precision(void **state)
+/* The accelerations are compared with a solution in quadruple precision, which omits the same rows
+ * as the workspace. */
+static void accelerations_agree_with_quadruple_precision(void **state)
 {
   (void)state;
   for (int pair = 0; pair < PAIR_COUNT; pair++) {
@@ -140,7 +140,7 @@ static double compare_runs(int pair, const baum_simulation_options *options)
   return worst;
 }
 
-static void motions_are_those_without_redundant_rows(void **state)
+static void motions_equal_those_without_redundant_rows(void **state)
 {
   (void)state;
   const baum_integrator *methods[] = {baum_semi_implicit_euler(), baum_rk4()};
@@ -180,7 +180,7 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
   model_destroy(&m);
 }
 
-/* If a pin is duplicated, it and the original must each carry half of the force. All other
+/* If a pin is duplicated, the pin and its duplicate must each carry half of the force. All other
  * multipliers must be the same as without the duplicate, and they must be unique. */
 static void multipliers_that_are_not_unique_are_marked(void **state)
 {
@@ -290,8 +290,8 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* For this motion, th'^2 / 2 + k sin th is constant. In a flat configuration the first
-     * accelerations are not unique. This changes the constant by 3e-6. */
+    /* For this motion, th'^2 / 2 + k sin th is constant. If the run starts in a flat configuration,
+     * its first accelerations are not unique, which changes the constant by 3e-6. */
     double energy = v[2] * v[2] / 2.0 + pull * (sin(q[2]) - sin(data->angle));
     printf("%-34s angle %.9f, energy off by %.1e\n", TELL_APART[k].name, q[2], energy - 2.0);
     assert_true(fabs(energy - 2.0) <= 1e-5);
@@ -306,8 +306,9 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
 
 /* ---- a coupling of equal angles ---- */
 
-/* Makes a door on two hinges whose common axis is oblique. The coupling of both angles only repeats
- * what the hinges enforce. Its row is zero up to rounding. */
+/* Makes a door on two hinges whose common axis is oblique. If `coupled` is true, a coupling makes
+ * both hinge angles equal. The hinges enforce this already, so the row of the coupling is zero up
+ * to rounding. */
 static baum_mechanism *make_door(bool coupled)
 {
   baum_mechanism *m = NULL;
@@ -369,9 +370,9 @@ static void a_coupling_of_both_hinges_of_a_door_is_redundant(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_are_those_without_redundant_rows),
-    cmocka_unit_test(accelerations_are_those_of_quadruple_precision),
-    cmocka_unit_test(motions_are_those_without_redundant_rows),
+    cmocka_unit_test(accelerations_equal_those_without_redundant_rows),
+    cmocka_unit_test(accelerations_agree_with_quadruple_precision),
+    cmocka_unit_test(motions_equal_those_without_redundant_rows),
     cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
     cmocka_unit_test(permanent_and_momentary_redundancy_are_distinguished_in_any_unit),
     cmocka_unit_test(a_run_may_start_next_to_a_singular_configuration),

@@ -17,7 +17,7 @@ enum { NV = 12 };
 
 static const double STEP = 1e-3;
 static const double RTOL = 1e-7;
-static const double END = 0.3; /* [s] ends before the mechanism becomes flat */
+static const double END = 0.3; /* [s] end of the run, before the mechanism becomes flat */
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU,
                                       BAUM_SOLVER_QR};
@@ -93,7 +93,7 @@ typedef struct comparison {
   model with;
   model without;
   double exact[NV]; /* the exact q at END */
-  double alone[NV]; /* q at END without redundant rows, by the first solver */
+  double alone[NV]; /* q at END, computed without redundant rows by the first solver */
   double own;       /* the error of `alone` */
   int count;
 } comparison;
@@ -117,9 +117,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Returns the largest allowed difference. If different rows are omitted, the drift, or the result
- * of IDA's iteration, differs by a fraction of the method's error. With a variable step, this error
- * is about as large as the tolerance. */
+/* Returns the largest allowed difference. If different rows are omitted, the drift differs by a
+ * fraction of the method's error, and so does the result of IDA's iteration. With a variable step,
+ * this error is about as large as the tolerance. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -150,7 +150,7 @@ static void compare(const method *with, void *context)
   c->count++;
 }
 
-static void redundant_rows_change_no_motion(void **state)
+static void redundant_rows_do_not_change_the_motion(void **state)
 {
   (void)state;
   comparison c = {.with = make(true), .without = make(false)};
@@ -167,8 +167,8 @@ static void redundant_rows_change_no_motion(void **state)
 
 /* ---- omitted rows are monitored ---- */
 
-/* Makes a link whose pin to ground has two drivers. They prescribe the angular velocities 2 and
- * 2 + acceleration t. A second link hangs on the first one. */
+/* Makes a link whose pin to ground has two drivers. The drivers prescribe the angular velocities 2
+ * rad/s and 2 rad/s + acceleration t. A second link hangs on the first one. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -198,10 +198,11 @@ static baum_mechanism *driven_twice(double acceleration)
   return m;
 }
 
-static const double ANGLE = 1.0; /* [rad] by how much the two motors differ at END */
+/* [rad] difference between the angles that the two drivers prescribe at END */
+static const double ANGLE = 1.0;
 
-/* If the motors contradict each other, the counters and a warning must report the violation.
- * Otherwise they must not. */
+/* If the drivers contradict each other, the counters and a warning must report the violation. If
+ * they agree, no violation may be reported. */
 static void part(const method *with, void *context)
 {
   const baum_mechanism *const *mechanisms = context;
@@ -216,15 +217,15 @@ static void part(const method *with, void *context)
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "the warning about a violated row is missing or unjustified",
            k);
-    /* Methods of order 1 themselves have violations of up to 1e-2. A variable step may end beyond
-     * END. */
+    /* With methods of order 1, even consistent drivers have violations of up to 1e-2. A variable
+     * step may end beyond END. */
     expect(k == 1 ? counters.max_phi >= ANGLE - 2e-2 : counters.max_phi <= 2e-2, with,
            "largest violation", counters.max_phi);
     baum_simulation_destroy(run);
   }
 }
 
-static void omitted_rows_are_monitored(void **state)
+static void contradictions_of_omitted_rows_are_reported(void **state)
 {
   (void)state;
   baum_mechanism *mechanisms[2] = {driven_twice(0.0), driven_twice(2.0 * ANGLE / (END * END))};
@@ -237,8 +238,8 @@ static void omitted_rows_are_monitored(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(redundant_rows_change_no_motion),
-    cmocka_unit_test(omitted_rows_are_monitored),
+    cmocka_unit_test(redundant_rows_do_not_change_the_motion),
+    cmocka_unit_test(contradictions_of_omitted_rows_are_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the rolling disc. General motion is compared with reduced equations, which have no
+/* Tests the rolling disc. A general motion is compared with reduced equations, which have no
  * constraints and are integrated in quadruple precision. A ball on a turntable is compared with its
- * closed form. The catalogue contains the steady motion of a disc. */
+ * closed form. The steady motion of a disc is tested with the catalogue. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -28,7 +28,8 @@
  *   I w' - m rho x (rho x w') = -w x I w + m rho x (rho' x w) + m g rho x k,
  *   I = I_t + (I_a - I_t) n n^T,   n' = w x n
  *
- * in ground axes. The state consists of n, the angular velocity w, and the horizontal position of
+ * in ground axes. Here m is the mass, and I_a and I_t are the moments of inertia about n and about
+ * transverse axes. The state consists of n, the angular velocity w, and the horizontal position of
  * the centre.
  */
 
@@ -123,8 +124,8 @@ static void step_reduced(wide *x, wide h, double rim)
   }
 }
 
-/* Integrates to t by the classical Runge-Kutta method, once with `steps` steps and once with twice
- * as many. Extrapolates from both results. */
+/* Integrates the reduced equations to t by the classical Runge-Kutta method, once with `steps`
+ * steps and once with twice as many. Extrapolates from both results. */
 static void reduce(const double start[STATE], double t, int steps, double rim, double out[STATE])
 {
   wide x[2][STATE];
@@ -154,8 +155,8 @@ static void orient(const double n[3], double p[4])
   p[3] = 0.0;
 }
 
-/* Rotates x (3) by the conjugate of p, from ground axes to body axes. If `back` is set, rotates x
- * by p instead. */
+/* Converts x (3) from ground axes to body axes. If `back` is set, converts x from body axes to
+ * ground axes. */
 static void turn(const double p[4], const double x[3], bool back, double out[3])
 {
   double sign = back ? 1.0 : -1.0;
@@ -236,7 +237,7 @@ static void general_motion_follows_the_reduced_equations(void **state)
     baum_simulation *run = create(m, 1e-12);
     check(baum_simulation_advance_to(run, 10.0));
     check(baum_simulation_counters(run, &counters, sizeof counters));
-    /* `coarse` is 32 times less accurate than `want` */
+    /* the error of `coarse` is 32 times that of `want` */
     ASSERT_NEAR(difference_from(run, coarse), 0.0, 0.0, 1e-8);
     ASSERT_NEAR(difference_from(run, want), 0.0, 0.0, 1e-9);
     assert_true(fabs(want[6] - GENERAL[6]) + fabs(want[8] - GENERAL[8]) > 0.5);
@@ -298,7 +299,7 @@ static void every_method_rolls_the_disc(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void degrees_of_freedom(void **state)
+static void a_disc_has_5_position_and_3_velocity_degrees_of_freedom(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -359,7 +360,7 @@ static void a_ball_on_a_turntable_moves_on_a_circle(void **state)
     double s = sin(own * t);
     check(baum_simulation_advance_to(run, t));
     const double *at = baum_simulation_q(run) + 7;
-    /* v rotates about y with the angular velocity `own` */
+    /* the velocity of the ball rotates about y with the angular velocity `own` */
     ASSERT_NEAR(at[0], 0.4 + (s * speed[0] + (1.0 - c) * speed[1]) / own, 0.0, 1e-9);
     ASSERT_NEAR(at[2], (s * speed[1] - (1.0 - c) * speed[0]) / own, 0.0, 1e-9);
     ASSERT_NEAR(at[1], r, 0.0, 1e-14);
@@ -373,7 +374,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(general_motion_follows_the_reduced_equations),
     cmocka_unit_test(every_method_rolls_the_disc),
-    cmocka_unit_test(degrees_of_freedom),
+    cmocka_unit_test(a_disc_has_5_position_and_3_velocity_degrees_of_freedom),
     cmocka_unit_test(a_ball_on_a_turntable_moves_on_a_circle),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,10 +18,10 @@
 
 enum { JUMPS = 3 };
 
-/* The first time is a multiple of STEP, and the other two are not. The last two are less than a
- * step apart. */
+/* The times of the jumps [s]. The first is a multiple of STEP, and the other two are not. The last
+ * two are less than a step apart. */
 static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
-/* [N m]; the moment of inertia is 1 kg m^2. */
+/* [N m] the torque before, between and after the jumps. The moment of inertia is 1 kg m^2. */
 static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0};
 static const double STEP = 0.01;
 static const double RTOL = 1e-8;
@@ -29,7 +29,7 @@ static const double RTOL = 1e-8;
 typedef struct disc {
   baum_mechanism *mechanism;
   baum_joint_id pin;
-  baum_joint_id motor; /* there is none if the disc is free */
+  baum_joint_id motor; /* not set if the disc has no motor */
   baum_input_id torque;
   baum_input_id other; /* a torque in the opposite direction; its initial value is 0 */
 } disc;
@@ -132,7 +132,7 @@ static double error_now(const baum_simulation *run)
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity of 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
+ * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
  * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
  * first step after a jump has a lower order. For all other methods, it is the rounding error of
  * about 200 steps. */
@@ -155,7 +155,7 @@ static baum_counters counters_of(baum_simulation *run)
 
 /* ---- the free disc ---- */
 
-static void motions_are_those_between_the_jumps(void **state)
+static void scheduled_jumps_keep_motions_accurate(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -179,7 +179,7 @@ static void motions_are_those_between_the_jumps(void **state)
 
 /* Runs forward and backward through all jumps, and makes an output at each of them. At the time of
  * a jump the input has its value after the jump. */
-static void jumps_are_met_forward_and_backward(void **state)
+static void jumps_are_crossed_accurately_forward_and_backward(void **state)
 {
   (void)state;
   static const double targets[] = {0.5,   1.0,    1.2345, 1.2361, 1.7,  1.2361,
@@ -256,7 +256,7 @@ static void inputs_that_jump_together_are_all_reset_before_the_jump(void **state
 /* A schedule is given or replaced during a run. At this moment, a run with variable steps has
  * already integrated beyond the time that it reports. The new schedule must nevertheless take
  * effect at the reported time. */
-static void a_schedule_may_be_given_late(void **state)
+static void a_schedule_given_during_a_run_takes_effect_at_once(void **state)
 {
   (void)state;
   static const double later[1] = {1.5};
@@ -281,7 +281,7 @@ static void a_schedule_may_be_given_late(void **state)
   }
 }
 
-static void the_account_closes_over_jumps(void **state)
+static void the_energy_residual_is_small_over_jumps(void **state)
 {
   (void)state;
   printf("\n%-22s %10s %10s\n", "", "residual", "work off");
@@ -310,9 +310,9 @@ static void the_account_closes_over_jumps(void **state)
 
 /* ---- the driven disc ---- */
 
-/* A motor drives the disc. The torque therefore does not change the motion, but the effort of the
- * motor must balance it. */
-static void kinematics_give_the_effort_for_the_input_at_that_time(void **state)
+/* A motor prescribes the motion of the disc. The torque therefore does not change the motion, but
+ * the effort of the motor must balance the torque. */
+static void kinematics_gives_the_effort_for_the_present_input(void **state)
 {
   (void)state;
   static const double targets[] = {0.499999, 0.5, 1.2345, 1.236, 1.2361, 2.0, 1.2345, 1.2, 0.4};
@@ -337,7 +337,7 @@ static void kinematics_give_the_effort_for_the_input_at_that_time(void **state)
 
 /* ---- other states and runs ---- */
 
-static void inputs_have_the_values_of_the_time_reached(void **state)
+static void inputs_have_the_values_scheduled_for_the_time_that_is_set(void **state)
 {
   (void)state;
   const double q[3] = {0.0, 0.0, 0.0};
@@ -355,7 +355,7 @@ static void inputs_have_the_values_of_the_time_reached(void **state)
   close_all(run, &d);
 }
 
-static void another_method_takes_the_schedule_over(void **state)
+static void a_continuing_run_takes_over_the_schedule(void **state)
 {
   (void)state;
   for (int k = 0; step_mode_at(k).integrator; k++) {
@@ -374,9 +374,9 @@ static void another_method_takes_the_schedule_over(void **state)
   }
 }
 
-/* After it was saved, the run gets another schedule. Restoring the run must bring the first
- * schedule back. */
-static void restoring_brings_the_schedule_back(void **state)
+/* A run is saved, and then gets another schedule. Restoring the run must bring the first schedule
+ * back. */
+static void restoring_a_run_restores_its_schedule(void **state)
 {
   (void)state;
   static unsigned char buffer[1 << 17];
@@ -428,8 +428,8 @@ static void setting_an_input_ends_its_schedule(void **state)
   close_all(run, &d);
 }
 
-/* If a scheduled value equals the one before it, there is no jump and no restart. */
-static void equal_successive_values_are_no_jump(void **state)
+/* If a scheduled value equals the value before it, there is no jump and no restart. */
+static void equal_successive_values_cause_no_restart(void **state)
 {
   (void)state;
   static const double times[4] = {0.25, 0.5, 0.75, 1.0};
@@ -446,18 +446,18 @@ static void equal_successive_values_are_no_jump(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(motions_are_those_between_the_jumps),
-    cmocka_unit_test(jumps_are_met_forward_and_backward),
+    cmocka_unit_test(scheduled_jumps_keep_motions_accurate),
+    cmocka_unit_test(jumps_are_crossed_accurately_forward_and_backward),
     cmocka_unit_test(steps_stop_at_jumps),
     cmocka_unit_test(inputs_that_jump_together_are_all_reset_before_the_jump),
-    cmocka_unit_test(a_schedule_may_be_given_late),
-    cmocka_unit_test(the_account_closes_over_jumps),
-    cmocka_unit_test(kinematics_give_the_effort_for_the_input_at_that_time),
-    cmocka_unit_test(inputs_have_the_values_of_the_time_reached),
-    cmocka_unit_test(another_method_takes_the_schedule_over),
-    cmocka_unit_test(restoring_brings_the_schedule_back),
+    cmocka_unit_test(a_schedule_given_during_a_run_takes_effect_at_once),
+    cmocka_unit_test(the_energy_residual_is_small_over_jumps),
+    cmocka_unit_test(kinematics_gives_the_effort_for_the_present_input),
+    cmocka_unit_test(inputs_have_the_values_scheduled_for_the_time_that_is_set),
+    cmocka_unit_test(a_continuing_run_takes_over_the_schedule),
+    cmocka_unit_test(restoring_a_run_restores_its_schedule),
     cmocka_unit_test(setting_an_input_ends_its_schedule),
-    cmocka_unit_test(equal_successive_values_are_no_jump),
+    cmocka_unit_test(equal_successive_values_cause_no_restart),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs that pass through singular configurations must report what happened there. All other runs
- * must report nothing. This test is a small version of bench_singular. It has two initial
+ * must report nothing. This test is a small version of bench_singular, with two initial
  * configurations of each mechanism. */
 #include <math.h>
 #include <setjmp.h>
@@ -13,8 +13,9 @@
 
 #include "singular_scenes.h"
 
-/* [rad] If the error of a run is larger, the run is on another branch. Branches differ by radians.
- * Even at the loosest tolerance used here, errors on the right branch are smaller. */
+/* [rad] If the error of a run is larger than this, the run is on another branch. Branches differ by
+ * radians. Even at the loosest tolerance used here, errors on the right branch are smaller than
+ * this. */
 static const double WRONG = 0.1;
 
 static const struct {
@@ -70,7 +71,7 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
 
 /* Tests the setting that docs/theory/singular.md recommends. The largest error in the table of that
  * page is 3e-8. The largest error measured here was 1e-8. */
-static void recommended_setting_is_accurate(void **state)
+static void the_recommended_setting_is_accurate(void **state)
 {
   (void)state;
   const singular_setting setting = {
@@ -87,9 +88,9 @@ static void recommended_setting_is_accurate(void **state)
 }
 
 /* In these two cases, a step ends close to a flat configuration. In the first case it ends 5e-7 rad
- * from it. The acceleration that the equations give there has no correct digit. In the second case,
- * an ordinary projection does not converge there. Without such a coincidence, runs have errors of
- * 4e-6. */
+ * from the flat configuration. The acceleration that the equations give there has no correct digit.
+ * In the second case, an ordinary projection does not converge at the end of the step. Runs whose
+ * steps do not end close to it have errors of 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
@@ -115,7 +116,7 @@ static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 
 /* Checks which time, joint and branch are reported at the first flat configuration of a
  * four-bar. */
-static void intervals_have_times_joints_and_branches(void **state)
+static void near_singular_intervals_report_time_joint_and_branch(void **state)
 {
   (void)state;
   model m;
@@ -138,9 +139,9 @@ static void intervals_have_times_joints_and_branches(void **state)
   assert_true(entry.begin < entry.t && entry.t < entry.end);
   /* The mechanism becomes flat after 90 degrees of the crank. The reference time was computed from
    * the equation of motion in the angle, with mpmath and 25 digits. The search is accurate to a
-   * millionth of two steps, which is 1e-8 s. The method has an error of 3e-9 s. The pivot is
-   * proportional to the square of the distance from the flat configuration. The smallest pivot
-   * found is therefore about 1e-12. */
+   * millionth of two steps, which is 1e-8 s. The integration adds an error of 3e-9 s. The pivot is
+   * proportional to the square of the distance from the flat configuration. Because of these
+   * errors, the smallest pivot found is about 1e-12 instead of zero. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -176,12 +177,12 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
 }
 
 /* A small error in a singular configuration causes a violation. Because of this violation, the
- * mechanism cannot reach the next singular configuration. It reverses shortly before it, and
+ * mechanism cannot reach the next singular configuration. The motion reverses shortly before, and
  * continues on the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;
-  /* [rad] angle of the closed-form solution of A Coruna A02. */
+  /* [rad] angle at 10 s in the closed-form solution of problem A02 of A Coruna. */
   static const double ANGLE = -30.343944970943127;
   model_n_four_bar data = model_n_four_bar_a02(1);
   model m;
@@ -248,8 +249,8 @@ static baum_status build_light_rotation(model *out)
   return status == BAUM_OK ? baum_mechanism_freeze(out->mechanism) : status;
 }
 
-/* Makes a light rod. It joins a bob of 1 kg to a pin in a slot at the origin. When the rod becomes
- * perpendicular to the slot, it stops the bob suddenly. */
+/* Makes a light rod between a bob of 1 kg and a pin that slides in a slot through the origin. When
+ * the rod becomes perpendicular to the slot, it stops the bob suddenly. */
 static baum_mechanism *build_taut_rod(double mass, double direction)
 {
   baum_mechanism *m = NULL;
@@ -316,7 +317,7 @@ static void a_light_rod_that_comes_taut_is_not_singular(void **state)
   }
 }
 
-/* This is the same rod without stabilization. The violation grows during the run. This must not be
+/* The same rod moves without stabilization. The violation grows during the run. This must not be
  * mistaken for a singular configuration either. */
 static void a_light_rod_that_drifts_is_not_singular(void **state)
 {
@@ -361,9 +362,9 @@ static void mechanisms_away_from_singular_configurations_are_silent(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(recommended_setting_is_accurate),
+    cmocka_unit_test(the_recommended_setting_is_accurate),
     cmocka_unit_test(fixed_steps_may_end_in_a_singular_configuration),
-    cmocka_unit_test(intervals_have_times_joints_and_branches),
+    cmocka_unit_test(near_singular_intervals_report_time_joint_and_branch),
     cmocka_unit_test(drifting_runs_that_leave_their_branch_warn),
     cmocka_unit_test(mechanisms_away_from_singular_configurations_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),

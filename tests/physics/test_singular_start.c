@@ -12,13 +12,14 @@
 
 #include "models.h"
 
-/* The largest allowed number of accepted and rejected steps together. A run leaves the
- * configuration in a few steps, or it ends after 10 attempts without success. The largest number
- * that was measured is 34. It depends on rounding. A run that did not make progress would need more
- * than a hundred thousand steps. */
+/* The largest allowed number of accepted and rejected steps together. A run leaves the singular
+ * configuration in a few steps, or it ends after 10 unsuccessful attempts. The largest number that
+ * was measured is 34. It depends on rounding. A run that did not make progress would need more than
+ * a hundred thousand steps. */
 enum { MOST_TRIES = 1000 };
 
-static const double END = 0.3; /* [s] almost 1 rad at 3 rad/s */
+/* [s] the cranks start with 3 rad/s and rotate by almost 1 rad until then */
+static const double END = 0.3;
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
@@ -62,8 +63,8 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* On another branch, the angles would differ by radians. At the loosest tolerance, dp5 has an
-       * error of 2e-5. */
+      /* On another branch, the angles would differ by radians. The largest error, 2e-5 rad, is that
+       * of dp5 at the loosest tolerance. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
     baum_simulation_destroy(run);
@@ -79,7 +80,7 @@ static const struct {
   double want; /* [rad] angle at END */
 } LEVEL[] = {{1, 0.38584123}, {2, 0.40053536}, {5, 0.41102074}, {20, 0.41684209}};
 
-static void a_run_goes_on_as_its_velocity_says(void **state)
+static void a_moving_run_follows_the_exact_motion(void **state)
 {
   (void)state;
   for (size_t k = 0; k < sizeof LEVEL / sizeof LEVEL[0]; k++) {
@@ -88,7 +89,7 @@ static void a_run_goes_on_as_its_velocity_says(void **state)
   }
 }
 
-static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
+static void a_run_from_rest_continues_with_a_warning_or_ends(void **state)
 {
   (void)state;
   run_all(1, 0.0, 0.0, (double)NAN);
@@ -99,7 +100,7 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* Sets a state in which the crank angle is pi/2 + off. The crank rotates at 150 rad/s, and the rod
  * rotates in the opposite direction. The angle of the rod is set directly. Assembly would compute
- * it from the sine of the crank angle, and half of the digits would be lost here. */
+ * it from the sine of the crank angle, which loses half of the digits near pi/2. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;
@@ -133,7 +134,7 @@ static void leave_fold(const model *m, const baum_integrator *integrator, double
   baum_simulation_destroy(run);
 }
 
-static void a_run_from_next_to_a_folded_slider_crank_takes_no_tiny_steps(void **state)
+static void a_run_that_starts_near_a_folded_configuration_needs_few_steps(void **state)
 {
   (void)state;
   const model_slider_crank data = {.centric = true, .rod = 0.153, .angle = 0.3, .moving = true};
@@ -155,9 +156,9 @@ static void a_run_from_next_to_a_folded_slider_crank_takes_no_tiny_steps(void **
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_run_goes_on_as_its_velocity_says),
-    cmocka_unit_test(at_rest_a_run_goes_on_with_a_warning_or_ends),
-    cmocka_unit_test(a_run_from_next_to_a_folded_slider_crank_takes_no_tiny_steps),
+    cmocka_unit_test(a_moving_run_follows_the_exact_motion),
+    cmocka_unit_test(a_run_from_rest_continues_with_a_warning_or_ends),
+    cmocka_unit_test(a_run_that_starts_near_a_folded_configuration_needs_few_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@ static void check_tally(const slender_tally *tally, long mechanisms)
 
 /* SEEDS are difficult mechanisms. For each of them, an earlier version of the library gave a result
  * that was wrong without a message, or refused a result without a reason. */
-static void accelerations_are_met(void **state)
+static void accelerations_are_accurate_or_rightly_refused(void **state)
 {
   static const uint64_t SEEDS[] = {300, 389, 494, 504, 587, 716, 808, 846, 944, 1284, 5282};
   enum { MECHANISMS = 150, COUNT = sizeof SEEDS / sizeof *SEEDS };
@@ -47,8 +47,8 @@ static void results_do_not_depend_on_the_unit_of_length(void **state)
     slender_verdict verdicts[2] = {SLENDER_RIGHT, SLENDER_RIGHT};
     slender_judge(seed, 1.0, &tally, &verdicts[0]);
     slender_judge(seed, 1000.0, &tally, &verdicts[1]);
-    /* An error near the limit may count as right in one unit and as explained by rounding in the
-     * other. */
+    /* If an error is near the limit, the verdict may be "right" in one unit and "explained by
+     * rounding" in the other. This is not counted as a difference. */
     differ += (verdicts[0] > SLENDER_ROUNDED) != (verdicts[1] > SLENDER_ROUNDED) ? 1 : 0;
   }
   assert_int_equal(differ, 0);
@@ -58,7 +58,7 @@ static void results_do_not_depend_on_the_unit_of_length(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(accelerations_are_met),
+    cmocka_unit_test(accelerations_are_accurate_or_rightly_refused),
     cmocka_unit_test(results_do_not_depend_on_the_unit_of_length),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -24,8 +24,8 @@ static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
 /* If large moments of joints on a light body nearly cancel, rounding the positions or J changes the
- * acceleration of the body by more than the error of the solver. For uneven masses, the test
- * therefore subtracts from the errors ROUNDED times the change that rounded positions cause. */
+ * acceleration of the body by more than the error of the solver. In the tests of uneven masses,
+ * ROUNDED times this change is therefore subtracted from the errors. */
 static const double ROUNDED = 4.0;
 /* A scene is useless for this test if rounded positions change its accelerations by more than this,
  * because the subtraction would then hide errors of the solver. In the scenes below, the largest
@@ -40,7 +40,7 @@ typedef struct errors {
   double lambda;
 } errors;
 
-/* How a scene differs from the scene of spatial.h. */
+/* How the bodies of a scene differ from those of the mechanism in spatial.h. */
 typedef struct change {
   double other; /* factor on mass and inertia of every other body */
   double thin;  /* factor on the smallest moment of inertia of every other body */
@@ -151,8 +151,8 @@ static double sensitivity(const posed *p, double gain)
   return most;
 }
 
-/* Calls the internal function, because the public one replaces the multipliers by those of least
- * norm if a row is omitted. */
+/* Adds to `worst` the errors at the present state. Calls the internal function for accelerations,
+ * because the public one replaces the multipliers by those of least norm if a row is omitted. */
 static void meet(posed *p, double gain, double rounded, errors *worst)
 {
   baum_workspace *w = p->workspace;
@@ -194,9 +194,9 @@ static errors measure_motion(model_spatial which, int links, double span)
   return worst;
 }
 
-/* Finds the largest errors of a changed scene in POSES random configurations near its start. They
- * are not taken from a motion, because a light body on a stiff spring would require very short
- * steps. */
+/* Finds the largest errors of a changed scene in POSES random configurations near its start. The
+ * configurations are not taken from a motion, because a light body on a stiff spring would require
+ * very short steps. */
 static errors measure_changed(model_spatial which, int links, change by)
 {
   errors worst = {0};
@@ -389,7 +389,7 @@ static baum_body_id add_rod(baum_mechanism *m, int k, baum_body_id before, const
 
 /* The second and the third of three rods can turn about their common axis. Even a tiny moment about
  * this axis causes a large acceleration, which an increased moment of inertia would hide. */
-static void slender_rods_may_turn_freely(void **state)
+static void slender_rods_that_rotate_freely_have_accurate_accelerations(void **state)
 {
   (void)state;
   static const double AXES[3][3] = {{0.3, 1.0, 0.2}, {1.0, 0.0, 0.0}, {0.2, 1.0, 0.5}};
@@ -430,7 +430,7 @@ int main(void)
     cmocka_unit_test(accelerations_do_not_depend_on_the_unit_of_mass),
     cmocka_unit_test(thin_shafts_between_heavy_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_keep_eleven_digits),
-    cmocka_unit_test(slender_rods_may_turn_freely),
+    cmocka_unit_test(slender_rods_that_rotate_freely_have_accurate_accelerations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,7 +16,7 @@
 
 static const double RATE = 40.0;
 
-/* Makes a rotor with an oblique axis. It may have a driver. */
+/* Makes a rotor with an oblique axis. If `driven` is true, a driver moves it. */
 static baum_mechanism *make(bool driven, baum_joint_id *bearing)
 {
   baum_mechanism *m = NULL;
@@ -64,7 +64,8 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
 /* [N m/rad] Stiffness of a torsion spring. The rotor winds it up by up to 20 rad. */
 static const double STIFFNESS = 4.0;
 
-/* The spring is either a joint spring or a torsion spring between the two bodies. */
+/* The spring of the rotor is either a joint spring, or a torsion spring between the rotor and
+ * ground. */
 typedef enum winding { OF_JOINT, OF_BODIES, WINDINGS } winding;
 
 static void add_torsion_spring(baum_mechanism *m, double damping)
@@ -132,7 +133,7 @@ static void angles_count_revolutions(void **state)
   }
 }
 
-static void a_restored_run_goes_on_counting(void **state)
+static void a_restored_run_continues_to_count_revolutions(void **state)
 {
   (void)state;
   baum_joint_id bearing;
@@ -153,7 +154,7 @@ static void a_restored_run_goes_on_counting(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void a_continued_run_goes_on_counting(void **state)
+static void a_continued_run_continues_to_count_revolutions(void **state)
 {
   (void)state;
   baum_joint_id bearing;
@@ -170,9 +171,10 @@ static void a_continued_run_goes_on_counting(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* During steps, the angle is followed only every tenth of a radian. If a state is set 3.1 rad
- * ahead, its revolutions must nevertheless be counted from the present angle of the run. */
-static void a_state_that_is_set_is_compared_with_the_present_angle(void **state)
+/* During steps, the run updates its count of revolutions only every tenth of a radian. If a state
+ * 3.1 rad ahead is set, its revolutions must nevertheless be counted from the present angle of the
+ * run. */
+static void revolutions_of_a_set_state_are_counted_from_the_present_angle(void **state)
 {
   (void)state;
   static const double AHEAD = 3.1; /* [rad] */
@@ -247,8 +249,8 @@ static void springs_wind_up_over_revolutions(void **state)
   }
 }
 
-/* The angle includes revolutions. The potential energy of the spring and the work of the damper
- * must use this angle, also in the energy account and in the companion, which is the second
+/* The potential energy of the spring and the work of the damper must use the angle that includes
+ * revolutions. This must also hold in the energy account, and in the companion, which is the second
  * integration that estimates the error. */
 static void check_energies(winding which)
 {
@@ -280,7 +282,7 @@ static void check_energies(winding which)
   baum_mechanism_destroy(m);
 }
 
-static void energies_are_those_of_the_wound_spring(void **state)
+static void energies_include_the_revolutions_of_the_spring(void **state)
 {
   (void)state;
   for (int k = 0; k < WINDINGS; k++) {
@@ -288,7 +290,8 @@ static void energies_are_those_of_the_wound_spring(void **state)
   }
 }
 
-/* A saved run contains the revolutions of a wound spring. */
+/* A saved run must contain the revolutions of a wound spring, so that a restored run continues with
+ * them. */
 static void a_restored_spring_stays_wound(void **state)
 {
   (void)state;
@@ -385,7 +388,7 @@ static double error_of_angle(int samples)
 }
 
 /* The study counts the revolutions of a given reference from sample to sample. With only 3 samples
- * this number is uncertain, so that the error must be NaN. */
+ * the number of revolutions is uncertain, so the error must be NaN. */
 static void revolutions_of_a_given_reference_are_counted(void **state)
 {
   (void)state;
@@ -398,12 +401,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(angles_count_revolutions),
-    cmocka_unit_test(a_restored_run_goes_on_counting),
-    cmocka_unit_test(a_continued_run_goes_on_counting),
-    cmocka_unit_test(a_state_that_is_set_is_compared_with_the_present_angle),
+    cmocka_unit_test(a_restored_run_continues_to_count_revolutions),
+    cmocka_unit_test(a_continued_run_continues_to_count_revolutions),
+    cmocka_unit_test(revolutions_of_a_set_state_are_counted_from_the_present_angle),
     cmocka_unit_test(a_driver_prescribes_many_revolutions),
     cmocka_unit_test(springs_wind_up_over_revolutions),
-    cmocka_unit_test(energies_are_those_of_the_wound_spring),
+    cmocka_unit_test(energies_include_the_revolutions_of_the_spring),
     cmocka_unit_test(a_restored_spring_stays_wound),
     cmocka_unit_test(a_state_that_is_set_stays_wound),
     cmocka_unit_test(revolutions_of_a_given_reference_are_counted),

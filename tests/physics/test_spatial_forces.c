@@ -71,8 +71,9 @@ static void set_rotated(const double n[3], double angle, double q[7])
   baum_i_quaternion_exp(rotation, q + 3);
 }
 
-/* With equal stiffnesses k the moment is k times the rotation vector, up to the largest angle.
- * Without couplings the force is k times the displacement, in the axes of body_a. */
+/* With equal rotational stiffnesses k, the moment is k times the rotation vector, for angles up to
+ * almost pi. If the stiffness matrix is diagonal, the force along each axis of the bushing is
+ * stiffness times displacement. */
 static void a_bushing_is_linear_in_its_rotation_vector(void **state)
 {
   (void)state;
@@ -108,8 +109,8 @@ static void a_bushing_is_linear_in_its_rotation_vector(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* A body is first rotated by `twist` about the axis, and then inclined about a perpendicular axis.
- * The angle is the twist alone. */
+/* A body is first rotated by `twist` about the axis of the spring, and then inclined about a
+ * perpendicular axis. The angle of the spring must be the twist alone. */
 static void a_torsion_spring_measures_the_twist(void **state)
 {
   (void)state;
@@ -194,7 +195,7 @@ static void linear_motion(double end, double y[2 * SIX])
   }
 }
 
-/* The relative error is of the order of the amplitude. */
+/* The linear equations have a relative error of the order of the amplitude. */
 static void small_motions_are_those_of_the_linear_equations(void **state)
 {
   (void)state;
@@ -241,8 +242,8 @@ static void small_motions_are_those_of_the_linear_equations(void **state)
 
 /* ---- large motions ---- */
 
-/* A brick on a ball joint, with a bushing and a torsion spring to a second brick, which hangs on a
- * bushing to ground. */
+/* Makes a brick on a ball joint and a second brick on a bushing to ground. Another bushing and a
+ * torsion spring join the two bricks. */
 static baum_mechanism *make_pair(bool damped)
 {
   baum_mechanism *m = NULL;
@@ -297,7 +298,7 @@ static double run_pair(bool damped, const baum_simulation_options *given, double
   return fabs(account.residual) / 20.0; /* [J] typical kinetic energy */
 }
 
-/* Returns the allowed error of a method. It is at least three times the measured one. */
+/* Returns the allowed error of a method. It is at least three times the measured error. */
 static double allowed(step_mode mode, baum_formulation formulation)
 {
   static const double by_order[] = {5e-7, 2e-2, 2e-5, 1e-7, 2e-10, 1e-12, 1e-12, 1e-12, 1e-12};
@@ -352,8 +353,9 @@ static void every_method_makes_the_same_motion(void **state)
 
 /* ---- a bushing that rotates too far ---- */
 
-/* Runs a sphere that rotates in a bushing about a tilted axis, and returns its warning, or 0. With
- * the initial angular velocity w_0, the angle swings up to w_0 / sqrt(k / I). */
+/* Runs a sphere that rotates in a bushing about a tilted axis. Returns the code of the run's
+ * warning, or 0 if there is none. With the initial angular velocity w_0, the angle reaches at most
+ * w_0 / sqrt(k / I). */
 static int warning_of(double angle, double stiffness, bool fixed)
 {
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};

@@ -190,7 +190,7 @@ static void a_bead_slides_down_a_helix(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void the_helix_carries_the_bead(void **state)
+static void the_reaction_of_the_helix_has_its_closed_form(void **state)
 {
   (void)state;
   baum_mechanism *m = make_helix();
@@ -270,7 +270,7 @@ static baum_mechanism *make_sleigh(bool spatial_body, bool spatial_edge)
   return m;
 }
 
-static void a_sleigh_in_space_moves_like_one_in_the_plane(void **state)
+static void a_spatial_sleigh_moves_like_a_planar_sleigh(void **state)
 {
   (void)state;
   double planar[NQ_MAX];
@@ -310,8 +310,8 @@ static baum_body_id add_brick(baum_mechanism *m, double x, double w)
   return id;
 }
 
-/* A double pendulum. Its second joint is a ball joint, or three knife edges, whose directions are
- * not perpendicular. */
+/* Makes a double pendulum. Its second joint is a ball joint or, if `edges` is true, three knife
+ * edges whose directions are not perpendicular. */
 static baum_mechanism *make_edges(bool edges)
 {
   static const double axes[3][3] = {{1.0, 0.2, 0.0}, {0.0, 3.0, -0.5}, {0.4, 0.0, 1.0}};
@@ -352,8 +352,9 @@ static void three_knife_edges_are_a_ball_joint(void **state)
 
 /* ---- a cable over two points ---- */
 
-/* Weights m1 and m2 hang from a cable over two points of ground. Let s be the stretch. Then
- * s'' = 2 g - (1/m1 + 1/m2) (k s + c s'), and m1 x1 - m2 x2 falls with (m1 - m2) g. */
+/* Weights m1 and m2 hang from a cable over two points of ground, and move down by x1 and x2. With
+ * the stiffness k and the damping c, the elongation s of the cable satisfies s'' = 2 g - (1/m1 +
+ * 1/m2) (k s + c s'). Moreover, m1 x1 - m2 x2 has the constant acceleration (m1 - m2) g. */
 static const double K = 400.0, D = 6.0, M1 = 2.0, M2 = 3.0;
 
 static baum_mechanism *make_pulleys(double stretch)
@@ -384,8 +385,7 @@ static void weights_on_a_cable_are_a_damped_oscillator(void **state)
   const double w = sqrt(sum * K - decay * decay);
   const double s =
     middle + (first - middle) * exp(-decay * END) * (cos(w * END) + decay / w * sin(w * END));
-  /* x1 + x2 = s - first is how far both weights together have moved down */
-  const double both = s - first;
+  const double both = s - first;                       /* x1 + x2 */
   const double fall = 0.5 * (M1 - M2) * G * END * END; /* m1 x1 - m2 x2 */
   const double x1 = (fall + M2 * both) / (M1 + M2);
   baum_mechanism *m = make_pulleys(first);
@@ -396,7 +396,7 @@ static void weights_on_a_cable_are_a_damped_oscillator(void **state)
 
 /* ---- a cable and two springs ---- */
 
-/* A weight in the middle between two points of ground. The cable is always taut. */
+/* Makes a weight between two points of ground. It hangs on a taut cable or on two springs. */
 static baum_mechanism *make_middle(bool cable, double damping)
 {
   static const double points[9] = {-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
@@ -478,7 +478,7 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   const double fall = sqrt(2.0 * 0.5 / G);
   const double w = sqrt(200.0);
   const double speed = G * fall;
-  /* While the cable is taut, z + 1 = -g / w^2 + a cos(w t + p). This is 0 at both ends. */
+  /* z + 1 = -g / w^2 + a cos(w t + p) is 0 when the cable becomes taut, and when it slackens. */
   const double on_cable = 2.0 / w * (0.5 * 3.14159265358979324 + atan(G / w / speed));
   o.integrator = baum_dp5();
   o.rtol = 1e-10;
@@ -495,8 +495,8 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The account holds although the cable becomes taut and slack several times. */
-static void the_energy_account_holds_across_slack(void **state)
+/* The residual must stay small although the cable becomes taut and slack several times. */
+static void the_energy_residual_stays_small_across_slack(void **state)
 {
   (void)state;
   baum_body_id weight;
@@ -523,7 +523,7 @@ static void the_energy_account_holds_across_slack(void **state)
 
 /* The tension, read from the force on the weight, is continuous where the cable becomes taut, and
  * never negative. */
-static void the_tension_is_continuous_and_only_pulls(void **state)
+static void the_tension_is_continuous_and_never_negative(void **state)
 {
   (void)state;
   baum_body_id weight;
@@ -586,14 +586,14 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_bead_slides_down_a_helix),
-    cmocka_unit_test(the_helix_carries_the_bead),
-    cmocka_unit_test(a_sleigh_in_space_moves_like_one_in_the_plane),
+    cmocka_unit_test(the_reaction_of_the_helix_has_its_closed_form),
+    cmocka_unit_test(a_spatial_sleigh_moves_like_a_planar_sleigh),
     cmocka_unit_test(three_knife_edges_are_a_ball_joint),
     cmocka_unit_test(weights_on_a_cable_are_a_damped_oscillator),
     cmocka_unit_test(a_cable_with_a_weight_in_the_middle_is_two_springs),
     cmocka_unit_test(a_weight_falls_into_the_cable_and_returns),
-    cmocka_unit_test(the_energy_account_holds_across_slack),
-    cmocka_unit_test(the_tension_is_continuous_and_only_pulls),
+    cmocka_unit_test(the_energy_residual_stays_small_across_slack),
+    cmocka_unit_test(the_tension_is_continuous_and_never_negative),
     cmocka_unit_test(coinciding_points_exert_no_force),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

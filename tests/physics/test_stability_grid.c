@@ -49,7 +49,7 @@ static void watch_circle(physics_mechanism which)
   model_destroy(&m);
 }
 
-static void taylors_gains_turn_a_violation_about_the_circle_in_four_steps(void **state)
+static void with_taylor_gains_violations_repeat_every_four_steps(void **state)
 {
   (void)state;
   watch_circle(PENDULUM);
@@ -60,7 +60,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     EVERY_INTEGRATOR(LIST_GRID)
-      cmocka_unit_test(taylors_gains_turn_a_violation_about_the_circle_in_four_steps),
+      cmocka_unit_test(with_taylor_gains_violations_repeat_every_four_steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

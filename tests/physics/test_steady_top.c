@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A heavy top precesses steadily for a thousand revolutions. Its motion is compared with the closed
- * form. Let W be the angular velocity of the precession and n the tilt of the axle. Let C be the
- * moment of inertia about the axle. Let A be the moment of inertia about an axis that passes
- * through the joint and is perpendicular to the axle. The precession is steady if the angular
+ * form. Let W be the angular velocity of the precession, n the tilt of the axle, m the mass, and l
+ * the distance from the joint to the centre of mass. Let C be the moment of inertia about the axle,
+ * and A that about a perpendicular axis through the joint. The precession is steady if the angular
  * velocity about the axle is
  *
  *   w = (m g l + A W^2 cos(n)) / (C W)

@@ -21,12 +21,13 @@ enum { SAMPLES = 40, STRIDE = 200, PAIRS = 6 };
 static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
                                        {0.5, 0.8}, {0.8, 0.4}, {0.8, 0.8}};
 
-/* How much a row may differ from the formula, as a fraction of the value that the formula gives. */
+/* The largest allowed difference between a row and the formula, as a fraction of the value that the
+ * formula gives. */
 static const double TOLERANCE = 0.02;
 /* An additional difference is allowed, which is LAG h omega times the largest value that the
  * formula gives. Phi follows gamma with a delay of 2 alpha / beta^2 + 1 / alpha. This delay is at
- * most 10 h. During this time, gamma changes by 10 h omega of its largest value. This matters for
- * rows whose gamma is near zero. */
+ * most 10 h. During this time, gamma changes by the fraction 10 h omega of its largest value. This
+ * matters for rows whose gamma is near zero. */
 static const double LAG = 10.0;
 
 typedef struct motion {
@@ -36,8 +37,8 @@ typedef struct motion {
 } motion;
 
 /* The pendulum starts horizontally with 3 m/s downwards, and reaches 5.4 rad/s. Gamma of its only
- * row is therefore never near zero. The crank rotates at up to 150 rad/s. Both rotate by more than
- * 1 rad. */
+ * row is therefore never near zero. The crank rotates at up to 150 rad/s. In every run, the
+ * pendulum or the crank rotates by more than 1 rad. */
 static const model_pendulum THROWN = {.gravity = 9.81, .x = 1.0, .v = -3.0};
 static const motion MOTIONS[2] = {{PENDULUM, 1e-4, 5.4}, {FREE_CRANK, 1e-6, 150.0}};
 
@@ -52,7 +53,8 @@ static model build_motion(const motion *with)
 }
 
 typedef struct deviation {
-  /* Largest relative difference, over rows whose |gamma| is above a tenth of the largest. */
+  /* Largest relative difference from the formula. Only rows whose |gamma| is above a tenth of the
+   * largest |gamma| count. */
   double phi;
   double phi_rate;
 } deviation;
@@ -98,10 +100,10 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
 }
 
 /* Compares the largest violation of the run with the largest violation that is predicted. Both are
- * in the counters. They agree if gamma is largest late in the run, as it is for the pendulum. For
- * the free crank, gamma is largest at the start. There Phi rises from zero and overshoots like a
- * step response, by at most 100 %. With explicit Euler and (0.3, 0.7), whose roots have the modulus
- * 0.94, an overshoot of 90 % was measured. */
+ * in the counters. The two agree if gamma is largest late in the run, as it is for the pendulum.
+ * For the free crank, gamma is largest at the start. At the start, however, Phi rises from zero and
+ * overshoots like a step response, by at most 100 %. With explicit Euler and (0.3, 0.7), whose
+ * roots have the modulus 0.94, an overshoot of 90 % was measured. */
 static void compare_counters(const watched_run *watched, physics_mechanism which)
 {
   baum_counters c = read_counters(watched);

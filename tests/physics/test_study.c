@@ -18,8 +18,8 @@ enum { WIDEST = 300, SAMPLES = 20, MOST = 512 };
 
 /* ---- references ---- */
 
-/* Samples of a study's own reference, at times for which the catalogue also has a reference. n is
- * initially 0. */
+/* Samples of the reference that a study computes, at times for which the catalogue also has a
+ * reference. n counts the samples. */
 typedef struct samples {
   int n;
   double t[SAMPLES];
@@ -83,8 +83,8 @@ static void check_entry(const baum_catalog_entry *entry)
                 entry->name, -log10(fmax(error.q, 1e-16)), entry->digits_q, r.digits,
                 r.trusted ? "" : ", untrusted");
   if (r.trusted) {
-    /* The estimated error is the largest of three differences. The true error may be larger than
-     * this by a small factor. */
+    /* The estimated error is the largest of three differences. The true error may be a few times as
+     * large. */
     assert_true(error.q <= 4.0 * fmax(r.uncertainty, error.q_floor));
   }
   if (entry->smooth && entry->digits_q >= 10.5) {
@@ -94,7 +94,7 @@ static void check_entry(const baum_catalog_entry *entry)
   baum_mechanism_destroy(m);
 }
 
-static void own_references_agree_with_those_of_the_catalogue(void **state)
+static void computed_references_agree_with_those_of_the_catalogue(void **state)
 {
   (void)state;
   for (int32_t k = 0; k < baum_catalog_count(); k++) {
@@ -106,8 +106,9 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
   }
 }
 
-/* This motion passes through a flat configuration, which is a bifurcation. */
-static void a_motion_past_a_singular_configuration_has_no_trusted_reference(void **state)
+/* This motion passes through a flat configuration, which is a bifurcation. The study must not trust
+ * a reference that it computes there. */
+static void a_motion_through_a_singular_configuration_has_no_trusted_reference(void **state)
 {
   (void)state;
   model m;
@@ -166,9 +167,9 @@ static int circle_solution(double t, double *q, double *v, double *lambda, void 
   return 0;
 }
 
-/* The given solution is the motion of a particle on a circle without gravity. It moves at a
- * constant 1 rad/s. */
-static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
+/* The solution that is given to the study is the motion of a particle on a circle without gravity.
+ * The particle moves at a constant 1 rad/s. */
+static void errors_against_an_exact_solution_show_the_order_of_the_method(void **state)
 {
   (void)state;
   const model_pendulum free_turn = {.gravity = 0.0, .x = 1.0, .v = 1.0};
@@ -196,8 +197,8 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_true(fabs(method.slope - 4.0) < 0.3);
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
   baum_study_entry entry = study_entry(study, 5);
-  /* At the floor (the accuracy of the reference), the reported error is the accuracy that was
-   * stated for the solution. */
+  /* An entry whose error is below the accuracy of the reference is at the floor. Its reported error
+   * is then the accuracy that was stated for the solution. */
   assert_true(entry.at_floor && entry.error == 1e-12);
   /* The error of the multipliers is unknown, because the solution gives no multipliers. */
   assert_true(isnan(entry.error_lambda));
@@ -205,7 +206,7 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   model_destroy(&m);
 }
 
-static void two_threads_give_the_entries_of_one(void **state)
+static void two_threads_give_the_same_entries_as_one(void **state)
 {
   (void)state;
   model m;
@@ -224,9 +225,9 @@ static void two_threads_give_the_entries_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* The front contains the entries that no other entry beats. An entry must be on it, unless another
- * entry on it has at most the same cost and at most the same error. The front must be ordered from
- * cheap to accurate. */
+/* The front contains the entries that no other entry beats. An entry may be missing from the front
+ * only if an entry of the front has at most the same cost and at most the same error. The front
+ * must be ordered from cheap to accurate. */
 static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
   for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
@@ -246,7 +247,7 @@ static void check_front(const baum_study *study, const int32_t *entries, int32_t
   }
 }
 
-static void the_front_has_all_entries_that_none_beats_and_no_other(void **state)
+static void the_front_has_exactly_the_entries_that_no_entry_beats(void **state)
 {
   (void)state;
   model m;
@@ -302,7 +303,7 @@ static void recommendations_hold_over_twice_the_span(void **state)
   model_destroy(&m);
 }
 
-static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(void **state)
+static void costs_are_interpolated_between_entries_to_compare_methods(void **state)
 {
   (void)state;
   model m;
@@ -364,14 +365,14 @@ static void a_budget_gives_the_most_accurate_entry_within_it(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(own_references_agree_with_those_of_the_catalogue),
-    cmocka_unit_test(a_motion_past_a_singular_configuration_has_no_trusted_reference),
+    cmocka_unit_test(computed_references_agree_with_those_of_the_catalogue),
+    cmocka_unit_test(a_motion_through_a_singular_configuration_has_no_trusted_reference),
     cmocka_unit_test(a_driven_mechanism_is_compared_with_its_kinematics),
-    cmocka_unit_test(errors_from_a_solution_by_formulas_are_those_of_the_method),
-    cmocka_unit_test(two_threads_give_the_entries_of_one),
-    cmocka_unit_test(the_front_has_all_entries_that_none_beats_and_no_other),
+    cmocka_unit_test(errors_against_an_exact_solution_show_the_order_of_the_method),
+    cmocka_unit_test(two_threads_give_the_same_entries_as_one),
+    cmocka_unit_test(the_front_has_exactly_the_entries_that_no_entry_beats),
     cmocka_unit_test(recommendations_hold_over_twice_the_span),
-    cmocka_unit_test(cost_at_an_error_lies_between_that_of_entries_and_compares_methods),
+    cmocka_unit_test(costs_are_interpolated_between_entries_to_compare_methods),
     cmocka_unit_test(a_budget_gives_the_most_accurate_entry_within_it),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs studies that use many threads on one mechanism, and several such studies at once. Their
- * entries must be equal to those of one thread, to the last bit. This test also runs under the
- * thread sanitizer.
+ * entries must be equal, to the last bit, to the entries of a study that uses one thread. This test
+ * also runs under the thread sanitizer.
  *
  * Only the main thread may use the checks of cmocka. The other threads return their results to
  * it.
@@ -25,10 +25,10 @@
 enum { THREADS = 8, STUDIES = 3 };
 
 /* What the progress function of a study counts. No call of this function may begin while another
- * one is running. */
+ * call is running. */
 typedef struct seen {
   atomic_int inside;
-  atomic_int together; /* number of calls that began while another one was running */
+  atomic_int together; /* number of calls that began while another call was running */
   int calls;
   int cancel_at; /* number of the call that cancels the study; 0 if none does */
 } seen;
@@ -45,7 +45,8 @@ static int look(const baum_study *study, int32_t done, int32_t total, void *user
   return s->calls == s->cancel_at;
 }
 
-/* Makes a study that has two entries for every integrator and kind of step. */
+/* Makes a study that has two entries for every integrator with a fixed step, and two with a
+ * variable step. */
 static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 {
   baum_study *study = NULL;
@@ -68,7 +69,7 @@ static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 
 /* ---- one study ---- */
 
-static void entries_of_many_threads_are_those_of_one(void **state)
+static void many_threads_give_the_same_entries_as_one(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -134,7 +135,7 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
 
 /* Another thread cancels the study several times while it runs. Afterwards, the study is run to its
  * end. */
-static void a_study_of_many_threads_is_cancelled_from_another(void **state)
+static void a_study_of_many_threads_can_be_cancelled_from_another_thread(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -167,9 +168,9 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(entries_of_many_threads_are_those_of_one),
+    cmocka_unit_test(many_threads_give_the_same_entries_as_one),
     cmocka_unit_test(studies_of_one_mechanism_do_not_disturb_each_other),
-    cmocka_unit_test(a_study_of_many_threads_is_cancelled_from_another),
+    cmocka_unit_test(a_study_of_many_threads_can_be_cancelled_from_another_thread),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,7 +70,7 @@ static double error_at(const baum_catalog_choice *choice, const baum_simulation 
   return error;
 }
 
-static void tilted_mechanisms_move_as_planar_ones(void **state)
+static void tilted_mechanisms_move_like_planar_mechanisms(void **state)
 {
   (void)state;
   for (size_t k = 0; k < sizeof ENTRIES / sizeof *ENTRIES; k++) {
@@ -147,9 +147,9 @@ static baum_counters counters_of(const baum_catalog_choice *choice,
 }
 
 /* The rod is longer than the crank by 1e-12. The folded configuration is therefore nearly singular.
- * One step of rk8 passes over it. Near this configuration, other rows are omitted than elsewhere.
- * The crossing must be reported nevertheless. */
-static void crossings_are_seen_where_other_rows_are_chosen(void **state)
+ * One step of rk8 passes over it. Near this configuration, the omitted rows are not the same as
+ * elsewhere. The crossing must be reported nevertheless. */
+static void crossings_are_reported_where_the_omitted_rows_change(void **state)
 {
   (void)state;
   static const baum_catalog_setting data[] = {{"crank", 1.0},
@@ -173,7 +173,7 @@ static void crossings_are_seen_where_other_rows_are_chosen(void **state)
 /* Five cranks fall through the horizontal configuration twice. This configuration is singular. The
  * second time, the run continues on a branch on which all configurations are singular. The second
  * near-singular interval therefore does not end. */
-static void branches_of_singular_configurations_are_told(void **state)
+static void a_branch_of_singular_configurations_is_reported(void **state)
 {
   (void)state;
   static const baum_catalog_setting data[] = {{"windows", 4}, {"angle", 1.0}, {"rate", -2.0}};
@@ -192,11 +192,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(loops_have_three_redundant_rows),
-    cmocka_unit_test(tilted_mechanisms_move_as_planar_ones),
+    cmocka_unit_test(tilted_mechanisms_move_like_planar_mechanisms),
     cmocka_unit_test(qr_solves_rows_that_contain_only_rounding),
-    cmocka_unit_test(crossings_are_seen_where_other_rows_are_chosen),
+    cmocka_unit_test(crossings_are_reported_where_the_omitted_rows_change),
 #if BAUM_HAVE_SUNDIALS
-    cmocka_unit_test(branches_of_singular_configurations_are_told),
+    cmocka_unit_test(a_branch_of_singular_configurations_is_reported),
 #endif
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

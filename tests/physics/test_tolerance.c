@@ -22,17 +22,17 @@ enum { MIDDLE = TOLERANCES / 2 };
  * geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
  * 10. */
 static const double LEAST_FALL = 7.0;
-/* The same factor for BDF. At order p, the error is proportional to rtol^(p / (p + 1)). It falls by
- * a factor of 6.8 at the highest order, 5, and by 5.6 at order 3. The factors measured were 7.0 for
- * CVODE and 7.2 to 7.3 for IDA. Over 40 initial configurations or end times of each mechanism, the
- * means are 6.5 and 6.4. */
+/* The corresponding factor for BDF. At order p, the error is proportional to rtol^(p / (p + 1)). It
+ * falls by a factor of 6.8 at the highest order, 5, and by 5.6 at order 3. The factors measured
+ * were 7.0 for CVODE and 7.2 to 7.3 for IDA. With 40 other initial configurations or end times of
+ * each mechanism, the mean factors are 6.5 and 6.4. */
 static const double LEAST_FALL_OF_BDF = 6.0;
-/* The same factor for a single mechanism. Here an error that is small by chance has more
- * influence. */
+/* The same factor for a single mechanism. An error that is small by chance has more influence on it
+ * than on a mean. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
-/* The runs end after nine samples. These are 1 to 2 revolutions of the crank, or 2 swings of the
- * pendulum. In longer runs, the errors at rtol 1e-4 would reach 1 rad and stop growing. */
+/* The runs end after nine samples. Until then, cranks make 1 to 2 revolutions, and the pendulum
+ * makes 2 swings. In longer runs, the errors at rtol 1e-4 would reach 1 rad and stop growing. */
 static const reference REFERENCES[REFERENCE_COUNT] = {
   [PENDULUM] = {.samples = 9,
                 .width = A01_PENDULUM_WIDTH,

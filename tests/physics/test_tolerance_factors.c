@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the options tolerance_q and tolerance_v with every method that has variable steps. Both
- * are factors of rtol. If one of them is loose, the other one alone must control the error. If both
- * are equal to c, the result must be the same as with the tolerance c rtol and without factors. */
+/* Tests the options tolerance_q and tolerance_v with every method that has variable steps. Both are
+ * factors of rtol. If one factor is so large that its tolerance has no effect, the other factor
+ * alone must control the error. If both are equal to c, the result must be the same as with the
+ * tolerance c rtol and without factors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

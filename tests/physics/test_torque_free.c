@@ -20,8 +20,8 @@
 #include "check.h"
 #include "rotation.h"
 
-/* The body rotates almost about its middle principal axis. It therefore tumbles from time to time.
- * It makes about one revolution per second. */
+/* The body rotates almost about its middle principal axis. Rotation about this axis is unstable, so
+ * the body tumbles from time to time. It makes about one revolution per second. */
 static const double MOMENTS[3] = {1.0, 2.0, 2.7};
 static const double P[4] = {0.5, 0.5, -0.5, 0.5};
 static const double W[3] = {0.6, 6.2, 0.5};
@@ -38,7 +38,7 @@ typedef struct series {
   long double p[TERMS + 1][4];
 } series;
 
-/* These functions return Taylor coefficient n of the products p_i w_j and w_i w_j. */
+/* These two functions return Taylor coefficient n of p_i w_j and of w_i w_j. */
 static long double of_p_w(const series *s, int i, int j, int n)
 {
   long double sum = 0.0L;

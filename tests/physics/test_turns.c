@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the accuracy after 10000 revolutions. The angle of a body is one number, from which whole
- * revolutions are never subtracted. Its rounding error therefore limits the accuracy. At 6e4 rad it
- * is 7e-12 rad. */
+ * revolutions are never subtracted. The rounding error of this number therefore limits the
+ * accuracy. At 6e4 rad it is 7e-12 rad. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -95,8 +95,8 @@ static baum_simulation *start_run(const posed *p, const baum_simulation_options 
   return run;
 }
 
-/* Returns the largest difference at `end` between two runs, of which one has the additional
- * revolutions. Differences of lengths are relative to the characteristic length. */
+/* Makes two runs, one of which starts with the additional revolutions. Returns their largest
+ * difference at `end`. Differences of lengths are relative to the characteristic length. */
 static double compare_runs(int which, const baum_simulation_options *options, double end)
 {
   posed p = pose_case(which, TURNS * TURN);
@@ -128,7 +128,7 @@ static void fixed_steps_differ_by_the_rounding_of_angles(void **state)
 {
   (void)state;
   /* Each of the 200 steps rounds an angle by at most 3.6e-12 rad. Together this is 7.3e-10 rad. The
-   * motion takes at most 1 s. It amplifies this error at most tenfold. */
+   * motion takes at most 1 s, and amplifies this error at most tenfold. */
   const double limit = 7.3e-9;
   int failures = 0;
   printf("\n%-24s %10s\n", "200 steps of RK4", "apart");

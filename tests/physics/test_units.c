@@ -98,7 +98,7 @@ static void print_pair(int which, const baum_simulation_options *options, const 
   (void)fflush(stdout);
 }
 
-static void fixed_steps_lead_to_the_same_place(void **state)
+static void fixed_steps_give_the_same_motion_in_other_units(void **state)
 {
   (void)state;
   /* The limit is the rounding error of several hundred steps. */
@@ -123,7 +123,7 @@ static void fixed_steps_lead_to_the_same_place(void **state)
   assert_int_equal(failures, 0);
 }
 
-static void variable_steps_are_the_same_within_two_percent(void **state)
+static void the_number_of_variable_steps_is_the_same_within_two_percent(void **state)
 {
   (void)state;
   enum { METHODS = 9 };
@@ -145,7 +145,7 @@ static void variable_steps_are_the_same_within_two_percent(void **state)
     options.rtol = 1e-6;
     pair found = compare_units(k / methods_here, &options);
     print_pair(k / methods_here, &options, &found);
-    /* Rounding may change which steps are chosen. */
+    /* Rounding may change the choice of steps, and therefore their number. */
     double more = fabs((double)(found.steps[1] - found.steps[0]));
     bool same = more <= 0.02 * (double)found.steps[0];
     failures += same && found.apart <= 10.0 * options.rtol ? 0 : 1;
@@ -156,8 +156,8 @@ static void variable_steps_are_the_same_within_two_percent(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(fixed_steps_lead_to_the_same_place),
-    cmocka_unit_test(variable_steps_are_the_same_within_two_percent),
+    cmocka_unit_test(fixed_steps_give_the_same_motion_in_other_units),
+    cmocka_unit_test(the_number_of_variable_steps_is_the_same_within_two_percent),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
  * is changed and frozen. This test also runs under the thread sanitizer.
  *
  * The variants have different slider masses m. The crank is driven, so that accelerations do not
- * depend on m. The multipliers are lambda_0 + m lambda_1.
+ * depend on m. The multipliers are a linear function of m, lambda_0 + m lambda_1.
  *
  * Only the main thread may use the checks of cmocka. The other threads return their results to
  * it.
@@ -104,8 +104,8 @@ static double largest(const double *x, int count)
   return out;
 }
 
-/* The tolerances of 1e-12 allow for the rounding errors of two solutions in an ordinary
- * configuration. */
+/* The limits of 1e-12 allow for the rounding errors of the two solutions that are compared, in an
+ * ordinary configuration. */
 static void each_variant_has_its_own_mass(void **state)
 {
   const fixture *f = *state;
@@ -128,7 +128,7 @@ static void each_variant_has_its_own_mass(void **state)
   }
 }
 
-static void variants_of_threads_are_those_of_one(void **state)
+static void many_threads_make_the_same_variants_as_one(void **state)
 {
   const fixture *f = *state;
   static const int threads[] = {1, 2, 4, MOST_THREADS};
@@ -148,7 +148,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(each_variant_has_its_own_mass),
-    cmocka_unit_test(variants_of_threads_are_those_of_one),
+    cmocka_unit_test(many_threads_make_the_same_variants_as_one),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

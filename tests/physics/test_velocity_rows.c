@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests rows of velocity level, that is, non-holonomic constraints. Chaplygin's sleigh is compared
  * with its closed form, with every integrator and formulation. Further tests cover the stability of
- * the gain of such rows, degrees of freedom, redundancy, work, and save and restore. */
+ * the gain for such rows, degrees of freedom, redundancy, work, and saving and restoring a run. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -260,8 +260,8 @@ static void unstable_gains_are_refused(void **state)
     options = with_alpha(integrator, 1.01 * limit);
     assert_int_equal(baum_simulation_create(m, &options, &run), BAUM_ERR_UNSTABLE);
     assert_non_null(strstr(baum_message(), "violations of velocities grow"));
-    /* A factor of 0.5 for the row does not make the same gain acceptable, because the gain is also
-     * checked without the factor. */
+    /* The same gain must also be refused if the row has a factor of 0.5, because the gain is
+     * checked without this factor, too. */
     const double half[1] = {0.5};
     options.row_gains = half;
     options.row_gain_count = 1;
@@ -308,7 +308,7 @@ static void default_gains_are_stable(void **state)
 
 /* ---- what refuses rows of velocity level ---- */
 
-static void rattle_and_kinematics_refuse_them(void **state)
+static void rattle_and_kinematics_refuse_rows_of_velocity_level(void **state)
 {
   (void)state;
   baum_simulation *run = NULL;
@@ -327,7 +327,7 @@ static void rattle_and_kinematics_refuse_them(void **state)
 
 /* ---- degrees of freedom and redundancy ---- */
 
-static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
+static void position_and_velocity_degrees_of_freedom_differ(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -346,9 +346,9 @@ static void degrees_of_freedom_of_position_and_velocity_differ(void **state)
 }
 
 /* A guide along the blade makes the row of the blade redundant. The row of the blade must be
- * omitted, although the blade is added first. The reason is that only the guide also constrains
- * positions, so a projection can return the body to the guide only if the guide's row is kept. */
-static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **state)
+ * omitted, although the blade is added first. Only the guide constrains positions. A projection can
+ * therefore return the body to the guide only if the row of the guide is not omitted. */
+static void rows_of_velocity_level_are_omitted_before_rows_of_positions(void **state)
 {
   (void)state;
   baum_mobility mobility;
@@ -382,7 +382,7 @@ static void rows_of_positions_are_kept_rather_than_those_of_velocities(void **st
 
 /* ---- assembly ---- */
 
-static void assembly_of_velocities_includes_them(void **state)
+static void assembly_satisfies_rows_of_velocity_level(void **state)
 {
   (void)state;
   baum_workspace *w = NULL;
@@ -499,10 +499,10 @@ int main(void)
     cmocka_unit_test(predicted_and_simulated_stability_agree),
     cmocka_unit_test(unstable_gains_are_refused),
     cmocka_unit_test(default_gains_are_stable),
-    cmocka_unit_test(rattle_and_kinematics_refuse_them),
-    cmocka_unit_test(degrees_of_freedom_of_position_and_velocity_differ),
-    cmocka_unit_test(rows_of_positions_are_kept_rather_than_those_of_velocities),
-    cmocka_unit_test(assembly_of_velocities_includes_them),
+    cmocka_unit_test(rattle_and_kinematics_refuse_rows_of_velocity_level),
+    cmocka_unit_test(position_and_velocity_degrees_of_freedom_differ),
+    cmocka_unit_test(rows_of_velocity_level_are_omitted_before_rows_of_positions),
+    cmocka_unit_test(assembly_satisfies_rows_of_velocity_level),
     cmocka_unit_test(a_prescribed_velocity_does_work),
     cmocka_unit_test(a_restored_run_continues_identically),
   };

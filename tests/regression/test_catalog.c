@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the parts of the catalogue with each other and with the tables of tests/data, which were
  * computed in another way. References must satisfy the constraints of their mechanisms and agree
- * with the initial states. Runs must agree with the references. Formulas must be as accurate as the
- * catalogue states. */
+ * with the initial states. Runs must agree with the references. References that are given by
+ * formulas must be as accurate as the catalogue states. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -95,7 +95,7 @@ static double worst_of(const double *x, int count)
   return worst;
 }
 
-/* Computes J v - nu at sample i of the reference. This rate of the constraints must be 0. */
+/* Computes J v - nu, the time derivative of Phi, at sample i of the reference. It must be 0. */
 static void find_rate(const known *k, baum_workspace *workspace, int i, double *rate)
 {
   const double *q = k->q + (size_t)i * (size_t)k->nq;
@@ -131,7 +131,7 @@ static void look_at_constraints(const known *k)
     off_rate = fmax(off_rate, worst_of(rate, k->nc));
   }
   printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
-  /* The limit allows for rounding of coordinates up to 30, and of sums of a few sines and
+  /* The limit allows for rounding of coordinates up to 30 m or rad, and of sums of a few sines and
    * cosines. */
   assert_true(off <= 1e-14);
   assert_true(off_rate <= 1e-14 * fmax(1.0, fast));
@@ -140,7 +140,7 @@ static void look_at_constraints(const known *k)
   baum_workspace_destroy(workspace);
 }
 
-static void references_fulfil_the_constraints(void **state)
+static void references_satisfy_the_constraints(void **state)
 {
   (void)state;
   for_each_reference(look_at_constraints);
@@ -193,7 +193,7 @@ static void look_at_run(const known *k)
   assert_true(error.q_final <= error.q && error.v_final <= error.v);
 }
 
-static void runs_begin_at_the_references_and_stay_there(void **state)
+static void runs_start_at_the_references_and_stay_close_to_them(void **state)
 {
   (void)state;
   for_each_reference(look_at_run);
@@ -221,7 +221,7 @@ static void compare_with_table(const char *name, int count, const double *t, con
   assert_true(worst <= pow(10.0, -entry.digits_q));
 }
 
-static void formulas_are_as_exact_as_they_say(void **state)
+static void formulas_are_as_accurate_as_the_catalogue_states(void **state)
 {
   (void)state;
   compare_with_table("pendulum", A01_PENDULUM_SAMPLES, A01_PENDULUM_T, A01_PENDULUM_Q[0],
@@ -232,7 +232,7 @@ static void formulas_are_as_exact_as_they_say(void **state)
                      SLIDER_CRANK_DRIVEN_Q[0], SLIDER_CRANK_DRIVEN_WIDTH);
 }
 
-static void forty_windows_follow_their_equation(void **state)
+static void the_reference_of_forty_windows_agrees_with_the_table(void **state)
 {
   (void)state;
   static double q[243];
@@ -297,10 +297,10 @@ static void formulas_hold_for_other_parameters(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(references_fulfil_the_constraints),
-    cmocka_unit_test(runs_begin_at_the_references_and_stay_there),
-    cmocka_unit_test(formulas_are_as_exact_as_they_say),
-    cmocka_unit_test(forty_windows_follow_their_equation),
+    cmocka_unit_test(references_satisfy_the_constraints),
+    cmocka_unit_test(runs_start_at_the_references_and_stay_close_to_them),
+    cmocka_unit_test(formulas_are_as_accurate_as_the_catalogue_states),
+    cmocka_unit_test(the_reference_of_forty_windows_agrees_with_the_table),
     cmocka_unit_test(formulas_hold_for_other_parameters),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

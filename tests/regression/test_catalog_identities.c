@@ -52,7 +52,7 @@ static double largest(const double *a, const double *b, int count)
 
 enum { LEGS = 6, STEWART_Q = Q * (1 + 2 * LEGS), STEWART_V = V * (1 + 2 * LEGS) };
 
-/* Computes the lengths of the legs from the pose of the platform: the inverse kinematics. */
+/* Solves the inverse kinematics: computes the lengths of the legs from the pose of the platform. */
 static void find_lengths(const double *platform, double length[LEGS])
 {
   static const double foot[LEGS] = {-0.3, 0.3, 1.7944, 2.3944, 3.8888, 4.4888};
@@ -144,9 +144,10 @@ static double length_error(double t, const double *q)
   return largest(got, want, LEGS);
 }
 
-/* In each start, every body has another wrong pose, and the lengths of the legs are those of
- * another time of the given motion. Assembly must find a pose of the platform with these lengths.
- * There are several such poses. Assembly nearly always finds the one of the given motion. */
+/* For each start, every body gets a different wrong pose, and the lengths of the legs are
+ * prescribed for a different time of the given motion. Assembly must find a pose of the platform
+ * with these lengths. There are several such poses. Assembly nearly always finds the pose of the
+ * given motion. */
 static void assembly_solves_the_forward_kinematics_from_100_starts(void **state)
 {
   (void)state;
@@ -196,7 +197,7 @@ static double ratio_error(const baum_simulation *run)
   return fabs((v[V + 3] + v[2 * V + 3]) / 2 - v[3]);
 }
 
-static void the_mean_speed_of_the_wheels_is_that_of_the_carrier(void **state)
+static void the_mean_speed_of_the_wheels_equals_the_speed_of_the_carrier(void **state)
 {
   (void)state;
   baum_mechanism *m = build("differential");
@@ -374,7 +375,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_lengths_of_the_legs_follow_from_the_pose),
     cmocka_unit_test(assembly_solves_the_forward_kinematics_from_100_starts),
-    cmocka_unit_test(the_mean_speed_of_the_wheels_is_that_of_the_carrier),
+    cmocka_unit_test(the_mean_speed_of_the_wheels_equals_the_speed_of_the_carrier),
     cmocka_unit_test(the_wheel_follows_newtons_solution),
     cmocka_unit_test(the_quadruped_keeps_its_momenta),
     cmocka_unit_test(a_nodding_gyroscope_keeps_its_momenta_and_its_energy),

@@ -46,7 +46,7 @@ static void closed_form(double t, double q[2])
   q[1] = (double)-cosl(angle);
 }
 
-static void the_closed_form_is_that_of_the_table(void **state)
+static void the_closed_form_agrees_with_the_table(void **state)
 {
   (void)state;
   for (int k = 0; k < A01_PENDULUM_SAMPLES; k++) {
@@ -83,7 +83,7 @@ static double follow(const model *m, const baum_simulation_options *o)
   return error;
 }
 
-static void a_pendulum_is_followed_through_2000_s(void **state)
+static void the_error_of_a_pendulum_stays_small_for_2000_s(void **state)
 {
   (void)state;
   model m;
@@ -91,8 +91,8 @@ static void a_pendulum_is_followed_through_2000_s(void **state)
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   o.integrator = baum_rk8();
   o.rtol = 1e-13;
-  /* The limit is a hundred times the measured error, because rounding on other processors is
-   * different. */
+  /* The limit is a hundred times the measured error, because rounding may be different on other
+   * processors. */
   assert_true(follow(&m, &o) <= 1e-6);
   model_destroy(&m);
 }
@@ -100,8 +100,8 @@ static void a_pendulum_is_followed_through_2000_s(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_closed_form_is_that_of_the_table),
-    cmocka_unit_test(a_pendulum_is_followed_through_2000_s),
+    cmocka_unit_test(the_closed_form_agrees_with_the_table),
+    cmocka_unit_test(the_error_of_a_pendulum_stays_small_for_2000_s),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

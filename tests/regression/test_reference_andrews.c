@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares Andrews' squeezing mechanism with the catalogue's samples. The mechanism is built from
  * user functions of 7 angles, with and without a Jacobian. It is also built from 7 rigid bodies.
- * The samples were computed for this project, and are correct to 15 digits. The published values
- * have only 10. */
+ * The samples were computed for this project, and are correct to 15 digits; the published values
+ * have only 10 digits. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@ static const reference ANGLES = {.name = "Andrews, 7 angles",
                                  .q = ANDREWS_Q[0],
                                  .lengths = "rrrrrrr"};
 
-static void seven_angles_by_functions_with_jacobian(void **state)
+static void adams_reaches_the_reference_in_angles_with_a_given_jacobian(void **state)
 {
   (void)state;
   need_sundials();
@@ -32,7 +32,7 @@ static void seven_angles_by_functions_with_jacobian(void **state)
   model_destroy(&m);
 }
 
-static void seven_angles_by_functions_with_phi_alone(void **state)
+static void adams_reaches_the_reference_in_angles_with_phi_alone(void **state)
 {
   (void)state;
   need_sundials();
@@ -45,7 +45,7 @@ static void seven_angles_by_functions_with_phi_alone(void **state)
   model_destroy(&m);
 }
 
-static void seven_bodies_in_twenty_one_coordinates(void **state)
+static void adams_reaches_the_reference_with_seven_bodies(void **state)
 {
   (void)state;
   need_sundials();
@@ -64,7 +64,7 @@ static void seven_bodies_in_twenty_one_coordinates(void **state)
   model_destroy(&m);
 }
 
-static void ida_with_ggl_reaches_it_in_angles_and_bodies_within_1e_6(void **state)
+static void ida_with_ggl_reaches_the_reference_within_1e_6(void **state)
 {
   (void)state;
   need_sundials();
@@ -81,7 +81,7 @@ static void ida_with_ggl_reaches_it_in_angles_and_bodies_within_1e_6(void **stat
   model_destroy(&m);
 }
 
-static void rk4_with_projection_reaches_both(void **state)
+static void rk4_with_projection_reaches_the_reference(void **state)
 {
   (void)state;
   model m;
@@ -134,11 +134,11 @@ static void multipliers_have_the_sign_of_the_equations(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(seven_angles_by_functions_with_jacobian),
-    cmocka_unit_test(seven_angles_by_functions_with_phi_alone),
-    cmocka_unit_test(seven_bodies_in_twenty_one_coordinates),
-    cmocka_unit_test(ida_with_ggl_reaches_it_in_angles_and_bodies_within_1e_6),
-    cmocka_unit_test(rk4_with_projection_reaches_both),
+    cmocka_unit_test(adams_reaches_the_reference_in_angles_with_a_given_jacobian),
+    cmocka_unit_test(adams_reaches_the_reference_in_angles_with_phi_alone),
+    cmocka_unit_test(adams_reaches_the_reference_with_seven_bodies),
+    cmocka_unit_test(ida_with_ggl_reaches_the_reference_within_1e_6),
+    cmocka_unit_test(rk4_with_projection_reaches_the_reference),
     cmocka_unit_test(multipliers_have_the_sign_of_the_equations),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the car axis with the catalogue's samples, which have 18 digits. It has four user
- * coordinates and two rows that depend on time. The functions for the derivatives of these rows are
- * given or omitted. */
+ * coordinates and two rows that depend on time. It is tested with and without functions for the
+ * derivatives of these rows. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,7 +44,7 @@ static void adams_reaches_the_reference_with_phi_alone(void **state)
   model_destroy(&m);
 }
 
-static void rk4_with_projection_reaches_it_too(void **state)
+static void rk4_with_projection_reaches_the_reference(void **state)
 {
   (void)state;
   model m;
@@ -91,7 +91,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_reference_with_derivatives_given),
     cmocka_unit_test(adams_reaches_the_reference_with_phi_alone),
-    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+    cmocka_unit_test(rk4_with_projection_reaches_the_reference),
     cmocka_unit_test(multipliers_are_the_negative_of_the_test_set),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,7 +28,7 @@ static void adams_reaches_the_reference_within_1e_9(void **state)
   model_destroy(&m);
 }
 
-static void rk4_with_projection_reaches_it_too(void **state)
+static void rk4_with_projection_reaches_the_reference(void **state)
 {
   (void)state;
   model m;
@@ -43,7 +43,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_reference_within_1e_9),
-    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+    cmocka_unit_test(rk4_with_projection_reaches_the_reference),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

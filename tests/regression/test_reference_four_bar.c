@@ -41,7 +41,7 @@ static void ida_with_ggl_reaches_the_reference_within_1e_6(void **state)
 }
 
 /* Only 1e-9 is required, because an initial error grows by a factor of 1e4 in these 5 s. */
-static void adams_is_within_1e_9_at_its_tightest(void **state)
+static void adams_reaches_the_reference_within_1e_9_at_tight_tolerances(void **state)
 {
   (void)state;
   need_sundials();
@@ -56,7 +56,7 @@ static void adams_is_within_1e_9_at_its_tightest(void **state)
   model_destroy(&m);
 }
 
-static void rk4_with_projection_reaches_it_too(void **state)
+static void rk4_with_projection_reaches_the_reference(void **state)
 {
   (void)state;
   model m;
@@ -71,9 +71,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_reference_within_1e_8),
-    cmocka_unit_test(adams_is_within_1e_9_at_its_tightest),
+    cmocka_unit_test(adams_reaches_the_reference_within_1e_9_at_tight_tolerances),
     cmocka_unit_test(ida_with_ggl_reaches_the_reference_within_1e_6),
-    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+    cmocka_unit_test(rk4_with_projection_reaches_the_reference),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,8 +19,8 @@ static double larger(double a, double b)
   return isnan(b) || b > a ? b : a;
 }
 
-/* Computes the angle of the first crank. Also computes by how much the coordinates differ at most
- * from those of parallel cranks at this angle. */
+/* Computes the angle of the first crank. Also computes the largest difference between the
+ * coordinates and those of parallel cranks at this angle. */
 static void angle_and_departure(const double *q, double *out)
 {
   double c = cos(q[2]);
@@ -41,7 +41,7 @@ static void angle_and_departure(const double *q, double *out)
 }
 
 /* The last sample is 5e-6 rad before the flat configuration. In the flat configuration itself J
- * loses rank, so that the accuracy there would be accidental. */
+ * loses rank, so that the errors there would depend on chance. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -50,7 +50,8 @@ static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .lengths = "rr",
                                   .columns = angle_and_departure};
 
-/* Returns the largest angle between two cranks, at a hundred times. */
+/* Runs for the time `end`, and reads the state at a hundred times. Returns the largest angle
+ * between two cranks. */
 static double apart_after(const model *m, int loops, double rtol, double end)
 {
   baum_simulation_options options = ggl_options();
@@ -70,7 +71,7 @@ static double apart_after(const model *m, int loops, double rtol, double end)
   return apart;
 }
 
-static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
+static void adams_reaches_the_first_flat_configuration_within_1e_8(void **state)
 {
   (void)state;
   need_sundials();
@@ -86,7 +87,7 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
  * may enter other branches, as it does with INDEX2 and BAUMGARTE. On those branches the angles of
  * the cranks differ by radians. On the right branch all cranks remain parallel, even if their
  * common angle is inaccurate. The largest difference measured is 5e-8 rad. */
-static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
+static void ida_with_ggl_stays_on_the_branch_through_flat_configurations(void **state)
 {
   (void)state;
   need_sundials();
@@ -108,8 +109,8 @@ static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(ida_with_ggl_stays_on_the_branch_through_flat_positions),
-    cmocka_unit_test(adams_reaches_the_first_flat_position_within_1e_8),
+    cmocka_unit_test(ida_with_ggl_stays_on_the_branch_through_flat_configurations),
+    cmocka_unit_test(adams_reaches_the_first_flat_configuration_within_1e_8),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,7 +64,8 @@ static baum_status build_chain(model *m)
   }
 
 /* A problem, and the errors that are allowed for dp5 and for rk8. The limits for the pendulum and
- * the chain are larger. Their motions are long, and errors of 1e-12 in each step add up or grow. */
+ * the chain are larger, because their motions are long, and errors of 1e-12 in each step add up or
+ * grow. */
 typedef struct problem {
   reference with;
   baum_status (*build)(model *m);
@@ -113,13 +114,13 @@ static void reach_all(const baum_integrator *integrator)
   }
 }
 
-static void dp5_reaches_them_all(void **state)
+static void dp5_reaches_all_references(void **state)
 {
   (void)state;
   reach_all(baum_dp5());
 }
 
-static void rk8_reaches_them_all(void **state)
+static void rk8_reaches_all_references(void **state)
 {
   (void)state;
   reach_all(baum_rk8());
@@ -128,8 +129,8 @@ static void rk8_reaches_them_all(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(dp5_reaches_them_all),
-    cmocka_unit_test(rk8_reaches_them_all),
+    cmocka_unit_test(dp5_reaches_all_references),
+    cmocka_unit_test(rk8_reaches_all_references),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

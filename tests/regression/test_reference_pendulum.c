@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares two pendulums with tests/data. Each is made with a distance joint, and with one user
- * function. The first is A01 of IFToMM and A Coruna up to 10 s, whose closed form with elliptic
- * functions has 20 digits. The second pendulum is SUNDIALS' cvPendulum_dns up to 30 s. Its period
- * is exactly 2 s. */
+/* Compares two pendulums with tests/data. Each pendulum is built in two ways: with a distance
+ * joint, and with one user function. The first pendulum is A01 of IFToMM and A Coruna, over 10 s.
+ * Its table has 20 digits and was computed from the closed form with elliptic functions. The second
+ * pendulum is SUNDIALS' cvPendulum_dns, over 30 s. Its period is exactly 2 s. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,14 +51,14 @@ static void adams_reaches_a01_within_1e_8(void **state)
   reach_with_adams(&A01, &MODEL_PENDULUM_A01);
 }
 
-static void adams_reaches_that_of_sundials_within_1e_8(void **state)
+static void adams_reaches_the_pendulum_of_sundials_within_1e_8(void **state)
 {
   (void)state;
   need_sundials();
   reach_with_adams(&SUNDIALS, &MODEL_PENDULUM_SUNDIALS);
 }
 
-static void rk4_with_projection_reaches_both(void **state)
+static void rk4_with_projection_reaches_both_references(void **state)
 {
   (void)state;
   model m;
@@ -77,8 +77,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_a01_within_1e_8),
-    cmocka_unit_test(adams_reaches_that_of_sundials_within_1e_8),
-    cmocka_unit_test(rk4_with_projection_reaches_both),
+    cmocka_unit_test(adams_reaches_the_pendulum_of_sundials_within_1e_8),
+    cmocka_unit_test(rk4_with_projection_reaches_both_references),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

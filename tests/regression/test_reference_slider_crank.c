@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the eccentric slider-crank, with and without a driver, with references that are correct
  * to 16 digits. Without a driver, the crank makes about five revolutions, and errors of its speed
- * add up to errors of its angle. It therefore needs tighter tolerances than with a driver. */
+ * add up to errors of its angle. Runs without a driver therefore need tighter tolerances. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -35,8 +35,8 @@ static const reference REFERENCES[2] = {
    .lengths = COLUMNS},
 };
 
-/* The samples for the crank with a driver are a table of tests/data. Those for the crank without a
- * driver come from the catalogue. */
+/* The samples for the crank with a driver are a table of tests/data. The samples for the crank
+ * without a driver come from the catalogue. */
 static void read_sample(bool driven, int i, double *q, double *v)
 {
   const baum_catalog_choice choice = {.name = "slider_crank_eccentric"};
@@ -120,7 +120,7 @@ static void ida_at_index_3_runs_to_the_end_and_its_error_is_shown(void **state)
   }
 }
 
-static void rk4_with_projection_reaches_them_too(void **state)
+static void rk4_with_projection_reaches_the_references(void **state)
 {
   (void)state;
   for (int driven = 0; driven < 2; driven++) {
@@ -132,7 +132,7 @@ static void rk4_with_projection_reaches_them_too(void **state)
   }
 }
 
-static void velocities_follow(void **state)
+static void velocities_agree_with_the_references(void **state)
 {
   (void)state;
   const baum_channel velocities = baum_channel_of(BAUM_V);
@@ -210,8 +210,8 @@ int main(void)
     cmocka_unit_test(ida_at_index_1_reaches_the_references_within_1e_6),
     cmocka_unit_test(ida_with_ggl_and_at_index_2_reaches_the_references_within_1e_6),
     cmocka_unit_test(ida_at_index_3_runs_to_the_end_and_its_error_is_shown),
-    cmocka_unit_test(rk4_with_projection_reaches_them_too),
-    cmocka_unit_test(velocities_follow),
+    cmocka_unit_test(rk4_with_projection_reaches_the_references),
+    cmocka_unit_test(velocities_agree_with_the_references),
     cmocka_unit_test(a_start_with_only_the_crank_speed_has_exactly_that_speed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

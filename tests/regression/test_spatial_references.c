@@ -70,7 +70,7 @@ static void check_all(const baum_integrator *integrator, baum_formulation formul
   }
 }
 
-static void references_are_met(void **state)
+static void every_method_reaches_the_references(void **state)
 {
   (void)state;
   check_all(baum_dp5(), BAUM_FORMULATION_PROJECTION, 1e-6);
@@ -82,8 +82,8 @@ static void references_are_met(void **state)
 #endif
 }
 
-/* The governors are omitted, because they have dampers, which RATTLE refuses. */
-static void rattle_meets_them_with_its_order(void **state)
+/* The two governors are not run, because they have dampers, which RATTLE refuses. */
+static void rattle_converges_to_the_references_with_its_order(void **state)
 {
   (void)state;
   static const char *const taken[] = {"spatial_slider_crank", "bricard", "gimbals"};
@@ -103,8 +103,8 @@ static void rattle_meets_them_with_its_order(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(references_are_met),
-    cmocka_unit_test(rattle_meets_them_with_its_order),
+    cmocka_unit_test(every_method_reaches_the_references),
+    cmocka_unit_test(rattle_converges_to_the_references_with_its_order),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -125,8 +125,9 @@ static bool allocate(gain_problem *problem, gain_start *start)
   return start->q != NULL;
 }
 
-/* Changes the start by a hundredth of the scales, and its time by a hundredth of the first sample
- * time. Then projects the start onto the constraints. */
+/* Changes each coordinate by up to a hundredth of its scale, and the velocities accordingly. Delays
+ * the start by up to a hundredth of the first sample time. Then projects the start onto the
+ * constraints. */
 static baum_status perturb(gain_problem *problem, int lot, int number, gain_start *start)
 {
   static const double SIZE = 0.01;

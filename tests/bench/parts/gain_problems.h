@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Problems with which rules for gains are measured. Each has perturbed starts and a reference for
+/* Problems on which the rules for gains are tested. Each has perturbed starts and a reference for
  * each start. */
 #ifndef BAUM_BENCH_GAIN_PROBLEMS_H
 #define BAUM_BENCH_GAIN_PROBLEMS_H
@@ -24,7 +24,7 @@ typedef struct gain_problem {
   const double *t;     /* (samples) [s] times, all after the start */
   const double *scale; /* (nq) a length [m] or 1 rad; `kept` owns this memory */
   gain_start starts[GAIN_STARTS];
-  /* Largest difference between a reference and the same reference with twice the step. */
+  /* Each reference is also computed with twice the step. This is the largest difference. */
   double apart;
   baum_simulation *kept;
 } gain_problem;

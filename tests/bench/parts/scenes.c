@@ -31,7 +31,7 @@ const char *scene_name(scene_kind kind)
   return is_spatial(kind) ? model_spatial_name(model_of(kind)) : names[kind];
 }
 
-/* Builds a chain whose links have irregular angles to both sides. */
+/* Builds a chain whose links are inclined to both sides, by irregular angles. */
 static baum_status build_chain(int links, model *out)
 {
   double *angle = calloc(2 * (size_t)links, sizeof *angle);

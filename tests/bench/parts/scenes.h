@@ -17,7 +17,7 @@ typedef enum scene_kind {
   SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
   SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
   SCENE_TWO_CRANKS,
-  SCENE_SPATIAL /* this and larger numbers are spatial: SCENE_SPATIAL plus a model_spatial */
+  SCENE_SPATIAL /* a spatial scene has the number SCENE_SPATIAL plus a model_spatial */
 } scene_kind;
 
 typedef struct scene {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the growth of perturbations. A perturbation of the start is a combination of given
  * directions. Row d of A_k is the effect of direction d at time k, from central differences. It
- * contains the change of q and the change of v, the latter divided by the rate. From time j to time
- * k, a perturbation grows at most by the square root of trace(G_j^-1 P_k), which is a Frobenius
- * norm. G_j is the Gram matrix of all columns of A_j, and P_k is the Gram matrix of the columns of
- * positions in A_k. */
+ * contains the change of q and the change of v / rate, where `rate` is the initial angular velocity
+ * of the crank. Let G_j = A_j A_j^T. Let P_k be the same product for time k, but only with the
+ * columns that belong to q. From time j to time k, a perturbation of the positions grows at most by
+ * the square root of trace(G_j^-1 P_k), which is a Frobenius norm. */
 #include "sweep_motion.h"
 
 #include <math.h>

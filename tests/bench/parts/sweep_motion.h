@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reference motions in reduced coordinates y, and the amplification of perturbations by them. */
+/* Reference motions in reduced coordinates y, and how much these motions amplify perturbations. */
 #ifndef BAUM_BENCH_SWEEP_MOTION_H
 #define BAUM_BENCH_SWEEP_MOTION_H
 

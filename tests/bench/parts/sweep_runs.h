@@ -44,15 +44,15 @@ typedef struct sweep_tally {
   sweep_fault faults[SWEEP_FAULTS];
 } sweep_tally;
 
-/* Begins a part of the sweeps. It contains all methods with a fixed or with a variable step, with
- * each of their formulations. */
+/* Begins a part of the sweeps. If `fixed` is true, it contains all methods with a fixed step,
+ * otherwise all methods with a variable step. Each method has all its formulations. */
 void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv);
 /* Makes one run with a method. `setting` is the step [s] or rtol. */
 sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting);
 /* Adds the counts of a part to `all`. */
 void sweep_add(const sweep_tally *part, sweep_tally *all);
-/* Prints a line for each method that has run, and all runs that are silently wrong. Returns how
- * many of these there are. */
+/* Prints a line for each method that has run, and all runs that are silently wrong. Returns the
+ * number of silently wrong runs. */
 int sweep_print(const sweep_tally *tally);
 
 void sweep_csv_head(FILE *csv);

@@ -52,14 +52,17 @@ static void set_turning(baum_planar_body_def *def, double rate)
 /* ---- four-bar ----
  *
  * The crank a starts at (0, 0), the coupler b follows, and the rocker c ends at (d, 0). They are
- * uniform rods of 1 kg/m with the angles th:
+ * uniform rods of 1 kg/m with the angles th1, th2 and th3. With the unit vector e(th) at the angle
+ * th, they satisfy
  *
  *   a e(th1) + b e(th2) - c e(th3) - d e(0) = 0
  *   th' = u n(th),  n = (sin(th2 - th3) / a, sin(th3 - th1) / b, sin(th2 - th1) / c)
  *
  * The vector n spans the null space of the Jacobian of both rows, even if the crank is in a dead
- * centre. It is zero only in singular configurations. Along the curve th(s) with dth/ds = n, the
- * kinetic energy is T = I(s) s'^2 / 2, and the potential is V(s). Lagrange's equation is then
+ * centre. It is zero only in singular configurations. The scalar u is the speed along n. Let th(s)
+ * be the curve with dth/ds = n, so that s' = u. Along this curve, the kinetic energy is T = I(s)
+ * u^2 / 2, and the potential energy is V(s). With the derivatives I_s and V_s, Lagrange's equation
+ * is then
  *
  *   I u' + I_s u^2 / 2 + V_s = 0
  */
@@ -93,7 +96,7 @@ static long double coupling_mass(const linkage *k)
   return k->b * k->a * k->b / 2.0L;
 }
 
-/* Computes I, which is the inertia along n. */
+/* Computes I, the generalized inertia of a motion along n. */
 static long double inertia(const linkage *k, const long double *th, const long double n[3])
 {
   long double m11 = k->a * k->a * k->a / 3.0L + k->b * k->a * k->a;
@@ -334,8 +337,8 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
 
 /* ---- singular configurations ----
  *
- * On their smooth branch, all these scenes have one angle th, which satisfies (i0 + i1 sin^2 th)
- * th'' + i1 sin th cos th th'^2 + k cos th = 0.
+ * On their smooth branch, all these scenes are described by one angle th. With constants i0, i1 and
+ * k, it satisfies (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0.
  */
 
 typedef struct swing {

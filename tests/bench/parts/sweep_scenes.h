@@ -2,8 +2,8 @@
 /* The scenes of bench_sweeps. For each, the motion is integrated in reduced coordinates, without
  * the library.
  *
- * Errors are errors of positions. Lengths are relative to the characteristic length of the scene,
- * and angles are in radians.
+ * Errors are position errors. Lengths are relative to the characteristic length of the scene, and
+ * angles are in radians.
  */
 #ifndef BAUM_BENCH_SWEEP_SCENES_H
 #define BAUM_BENCH_SWEEP_SCENES_H

@@ -16,7 +16,7 @@ double timing_now(void)
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Returns the time of this number of calls. Returns NaN if a call fails. */
+/* Makes `calls` calls, and returns the time that they take. Returns NaN if a call fails. */
 static double time_calls(timing_fn *function, void *self, int part, long calls)
 {
   double start = timing_now();
