@@ -52,8 +52,8 @@ typedef struct baum_i_catalog_mechanism {
   int bodies; /* number of bodies, or 0 if count() returns it */
   int (*count)(const double *p);
 
-  /* The reference has `samples` rows with `columns` numbers each. The rows are stored. If t is
-   * NULL, they are computed by solution(), at equal intervals. */
+  /* The reference has `samples` rows with `columns` numbers each. If t is not NULL, the rows are
+   * stored. If t is NULL, solution() computes them at equal intervals of time. */
   int samples;
   const double *t; /* (samples) */
   int columns;

@@ -49,8 +49,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of carrier and wheels at start", BAUM_I_ANY},
 };
 
-/* Solves inertia x'' = torque - 2 damping x', x(0) = 0, x'(0) = start. Adds the sizes of all terms
- * to `sum`, to which rounding errors are proportional. */
+/* Solves inertia x'' = torque - 2 damping x', x(0) = 0, x'(0) = start. Adds the magnitudes of all
+ * terms to `sum`, because rounding errors are proportional to this sum. */
 static double spin_up(double inertia, double torque, double damping, double start, double t,
                       double *rate, double *sum)
 {

@@ -80,7 +80,7 @@ static int lift(double t, double s[3], void *user)
 
 /* ---- kinematics ---- */
 
-/* Computes the coordinates of a point of the ground in some axes. */
+/* Converts a point r from ground axes to the given axes. */
 static void find_local(const baum_i_axes *axes, const double r[3], double out[3])
 {
   for (int k = 0; k < 3; k++) {
@@ -101,7 +101,7 @@ static double distance(const double a[3], const double b[3])
  *
  *   (y d_y + z d_z) cos a + (y d_z - z d_y) sin a = (|local|^2 + |d|^2 - length^2) / 2 - x d_x
  *
- * Of the two solutions, this is the one that is nearer to 0. */
+ * Of the two solutions for a, the function uses the one that is nearer to 0. */
 static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *target,
                   double length)
 {

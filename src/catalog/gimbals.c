@@ -42,7 +42,7 @@ static double solution(const double *p, double t, double *q, double *v)
   v[1] = (weight + gyration) / scale - p[PRECESSION] * sin(p[TILT]);
   q[0] = v[0] * t;
   q[1] = v[1] * t;
-  /* Rounding errors are proportional to the sizes of the terms. */
+  /* Rounding errors are proportional to the magnitudes of the terms. */
   double sum = (fabs(weight) + fabs(gyration)) / fabs(scale);
   return DBL_EPSILON * (fabs(v[0]) + sum) * (1.0 + fabs(t));
 }

@@ -121,7 +121,7 @@ static void set_pointer(const baum_i_def_field *f, void *def, const void *pointe
   memcpy((char *)def + f->offset, &pointer, sizeof pointer);
 }
 
-/* Return the number of numbers or ids of an array. */
+/* Return how many numbers or ids an array contains. */
 static int32_t count_of(const baum_i_def_field *f, const void *def)
 {
   const char *bytes = def;

@@ -188,7 +188,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
 }
 
 /* Find whether Phi, or nu - J v if there is no Phi, changes with t at constant q. The function
- * compares its values a short time before and after the present time. */
+ * compares the present values with the values a short time before and after. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -447,8 +447,8 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Check gamma, by its second form if possible. jacobian and nu have already been checked, or they
- * define the constraint. */
+/* Check gamma, if possible by the second form that the top of this file describes. jacobian and nu
+ * have already been checked, or they define the constraint. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

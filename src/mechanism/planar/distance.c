@@ -18,7 +18,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters of the joint, which follow its two points. */
+/* The parameters that follow the two points of the joint. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 /* ---- definition ---- */

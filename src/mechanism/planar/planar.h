@@ -75,8 +75,8 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* The following functions check definitions. The table of fields has been checked before they are
- * called. */
+/* The following functions check definitions. Before they are called, each field has been checked by
+ * the table of fields. */
 
 /* Check that a body has a position in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,

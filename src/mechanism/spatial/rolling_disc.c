@@ -172,7 +172,7 @@ static motion motion_at(const contact *x)
   return out;
 }
 
-/* Returns the motion with these twelve velocities. The angular velocities among them are in body
+/* Returns the motion whose velocities are `twelve`. In this array, angular velocities are in body
  * axes. */
 static motion motion_of(const contact *x, const double twelve[COLUMNS])
 {
@@ -191,7 +191,7 @@ static motion unit_motion(const contact *x, int column)
   return motion_of(x, twelve);
 }
 
-/* Adds G(r), see above. */
+/* Adds G(r), which the top of this file defines. */
 static void add_first(const contact *x, const double r[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);
@@ -203,7 +203,7 @@ static void add_first(const contact *x, const double r[3], double out[3])
   }
 }
 
-/* Adds H(r, y), see above. */
+/* Adds H(r, y), which the top of this file defines. */
 static void add_second(const contact *x, const double r[3], const double y[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);

@@ -79,8 +79,8 @@ double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatia
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out);
 
-/* Computes the distance l of the two points, its rate l' and its gradient h over the twelve columns
- * of both bodies. If l is too short to have a direction, all three are 0. */
+/* The distance l of the two points, its rate l' and its gradient h over the twelve columns of both
+ * bodies. If l is too short to have a direction, all three are 0. */
 typedef struct baum_i_spatial_length {
   double length;
   double rate;
@@ -118,7 +118,7 @@ void baum_i_spatial_linearize_products(const baum_i_spatial_pair *pair,
                                        const double *w, const double *lambda,
                                        const baum_i_joint_blocks *wide);
 
-/* The function `linearize` of a joint whose rows are products. Each row is one of the products in
+/* Implements linearize() for a joint whose rows are products. Each row is one of the products in
  * `rows`, multiplied by `factor`. */
 void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
                                    const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
