@@ -131,7 +131,7 @@ static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *t
   baum_i_axes_turn(axes, 0, 0.0, -apart / gained);
 }
 
-/* Returns axes at the front pivot of a wishbone. Their x axis is the axis of the pivots. */
+/* Returns axes at the front pivot of a wishbone. Their x axis points to the rear pivot. */
 static baum_i_axes pivot_axes(int arm)
 {
   const baum_i_axes front = baum_i_axes_at(FRONT[arm], baum_i_zeros);
@@ -154,8 +154,8 @@ static baum_i_axes moved(baum_i_axes axes, const double local[3])
   return axes;
 }
 
-/* Finds axes of all bodies. The origins of the axes are the front pivots, the lower ball joint, and
- * the centres of rack and plate. */
+/* Finds one set of axes for each body. The origins of these axes are the front pivots, the lower
+ * ball joint, and the centres of rack and plate. */
 static void find_axes(const double *q, const double *v, baum_i_axes axes[BODIES])
 {
   double local[3];
@@ -185,7 +185,7 @@ static void find_axes(const double *q, const double *v, baum_i_axes axes[BODIES]
   swing(&axes[UPRIGHT], arm, &rod, distance(TIE_ROD[0], TIE_ROD[1]));
 }
 
-/* Computes the centre of mass of a body in the axes of find_axes(). */
+/* Computes the centre of mass of a body in the axes that find_axes() gives to this body. */
 static void find_centre(int body, double out[3])
 {
   memset(out, 0, 3 * sizeof *out);

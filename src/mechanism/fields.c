@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions that work from tables of fields. They set the defaults of definitions, check, copy and
- * digest them, and find the bodies that they name. */
+/* Functions that use the tables of fields. They set the defaults of definitions, check, copy and
+ * digest definitions, and find the bodies that a definition names. */
 #include "mechanism/fields.h"
 
 #include <string.h>

@@ -46,13 +46,14 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_FLAG,
   BAUM_I_FIELD_START_FLAG, /* a flag that is used only at the start of a run */
   BAUM_I_FIELD_CLAIM,      /* states whether user functions depend on velocities; true by default */
-  BAUM_I_FIELD_BODY,       /* required; ground is allowed */
+  BAUM_I_FIELD_BODY,       /* a required body; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body; ground if it is not given */
   /* array of body ids; `counter` gives its length; ground and repeated bodies are not allowed */
   BAUM_I_FIELD_BODIES,
   /* array of at least two body ids; ground and repeated bodies are allowed */
   BAUM_I_FIELD_PATH,
-  /* required and cannot change; the element acts on the bodies of this joint */
+  /* a required joint, which cannot be changed later; the element acts on the bodies of this
+   * joint */
   BAUM_I_FIELD_JOINT,
   BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate, which the definition itself checks */
   BAUM_I_FIELD_INPUT,      /* an input, or none */

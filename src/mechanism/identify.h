@@ -56,7 +56,7 @@ baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
 /* Return a note for messages about configurations if an angle of a definition is larger than a
- * revolution, because it may be in degrees. Otherwise return "". */
+ * revolution, because the user may have given it in degrees. Otherwise return "". */
 baum_i_text baum_i_degrees(const baum_mechanism *mechanism);
 
 /* Find the joint that owns a row, or the body that owns a velocity. The mechanism must be

@@ -13,8 +13,8 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; the inline functions below call these functions, and their
- * comments describe them ---- */
+/* ---- for mechanisms that are not flat; the functions without `bodies` in their names, which are
+ * below, call these functions, and the comments there describe them ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);

@@ -192,7 +192,8 @@ typedef struct baum_i_point {
   double *angles;
   double *own_angles;
   const double *inputs; /* (input_count) present values, or NULL if there are no inputs */
-  /* (nv) if not NULL, used instead of the gyroscopic moments of rigid bodies */
+  /* (nv) moments that replace the gyroscopic moments of rigid bodies; NULL if they are not
+   * replaced */
   const double *moments;
   double *scratch; /* (mechanism->scratch_size) for user functions and differences */
   bool retry;      /* set by a failure that a smaller step may avoid */
@@ -238,7 +239,7 @@ static inline void baum_i_point_set(baum_i_point *point, double t, const double 
 
 /* ---- types ---- */
 
-/* The smallest box around points in ground axes. */
+/* The smallest box that contains a set of points. Its edges are parallel to the ground axes. */
 typedef struct baum_i_box {
   double low[3];
   double high[3];
@@ -411,7 +412,7 @@ struct baum_i_joint_type {
   /* returns the number of rows of a joint; NULL if row_count is not 0 */
   int (*rows)(const void *def);
   /* Return the number of velocity-level rows of a joint. They are its last rows, and their Phi is
-   * 0. NULL if the joints of the type have no such rows. */
+   * 0. NULL if joints of the type have no such rows. */
   int (*velocity_rows)(const void *def);
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
    * BAUM_ERR_ARGUMENT after setting the message. */
@@ -501,8 +502,8 @@ struct baum_i_force_type {
   /* Tell whether power() returns the power of the whole force. NULL if it never does. */
   bool (*power_is_whole)(const baum_i_force *force);
   baum_i_power whole_class; /* the class that receives the power of a whole force */
-  /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
-   * each). NULL if forces of the type never jump. */
+  /* Tell whether the force jumps during a step from the configuration `from` to the configuration
+   * `to` (nq each). NULL if forces of the type never jump. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,
                 const double *to);
 };
@@ -511,9 +512,9 @@ struct baum_i_force_type {
 
 struct baum_mechanism {
   atomic_int references;
-  uint32_t tag; /* copies of a mechanism have the same tag */
+  uint32_t tag; /* identifies the mechanism in ids; copies of a mechanism have the same tag */
   bool frozen;
-  bool wide; /* evaluated with wide vectors (base/hot.h) */
+  bool wide; /* whether it is evaluated with wide vector instructions (base/hot.h) */
   double gravity[3];
   double given_length; /* [m] characteristic length given by the user; NaN if not set */
 
@@ -541,8 +542,8 @@ struct baum_mechanism {
   bool flat;                 /* true if no body has a manifold; then nq = nv and q' = v */
   double length;             /* characteristic length */
   baum_i_body_place *places; /* (body_count + 1) */
-  bool all_planar;           /* every body has the three coordinates of a planar body */
-  bool spatial;              /* has a spatial body, joint or force */
+  bool all_planar;           /* true if every body has the three coordinates of a planar body */
+  bool spatial;              /* true if the mechanism has a spatial body, joint or force */
   double *parameters;
   double *design_q; /* (nq) */
   double *design_v; /* (nv) NaN where the velocity is not given */

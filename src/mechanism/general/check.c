@@ -199,8 +199,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a function whose output is rearranged. Each entry is stored at the index of its
- * derivative, so that messages name the right entry of the derivative. */
+/* Context of rearranged_field(), which evaluates a function and stores each entry at the index of
+ * the entry that is its derivative. Messages then name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

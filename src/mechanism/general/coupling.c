@@ -171,7 +171,7 @@ static baum_status law_at(const baum_i_joint *joint, const baum_i_local *at, dou
 
 /* ---- the row ---- */
 
-/* One coupling in a state of the mechanism. */
+/* A coupling, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_joint_coordinate of[2];
   baum_i_inner x[2];

@@ -106,7 +106,8 @@ double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
 
 /* ---- one step size ---- */
 
-/* The memory for evaluations of a field, with the step of every coordinate. */
+/* A field, the point at which it is differentiated, the step of every coordinate, and memory for
+ * evaluations. */
 typedef struct probe {
   const baum_i_field *field;
   const baum_i_ray *ray;
@@ -120,7 +121,7 @@ typedef struct probe {
   double *free;
 } probe;
 
-/* Return the step d from x, rounded so that x + d, x + 2 d and x + 3 d are exact. */
+/* Round the step d so that x + d, x + 2 d and x + 3 d are exact. */
 static double exact_step(double x, double d)
 {
   double farthest = fabs(x) + 3.0 * fabs(d);

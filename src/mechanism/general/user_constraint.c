@@ -268,7 +268,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 
 /* ---- second derivatives ---- */
 
-/* The derivatives of one joint while they are computed. */
+/* The joint, the factors w and lambda, and the blocks to which second derivatives are added. */
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
@@ -277,7 +277,7 @@ typedef struct second {
   double *jtl_q;
 } second;
 
-/* Write the products J w (rows values) and J^T lambda (nl values), one after the other. */
+/* Write the products J w (`rows` values) and J^T lambda (nl values), one after the other. */
 static baum_status products_field(const void *context, const baum_i_local *at, double *out)
 {
   const second *s = context;

@@ -350,7 +350,7 @@ static void bend_along(const contact *x, const motion *v, const motion *y, doubl
 }
 
 /* Computes the row of J with the direction e. It equals the generalized force of a contact force e
- * on body_b and of its opposite on body_a. */
+ * on body_b and the opposite force on body_a. */
 static void row_of(const contact *x, const double e[3], double twelve[COLUMNS])
 {
   double arm_a[3], arm_b[3], moment[3];

@@ -14,8 +14,9 @@
  *   k = (1 - h cot h) / (4 h^2),   h = phi / 2
  *
  * B^T u is the same expression with + theta x u / 2. Let l be the last three numbers of f, and m =
- * B^T l. In H^T f, the moment of l is E_a^T m on body_b and the opposite on body_a. Let D be the
- * derivative along a motion y with the angular velocities W_ya and W_yb:
+ * B^T l. The part of H^T f that belongs to l is the moment E_a^T m on body_b and the opposite
+ * moment on body_a. Let D be the derivative along a motion y with the angular velocities W_ya and
+ * W_yb:
  *
  *   D w = E_a ((W_yb - W_ya) x W_b),   D (E_a^T m) = E_a^T D m + W_ya x E_a^T m
  */

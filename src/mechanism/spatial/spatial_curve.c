@@ -76,7 +76,7 @@ static baum_status curve_at(const void *joint, const baum_i_local *at, double *o
 
 /* ---- one joint ---- */
 
-/* A joint in a state of the mechanism. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_spatial_pair pair;
   baum_i_coordinate x[3];
