@@ -41,7 +41,7 @@ typedef struct baum_i_catalog_mechanism {
   const baum_i_catalog_parameter *parameters;
   const double *defaults;
   double end;      /* [s] end of the motion and of its reference */
-  double digits_q; /* number of correct digits of the positions of the reference */
+  double digits_q; /* number of correct digits in the positions of the reference */
   double digits_v; /* the same for velocities */
   bool branches;   /* whether the motion passes bifurcations */
   void (*build)(baum_i_parts *parts, const double *p); /* adds all elements of the mechanism */

@@ -75,8 +75,9 @@ typedef struct baum_i_def_field {
   size_t offset;
   size_t size;
   baum_i_field_kind kind;
-  baum_i_rule rule;                    /* rule for numbers and arrays of numbers */
-  double value[BAUM_I_FIELD_DEFAULTS]; /* defaults of the first numbers; all others are 0 */
+  baum_i_rule rule; /* rule for numbers and arrays of numbers */
+  /* defaults of the first numbers of the field; all other defaults are 0 */
+  double value[BAUM_I_FIELD_DEFAULTS];
   /* for an array: the offset of the field that counts its entries */
   size_t counter;
   /* for an array: the offset of the count to use if `counter` is 0 */
