@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism in 7 angles, q = (beta, Theta, gamma, Phi, delta, Omega, epsilon).
  * It is a problem of the Bari test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving
- * ODEs II, p. 530 ff).
- * The functions mass(), force() and phi() compute M, f and g of the test set with the same terms.
- * The equation of motion of the test set is M a + G^T lambda = f with G = dg/dq. */
+ * ODEs II, p. 530 ff). The functions mass(), force() and phi() compute the M, f and g of the test
+ * set, term by term. The equation of motion of the test set is M a + G^T lambda = f with G =
+ * dg/dq. */
 #include "catalog/andrews.h"
 
 #include <math.h>

@@ -15,8 +15,8 @@
  * The mass matrix of the test set determines the centres of mass: K1 has its centre at the distance
  * ra from O, K2 at the distance da from E towards F, K4 at e - ea from G towards F, and K6 at zf -
  * fa from H towards F. The centres of K3, K5 and K7 are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and
- * sqrt(ua^2 + ub^2) from the pivots. Without gravity, the directions of these three do not affect
- * the motion.
+ * sqrt(ua^2 + ub^2) from the pivots. Without gravity, the directions from the pivots to these three
+ * centres do not affect the motion.
  */
 #include "catalog/andrews.h"
 #include "catalog/catalog.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every mechanism of the catalogue is a const struct, which is at the end of a file. To add a
- * mechanism, write such a file and add the name of the struct, without baum_i_, to
+/* Every mechanism of the catalogue is a const struct at the end of a source file. To add a
+ * mechanism, write such a file and add the name of its struct, without baum_i_, to
  * BAUM_I_CATALOG_LIST below. */
 #ifndef BAUM_I_CATALOG_CATALOG_H
 #define BAUM_I_CATALOG_CATALOG_H
@@ -41,7 +41,7 @@ typedef struct baum_i_catalog_mechanism {
   const baum_i_catalog_parameter *parameters;
   const double *defaults;
   double end;      /* [s] end of the motion and of its reference */
-  double digits_q; /* number of correct digits of the positions of the reference */
+  double digits_q; /* number of correct digits in the positions of the reference */
   double digits_v; /* the same for velocities */
   bool branches;   /* whether the motion passes bifurcations */
   void (*build)(baum_i_parts *parts, const double *p); /* adds all elements of the mechanism */
@@ -52,8 +52,8 @@ typedef struct baum_i_catalog_mechanism {
   int bodies; /* number of bodies, or 0 if count() returns it */
   int (*count)(const double *p);
 
-  /* The reference has `samples` rows with `columns` numbers each. The rows are stored. If t is
-   * NULL, they are computed by solution(), at equal intervals. */
+  /* The reference has `samples` rows with `columns` numbers each. If t is not NULL, the rows are
+   * stored. If t is NULL, solution() computes them at equal intervals of time. */
   int samples;
   const double *t; /* (samples) */
   int columns;
@@ -61,8 +61,8 @@ typedef struct baum_i_catalog_mechanism {
   const double *v; /* (samples x columns) */
   double (*solution)(const double *p, double t, double *q,
                      double *v); /* returns a bound of the errors of q and v */
-  /* Computes the state of one body from the columns of a sample. If it is NULL, the columns are the
-   * coordinates of all bodies. */
+  /* Computes the state of one body from the columns of a sample. If state() is NULL, the columns
+   * are the coordinates of all bodies. */
   baum_i_body_state (*state)(const double *p, const double *q, const double *v, int body);
 } baum_i_catalog_mechanism;
 

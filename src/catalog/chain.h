@@ -23,7 +23,8 @@ typedef struct baum_i_chain {
   baum_i_link all;
 } baum_i_chain;
 
-/* A chain of three links with different lengths and masses, whose motion is known. */
+/* A chain of three links with different lengths and masses. data/chain.h contains its reference
+ * motion. */
 extern const baum_i_chain baum_i_chain_3;
 
 void baum_i_chain_add(baum_i_parts *parts, const baum_i_chain *data);

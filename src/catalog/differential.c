@@ -49,8 +49,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of carrier and wheels at start", BAUM_I_ANY},
 };
 
-/* Solves inertia x'' = torque - 2 damping x', x(0) = 0, x'(0) = start. Adds the sizes of all terms
- * to `sum`, to which rounding errors are proportional. */
+/* Solves inertia x'' = torque - 2 damping x', x(0) = 0, x'(0) = start. Adds the magnitudes of all
+ * terms to `sum`, because rounding errors are proportional to this sum. */
 static double spin_up(double inertia, double torque, double damping, double start, double t,
                       double *rate, double *sum)
 {
@@ -135,7 +135,8 @@ static void build(baum_i_parts *parts, const double *p)
   baum_joint_id joint[BODIES];
   baum_i_parts_gravity_z(parts, 0.0);
   for (int k = 0; k < BODIES; k++) {
-    /* The moments of inertia of the wheels and the carrier about y and z do not matter. */
+    /* The moments of inertia of the wheels and the carrier about y and z do not affect the
+     * motion. */
     const double inertia[3] = {axial[k], axial[k], k == SPIDER ? p[SPIDER_INERTIA] : axial[k]};
     id[k] = baum_i_parts_spatial_body(parts, names[k], mass[k], inertia,
                                       state(p, baum_i_zeros, rates, k));

@@ -80,7 +80,7 @@ static int lift(double t, double s[3], void *user)
 
 /* ---- kinematics ---- */
 
-/* Computes the coordinates of a point of the ground in some axes. */
+/* Converts a point r from ground axes to the given axes. */
 static void find_local(const baum_i_axes *axes, const double r[3], double out[3])
 {
   for (int k = 0; k < 3; k++) {
@@ -101,7 +101,7 @@ static double distance(const double a[3], const double b[3])
  *
  *   (y d_y + z d_z) cos a + (y d_z - z d_y) sin a = (|local|^2 + |d|^2 - length^2) / 2 - x d_x
  *
- * Of the two solutions, this is the one that is nearer to 0. */
+ * Of the two solutions for a, the function uses the one that is nearer to 0. */
 static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *target,
                   double length)
 {
@@ -131,7 +131,7 @@ static void swing(baum_i_axes *axes, const double local[3], const baum_i_axes *t
   baum_i_axes_turn(axes, 0, 0.0, -apart / gained);
 }
 
-/* Returns axes at the front pivot of a wishbone. Their x axis is the axis of the pivots. */
+/* Returns axes at the front pivot of a wishbone. Their x axis points to the rear pivot. */
 static baum_i_axes pivot_axes(int arm)
 {
   const baum_i_axes front = baum_i_axes_at(FRONT[arm], baum_i_zeros);
@@ -154,8 +154,8 @@ static baum_i_axes moved(baum_i_axes axes, const double local[3])
   return axes;
 }
 
-/* Finds axes of all bodies. The origins of the axes are the front pivots, the lower ball joint, and
- * the centres of rack and plate. */
+/* Finds one set of axes for each body. The origins of these axes are the front pivots, the lower
+ * ball joint, and the centres of rack and plate. */
 static void find_axes(const double *q, const double *v, baum_i_axes axes[BODIES])
 {
   double local[3];
@@ -185,7 +185,7 @@ static void find_axes(const double *q, const double *v, baum_i_axes axes[BODIES]
   swing(&axes[UPRIGHT], arm, &rod, distance(TIE_ROD[0], TIE_ROD[1]));
 }
 
-/* Computes the centre of mass of a body in the axes of find_axes(). */
+/* Computes the centre of mass of a body in the axes that find_axes() gives to this body. */
 static void find_centre(int body, double out[3])
 {
   memset(out, 0, 3 * sizeof *out);

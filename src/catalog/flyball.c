@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Flyball governor. A shaft rotates about z and carries a slider at the height s. Two arms are on
- * pins beside the top of the shaft, at an angle b below the horizontal. Each arm is a rod with a
- * ball at its end. A spring and a damper connect the slider with the centre of each rod. The rods
- * and the shaft measure 1 m x 0.01 m x 0.01 m, and the slider is a cube with edges of 0.1 m. The
- * density of rods, shaft and slider is 3000 kg/m^3.
+/* Flyball governor. A shaft rotates about z and carries a slider at the height s. Two arms are
+ * attached to pins beside the top of the shaft. Each arm is a rod with a ball at its end, and
+ * points downwards at the angle b from the horizontal. A spring and a damper connect the slider
+ * with the centre of each rod. The rods and the shaft measure 1 m x 0.01 m x 0.01 m, and the slider
+ * is a cube with edges of 0.1 m. The density of rods, shaft and slider is 3000 kg/m^3.
  */
 #include <math.h>
 

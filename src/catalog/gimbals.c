@@ -3,8 +3,9 @@
  * ring by b about the x axis of the outer ring, and the rotor by c about the y axis of the inner
  * ring. A weight of mass m on the inner ring is at the distance l from the centre, on the axis of
  * the rotor. A and C are the moments of inertia of the rotor across and along its axis. J is the
- * moment of the inner ring about the normal of its plane, which is z; about x and y it is J / 2.
- * n = c' + a' sin b is constant. Lagrange's equation for b shows that b is constant if
+ * moment of inertia of the inner ring about the normal of its plane, which is its z axis. About x
+ * and y, the moment of inertia is J / 2. n = c' + a' sin b is constant. Lagrange's equation for b
+ * shows that b is constant if
  *
  *   C n a' = m g l + (A + J / 2 + m l^2) a'^2 sin b
  */
@@ -42,7 +43,7 @@ static double solution(const double *p, double t, double *q, double *v)
   v[1] = (weight + gyration) / scale - p[PRECESSION] * sin(p[TILT]);
   q[0] = v[0] * t;
   q[1] = v[1] * t;
-  /* Rounding errors are proportional to the sizes of the terms. */
+  /* Rounding errors are proportional to the magnitudes of the terms. */
   double sum = (fabs(weight) + fabs(gyration)) / fabs(scale);
   return DBL_EPSILON * (fabs(v[0]) + sum) * (1.0 + fabs(t));
 }
@@ -74,7 +75,7 @@ static void build(baum_i_parts *parts, const double *p)
   static const char *const names[3] = {"outer ring", "inner ring", "rotor"};
   static const char *const joints[3] = {"post", "trunnion", "axle"};
   static const int axis_of[3] = {2, 0, 1};
-  /* the mass of the outer ring does not matter */
+  /* the mass of the outer ring does not affect the motion */
   const double mass[3] = {1.0, p[WEIGHT], p[ROTOR]};
   const double inertia[3][3] = {{p[OUTER] / 2, p[OUTER], p[OUTER] / 2},
                                 {p[INNER] / 2, p[INNER] / 2, p[INNER]},

@@ -8,7 +8,7 @@
  *
  * This is the pendulum equation for th + pi / 2. When the cranks lie on the x axis, the two cranks
  * of each window (two cranks and a coupler) may change from parallel to crossed. In this
- * configuration the rank of J is lower by N.
+ * configuration, the rank of J is lower by N than in neighbouring configurations.
  */
 #include "catalog/catalog.h"
 

@@ -27,8 +27,8 @@ typedef struct link {
   double inertia[3];
 } link;
 
-/* Adds a link to the body `on`, whose axes are `at`. Afterwards, `on` and `at` are those of the
- * link. */
+/* Adds a link to the body `on`, whose axes are `at`. Afterwards, `on` is the link, and `at` are the
+ * axes of the link. */
 static void add_link(baum_i_parts *parts, const link *l, baum_body_id *on, baum_i_axes *at)
 {
   double axis[3];

@@ -187,8 +187,10 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* Largest values over the coordinates of a state: the differences q and v from the reference and
- * the size of v, all divided by the scales, and the uncertainties of the reference (floors). */
+/* Each member is the largest value over all coordinates of a state. q and v are the differences
+ * from the reference, size_v is the magnitude of the velocities of the reference, and the floors
+ * are the uncertainties of the reference. All values are divided by the scales of the
+ * coordinates. */
 typedef struct measure {
   double q;
   double v;

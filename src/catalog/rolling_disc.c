@@ -26,8 +26,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_NONZERO},
 };
 
-/* Returns n. `sum` becomes the sum of the sizes of its terms, to which rounding errors are
- * proportional. */
+/* Returns n. Sets `sum` to the sum of the magnitudes of its terms, because rounding errors are
+ * proportional to this sum. */
 static double axial_rate(const double *p, double *sum)
 {
   double turning = p[TURNING];

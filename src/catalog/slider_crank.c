@@ -43,8 +43,8 @@ const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {
 static const double CENTRIC[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.153, 0.306, 0.0, 0.038, 0.038, 0.076, 7.4e-5, 5.9e-4, 2.7e-6, 9.81, 0.0, 150.0};
 
-/* The moments of inertia of the source are converted so that they refer to the centres of mass. The
- * source does not give the inertia of the slider. */
+/* Parameters of Simeon's slider-crank. The moments of inertia of the source are converted so that
+ * they refer to the centres of mass. The source does not give the inertia of the slider. */
 static const double SIMEON[BAUM_I_SLIDER_CRANK_COUNT] = {
   0.15, 0.3, 0.0, 0.36, 0.151104, 0.075552, 7.02e-4, 1.1340859e-3, 2.7e-6, 0.0, 0.0, 150.0};
 

@@ -27,7 +27,8 @@ typedef struct baum_i_slider_crank_bodies {
   baum_body_id id[3];
 } baum_i_slider_crank_bodies;
 
-/* The parameters of the source (see slider_crank.c). Only the eccentricity is our own choice. */
+/* The parameters of the example by Flores et al. (see slider_crank.c). Only the eccentricity is not
+ * from this source. */
 extern const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT];
 
 /* Computes the state of body 0, 1 or 2 from the angle q[0] and the angular velocity v[0] of the

@@ -66,9 +66,9 @@ void baum_i_axes_go(baum_i_axes *axes, double x, double y, double z)
   }
 }
 
-/* Finds axes with the direction from `origin` to `end`. If the vector between them is (x, y, z),
- * these axes are rotated about x by psi = atan2(z, y), and then about z by gamma = atan2(hypot(y,
- * z), x). */
+/* Finds axes whose x axis points from `origin` to `end`. If the vector from `origin` to `end` is
+ * (x, y, z), these axes are rotated about x by psi = atan2(z, y), and then about z by gamma =
+ * atan2(hypot(y, z), x). */
 baum_i_axes baum_i_axes_between(const baum_i_axes *origin, const baum_i_axes *end)
 {
   double d[3];

@@ -40,8 +40,9 @@ typedef struct baum_i_place {
   const double *axis; /* NULL if the joint has no axis */
 } baum_i_place;
 
-/* Defines `six_laws`, the laws of six drivers. The first argument of DRIVE is the number of the
- * driver, because entries of the catalogue have no data for the argument `user` of a law. */
+/* Defines `six_laws`, the laws of six drivers. Each law calls DRIVE with the number of its driver
+ * as the first argument. The argument `user` cannot contain this number, because it is NULL in the
+ * catalogue. */
 #define BAUM_I_SIX_LAW(DRIVE, K)                        \
   static int law_##K(double t, double s[3], void *user) \
   {                                                     \

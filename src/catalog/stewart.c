@@ -52,8 +52,9 @@ static void move(int column, double t, double s[3])
 /* ---- lengths of the legs ---- */
 
 /* Rotates a moving vector by an angle. The rows of x are the vector and its two derivatives, and s
- * contains the angle and its two derivatives. i and j are the axes of the plane of the rotation. In
- * this plane, vectors are complex numbers, and the new vector is x exp(i s). */
+ * contains the angle and its two derivatives. The rotation is in the plane of the axes i and j. If
+ * vectors in this plane are written as complex numbers, the rotation multiplies x by exp(I s),
+ * where I^2 = -1. */
 static void rotate(const double s[3], int i, int j, double x[3][3])
 {
   const double turning[3][2] = {

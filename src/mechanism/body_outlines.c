@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The memory of outlines, which are the shapes that users give to bodies for drawings. src/draw
+/* Copies and frees outlines, which are the shapes that users give to bodies for drawings. src/draw
  * checks and draws them. */
 #include <baum/draw.h>
 
@@ -22,8 +22,8 @@ void baum_i_free_outlines(baum_outline *outlines, int count)
   baum_i_free(outlines);
 }
 
-/* Copy 3 x count numbers of `size` bytes. Returns NULL if count is 0. If memory runs out, returns
- * NULL and sets *fine to false. */
+/* Copy 3 x count numbers of `size` bytes each. Returns NULL if count is 0. If memory runs out,
+ * returns NULL and sets *fine to false. */
 static void *copy_rows(const void *rows, int count, size_t size, bool *fine)
 {
   void *copy = count > 0 ? baum_i_copy(rows, 3 * (size_t)count, size) : NULL;

@@ -6,8 +6,8 @@
 
 /* ---- lists and groups: the same code is generated for bodies, joints and forces ---- */
 
-/* Ground is in the list of bodies. FIRST is the number of elements at the start of LIST that are
- * not counted. */
+/* FIRST is the number of elements at the start of LIST that are not counted. It is 1 for bodies,
+ * because ground is the first of them, and otherwise 0. */
 #define LIST_FUNCTIONS(FAMILY, LIST, FIRST)                                                    \
   static baum_i_element *FAMILY##_at(const baum_mechanism *mechanism, int k)                   \
   {                                                                                            \

@@ -22,7 +22,7 @@ typedef struct baum_i_family {
   size_t size;      /* size of the struct of an element */
   size_t span;      /* offset of the baum_i_span in an element */
   size_t count;     /* offset of the element count (an int) in the mechanism */
-  /* element k, counted from 0 without ground */
+  /* returns element k; k counts from 0, and ground is not counted */
   baum_i_element *(*at)(const baum_mechanism *mechanism, int k);
   /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions that work from tables of fields. They set the defaults of definitions, check, copy and
- * digest them, and find the bodies that they name. */
+/* Functions that use the tables of fields. They set the defaults of definitions, check, copy and
+ * digest definitions, and find the bodies that a definition names. */
 #include "mechanism/fields.h"
 
 #include <string.h>
@@ -121,7 +121,7 @@ static void set_pointer(const baum_i_def_field *f, void *def, const void *pointe
   memcpy((char *)def + f->offset, &pointer, sizeof pointer);
 }
 
-/* Return the number of numbers or ids of an array. */
+/* Return how many numbers or ids an array contains. */
 static int32_t count_of(const baum_i_def_field *f, const void *def)
 {
   const char *bytes = def;

@@ -46,13 +46,14 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_FLAG,
   BAUM_I_FIELD_START_FLAG, /* a flag that is used only at the start of a run */
   BAUM_I_FIELD_CLAIM,      /* states whether user functions depend on velocities; true by default */
-  BAUM_I_FIELD_BODY,       /* required; ground is allowed */
+  BAUM_I_FIELD_BODY,       /* a required body; ground is allowed */
   BAUM_I_FIELD_CARRIER,    /* a body; ground if it is not given */
   /* array of body ids; `counter` gives its length; ground and repeated bodies are not allowed */
   BAUM_I_FIELD_BODIES,
   /* array of at least two body ids; ground and repeated bodies are allowed */
   BAUM_I_FIELD_PATH,
-  /* required and cannot change; the element acts on the bodies of this joint */
+  /* a required joint, which cannot be changed later; the element acts on the bodies of this
+   * joint */
   BAUM_I_FIELD_JOINT,
   BAUM_I_FIELD_COORDINATE, /* a baum_joint_coordinate, which the definition itself checks */
   BAUM_I_FIELD_INPUT,      /* an input, or none */
@@ -63,18 +64,20 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_USER /* the pointer that user functions receive */
 } baum_i_field_kind;
 
-/* The largest count of numbers in a field, and how many of their defaults a table can give. */
+/* Largest count of numbers in a field, and largest count of default values that a table can give
+ * for a field. */
 enum { BAUM_I_FIELD_SIZE_MAX = 36, BAUM_I_FIELD_DEFAULTS = 6 };
 
-/* One field of a definition. struct_size and name are not in the tables. */
+/* One field of a definition. The tables do not contain the fields struct_size and name. */
 typedef struct baum_i_def_field {
   const char *name;
   const char *unit; /* unit of numbers; "" if the user chooses the unit */
   size_t offset;
   size_t size;
   baum_i_field_kind kind;
-  baum_i_rule rule;                    /* rule for numbers and arrays of numbers */
-  double value[BAUM_I_FIELD_DEFAULTS]; /* defaults of the first numbers; all others are 0 */
+  baum_i_rule rule; /* rule for numbers and arrays of numbers */
+  /* defaults of the first numbers of the field; all other defaults are 0 */
+  double value[BAUM_I_FIELD_DEFAULTS];
   /* for an array: the offset of the field that counts its entries */
   size_t counter;
   /* for an array: the offset of the count to use if `counter` is 0 */
@@ -129,8 +132,8 @@ typedef struct baum_i_definition {
    * there are no such versions. */
   const size_t *former;
   int parameter_count; /* how many entries of the parameter array an element uses */
-  /* Check what the table of fields cannot express. The table has been checked before this call.
-   * Messages begin with the label, such as: joint 2 "B". */
+  /* Check what the table of fields cannot express. All fields have been checked by the table before
+   * this call. Messages begin with the label, such as: joint 2 "B". */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
   /* Copy the data of OWN fields. Returns BAUM_OK, or BAUM_ERR_MEMORY. After a failure these fields
    * own no memory. */
@@ -141,7 +144,8 @@ typedef struct baum_i_definition {
   baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
-/* The first members of the baum_i_definition of the struct baum_NAME_def. */
+/* Initializes the first members of the baum_i_definition that describes the struct
+ * baum_NAME_def. */
 #define BAUM_I_DEFINITION(NAME, KIND, FIELDS) \
   .kind = (KIND), .size = sizeof(baum_##NAME##_def), .fields = (FIELDS)
 

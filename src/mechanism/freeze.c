@@ -144,8 +144,8 @@ static baum_status number_family(baum_mechanism *mechanism, const baum_i_family 
 
 /* ---- characteristic length ---- */
 
-/* Points whose distance is below this part of their distance from the origin coincide up to
- * rounding. */
+/* Points are considered to coincide if their distance is below this fraction of their distance from
+ * the origin, because such a distance may be a rounding error. */
 static const double COINCIDENT = 1e-12;
 
 void baum_i_box_include(baum_i_box *box, double x, double y, double z)
@@ -205,8 +205,8 @@ static baum_status make_arrays(baum_mechanism *mechanism)
 }
 
 /* Mark the rows of velocity level. Their stabilized equation is J a = gamma - alpha (J v - nu).
- * Rows of positions have 2 alpha instead of alpha, so `row_gains` is 1/2 for rows of velocity
- * level. */
+ * Position-level rows have the factor 2 alpha instead of alpha. Therefore `row_gains` is 1/2 for
+ * rows of velocity level. */
 static baum_status mark_velocity_rows(baum_mechanism *m)
 {
   m->velocity_row_count = 0;

@@ -197,7 +197,8 @@ static bool is_angle(const baum_mechanism *m, const baum_i_family *family, int k
   return baum_i_is_angle(&driven);
 }
 
-/* Return the value of a large angle of element k, or 0. */
+/* Return the value of an angle of element k that is larger than a revolution. Returns 0 if there is
+ * none. */
 static double find_large_angle(const baum_mechanism *m, const baum_i_family *family, int k,
                                const char **name)
 {

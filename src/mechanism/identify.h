@@ -13,8 +13,8 @@ typedef struct baum_i_id {
   uint32_t tag;
 } baum_i_id;
 
-/* Return the number of an element in its family, from 0. Returns -1 for ground, the empty id, ids
- * of other mechanisms and ids out of range. */
+/* Return the index of an element in its family, counted from 0. Returns -1 for ground, the empty
+ * id, ids of other mechanisms and ids out of range. */
 int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
 
 /* Return the number of the first element with that name, counted from 0. Returns -1 if there is
@@ -56,7 +56,7 @@ baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
 /* Return a note for messages about configurations if an angle of a definition is larger than a
- * revolution, because it may be in degrees. Otherwise return "". */
+ * revolution, because the user may have given it in degrees. Otherwise return "". */
 baum_i_text baum_i_degrees(const baum_mechanism *mechanism);
 
 /* Find the joint that owns a row, or the body that owns a velocity. The mechanism must be
@@ -67,8 +67,8 @@ baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
 /* Return a label for messages: `ground`, or for example `joint 2 "B"`. The numbers start at 1. */
 baum_i_text baum_i_label(const baum_i_element *element);
-/* Return the label of a joint, given the joint or one of its rows. Returns "no joint" if the number
- * is negative. */
+/* Return the label of a joint, given the index of the joint or of one of its rows. Returns "no
+ * joint" if the index is negative. */
 baum_i_text baum_i_joint_label(const baum_mechanism *mechanism, int joint);
 baum_i_text baum_i_row_label(const baum_mechanism *mechanism, int row);
 

@@ -13,8 +13,8 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; the functions of the same names without `bodies`, which
- * are below, describe them ---- */
+/* ---- for mechanisms that are not flat; the functions without `bodies` in their names, which are
+ * below, call these functions, and the comments there describe them ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -73,8 +73,8 @@ static inline void baum_i_move_from(const baum_mechanism *mechanism, const doubl
   }
 }
 
-/* Find the displacement dx (nv) that leads from `from` to `to`: baum_i_move() by dx with h = 1
- * moves the first to the second. */
+/* Find the displacement dx (nv) that leads from `from` to `to`: baum_i_move() with h = 1 and v = dx
+ * moves `from` to `to`. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
 

@@ -30,7 +30,9 @@
 typedef struct baum_i_element {
   const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
-  void *def;     /* the element's own copy of the definition; its `name` is `name` below or NULL */
+  /* the element's copy of the definition; the `name` in this copy points to `name` below or is
+   * NULL */
+  void *def;
   char *name;    /* the given name, or "body<k>", "joint<k>" or "force<k>" with k = index */
   int index;     /* index in its family, from 1 */
   int parameter; /* where the element's numbers begin in the parameter array; set at freeze */
@@ -45,13 +47,13 @@ typedef struct baum_i_span {
   int nl;         /* number of local velocities */
   int *columns;   /* (nl) indices of the local velocities in v */
   int ql;         /* number of local positions */
-  int *positions; /* (ql) indices of the local positions in q; in the memory of `columns` */
-  bool flat;      /* true if none of the bodies has a manifold */
+  int *positions; /* (ql) indices of the local positions in q; allocated together with `columns` */
+  bool flat;      /* true if the positions of each body form a vector (baum_i_manifold is NULL) */
 } baum_i_span;
 
 /* Kinds of bodies, by the coordinates that determine their frame. */
 typedef enum baum_i_frame_kind {
-  BAUM_I_FRAME_NONE,     /* user coordinates, which have no position */
+  BAUM_I_FRAME_NONE,     /* user coordinates, which have no position in the plane or in space */
   BAUM_I_FRAME_PARTICLE, /* x, y */
   BAUM_I_FRAME_BODY,     /* x, y, angle */
   BAUM_I_FRAME_GROUND,
@@ -91,11 +93,12 @@ typedef struct baum_i_joint {
   baum_i_span span;
   int row;
   int rows;
-  int velocity_rows; /* number of rows of velocity level (without Phi), which are its last rows */
-  int jacobian;      /* where its rows x nl values begin in the Jacobian */
-  int square;        /* where its nl x nl values begin in arrays of second derivatives */
-  bool fixed;        /* true if all its bodies are fixed */
-  bool fixes;        /* true for a weld that determines the pose of a fixed body */
+  /* number of velocity-level rows (J v = nu without Phi); they are the last rows of the joint */
+  int velocity_rows;
+  int jacobian; /* where its rows x nl values begin in the Jacobian */
+  int square;   /* where its nl x nl values begin in arrays of second derivatives */
+  bool fixed;   /* true if all its bodies are fixed */
+  bool fixes;   /* true for a weld that determines the pose of a fixed body */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -129,17 +132,17 @@ typedef struct baum_i_force_group {
  * q. */
 typedef struct baum_i_frame {
   double x, y;   /* origin */
-  double vx, vy; /* velocities; zero if the point has only positions */
+  double vx, vy; /* velocities; zero if only positions are known */
   double c, s;   /* cos, sin of the angle */
-  double w;      /* angular velocity; zero if the point has only positions */
+  double w;      /* angular velocity; zero if only positions are known */
   double angle;  /* continuous, so it may exceed a full revolution */
 } baum_i_frame;
 
 /* Pose and velocities of a body in space. Spatial elements read this struct instead of q. */
 typedef struct baum_i_spatial_frame {
   double r[3];    /* origin */
-  double v[3];    /* velocities in ground axes; zero if the point has only positions */
-  double w[3];    /* angular velocity in ground axes; zero if the point has only positions */
+  double v[3];    /* velocity of the origin in ground axes; zero if only positions are known */
+  double w[3];    /* angular velocity in ground axes; zero if only positions are known */
   double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
 } baum_i_spatial_frame;
 
@@ -154,10 +157,12 @@ static inline baum_i_spatial_frame baum_i_lifted(const baum_i_frame *f)
 
 /* The coordinates from which the frame of a body is computed: their indices in q and v. */
 typedef struct baum_i_body_place {
-  int32_t q;        /* first position */
-  int32_t v;        /* first velocity */
-  int32_t kind;     /* baum_i_frame_kind */
-  int32_t in_space; /* whether its frame in space is needed: it or an element on it is spatial */
+  int32_t q;    /* first position */
+  int32_t v;    /* first velocity */
+  int32_t kind; /* baum_i_frame_kind */
+  /* whether the spatial frame is needed, because the body or an element that acts on it is
+   * spatial */
+  int32_t in_space;
 } baum_i_body_place;
 
 typedef struct baum_i_frames_kernel baum_i_frames_kernel;
@@ -168,30 +173,31 @@ baum_i_frame_kind baum_i_frame_of(const baum_i_body *body);
  * are at the origin. */
 baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q);
 
-/* A point in state space, at which functions are evaluated. Only one thread at a time may use
- * it. */
+/* A point in state space at which the functions of elements are evaluated. Only one thread at a
+ * time may use it. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
-  const double *parameters; /* the parameters of the mechanism, or of a caller's copy */
+  const double *parameters; /* the mechanism's parameter array, or a caller's copy of it */
   double t;
   const double *q;      /* the same as `normalized` if the mechanism is not flat */
   const double *v;      /* NULL if the point has only positions */
   double *normalized;   /* (nq) normalized q; NULL if the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1) frames of all bodies, ground first */
   const baum_i_frames_kernel *kernel;
-  /* (body_count + 1) frames in space, set only for bodies whose place has `in_space`; NULL if
-   * nothing is spatial */
+  /* (body_count + 1) spatial frames, set only for bodies with `in_space` in baum_i_body_place; NULL
+   * if the mechanism has no spatial elements */
   baum_i_spatial_frame *spatial;
   /* Expected angles of spatial joints, see general/coordinate.h. `angles` points to own_angles or
    * to an array of a run. */
   double *angles;
   double *own_angles;
   const double *inputs; /* (input_count) present values, or NULL if there are no inputs */
-  /* (nv) if not NULL, used instead of the gyroscopic moments of rigid bodies */
+  /* (nv) moments that replace the gyroscopic moments of rigid bodies; NULL if they are not
+   * replaced */
   const double *moments;
   double *scratch; /* (mechanism->scratch_size) for user functions and differences */
   bool retry;      /* set by a failure that a smaller step may avoid */
-  bool asking;     /* set while a user function runs, which must not use this point */
+  bool asking;     /* set while a user function runs; the user function must not use this point */
 } baum_i_point;
 
 /* Return the frame of a body in the design configuration at rest. May be called before freeze. */
@@ -220,8 +226,8 @@ void baum_i_point_set_spatial(baum_i_point *point);
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
 void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
 
-/* Set the time, q, v (or NULL) and the frames of a point. The point stores the pointer v without
- * copying the numbers. If the mechanism is flat, it also stores the pointer q. */
+/* Set the time, q, v and the frames of a point. v may be NULL. The point stores the pointer v
+ * without copying the numbers. If the mechanism is flat, it also stores the pointer q. */
 static inline void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
   if (point->normalized) {
@@ -233,7 +239,7 @@ static inline void baum_i_point_set(baum_i_point *point, double t, const double 
 
 /* ---- types ---- */
 
-/* The smallest box around points in ground axes. */
+/* The smallest box that contains a set of points. Its edges are parallel to the ground axes. */
 typedef struct baum_i_box {
   double low[3];
   double high[3];
@@ -243,7 +249,7 @@ void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
 /* Results of the evaluation of all constraint rows. Members that are NULL are not evaluated.
  * Scleronomic joints, whose Phi does not depend on t, do not set their rows of nu. The caller must
- * set these rows to zero before. */
+ * set these rows to zero before the evaluation. */
 typedef struct baum_i_rows {
   double *phi;      /* (nc) */
   double *jacobian; /* (jacobian_size) */
@@ -252,9 +258,9 @@ typedef struct baum_i_rows {
 } baum_i_rows;
 
 /* Arrays for the second derivatives of joints. The block of a joint is row-major over its local
- * columns. It begins at the joint's `jacobian` if it has rows x nl entries, and at its `square` if
- * it has nl x nl entries. Members that are NULL are not evaluated. Functions set the blocks and do
- * not add to them. */
+ * columns. A block of rows x nl entries begins at the index `jacobian` of the joint, and a block of
+ * nl x nl entries at the index `square` of the joint. Members that are NULL are not evaluated.
+ * Functions set the blocks and do not add to them. */
 typedef struct baum_i_joint_blocks {
   double *jw_q;    /* (J w)_q, rows x nl */
   double *jtl_q;   /* (J^T lambda)_q, nl x nl */
@@ -298,8 +304,8 @@ struct baum_i_manifold {
   /* Move q by h v. To second order in h, the result is the configuration after the time h at
    * constant v. */
   void (*move)(const baum_i_body *body, double h, const double *v, double *q);
-  /* Find the displacement dx that leads from `from` to `to`: `move` by dx with h = 1 moves the
-   * first to the second. */
+  /* Find the displacement dx that leads from `from` to `to`: `move` with h = 1 and v = dx moves
+   * `from` to `to`. */
   void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
   /* Move q to the nearest point of the manifold. */
   void (*normalize)(const baum_i_body *body, double *q);
@@ -335,7 +341,7 @@ struct baum_i_body_type {
   /* Set the design pose and the given velocities of a body, and whether assembly must not move the
    * body. Velocities that are not given are NaN. */
   void (*design)(const void *def, double *q, double *v, bool *held);
-  /* Set the scale (nv) of each velocity coordinate, which is the size of a change that matters. */
+  /* Set the scale (nv) of each velocity coordinate, which is the size of a significant change. */
   void (*scale)(const void *def, double length, double *scale);
   /* Set the scale (nq) of each position coordinate. NULL if the body has no manifold. */
   void (*position_scale)(const void *def, double length, double *scale);
@@ -360,8 +366,8 @@ enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPAC
 /* Largest number of coordinates of a joint. */
 enum { BAUM_I_COORDINATES = 3 };
 
-/* A joint coordinate. Its gradient has `width` columns for each of the two bodies, where `width`
- * belongs to the joint type. In the plane these are x_a y_a angle_a x_b y_b angle_b. */
+/* A joint coordinate. Its gradient has `width` columns for each of the two bodies, where `width` is
+ * a member of the joint type. In the plane, the columns are x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
@@ -403,17 +409,18 @@ struct baum_i_joint_type {
   void (*replace_law)(double *parameters, double t0, const double s[3]);
   /* number of rows, the same for all joints of the type; 0 if rows() returns it */
   int row_count;
-  int (*rows)(const void *def); /* returns the number of rows of a joint; or NULL */
-  /* Return how many of the rows of a joint are of velocity level; they are the last ones. Their Phi
-   * is 0. NULL: none. */
+  /* returns the number of rows of a joint; NULL if row_count is not 0 */
+  int (*rows)(const void *def);
+  /* Return the number of velocity-level rows of a joint. They are its last rows, and their Phi is
+   * 0. NULL if joints of the type have no such rows. */
   int (*velocity_rows)(const void *def);
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
    * BAUM_ERR_ARGUMENT after setting the message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets the rows and blocks of all joints of the group, in the members of `rows` that are not
-   * NULL. Types that have evaluate_one() use baum_i_evaluate_each() here, which calls it for every
-   * joint. */
+  /* Sets the rows and Jacobian blocks of all joints of the group, in those members of `rows` that
+   * are not NULL. If a type has evaluate_one(), its evaluate() is baum_i_evaluate_each(), which
+   * calls evaluate_one() for every joint. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
@@ -464,7 +471,7 @@ baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *
 typedef struct baum_i_stretch {
   double length;
   double rate;
-  double scale;      /* the size of a change of the length that matters */
+  double scale;      /* the size of a significant change of the length */
   bool no_direction; /* set for a spring between points that coincide; it exerts no force */
 } baum_i_stretch;
 
@@ -494,9 +501,9 @@ struct baum_i_force_type {
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   /* Tell whether power() returns the power of the whole force. NULL if it never does. */
   bool (*power_is_whole)(const baum_i_force *force);
-  baum_i_power whole_class; /* the class of the power of a whole force */
-  /* Tell whether the force jumps between two configurations at the start and the end of a step (nq
-   * each). NULL if forces of the type never jump. */
+  baum_i_power whole_class; /* the class that receives the power of a whole force */
+  /* Tell whether the force jumps during a step from the configuration `from` to the configuration
+   * `to` (nq each). NULL if forces of the type never jump. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,
                 const double *to);
 };
@@ -505,9 +512,9 @@ struct baum_i_force_type {
 
 struct baum_mechanism {
   atomic_int references;
-  uint32_t tag; /* copies of a mechanism have the same tag */
+  uint32_t tag; /* identifies the mechanism in ids; copies of a mechanism have the same tag */
   bool frozen;
-  bool wide; /* evaluated with wide vectors (base/hot.h) */
+  bool wide; /* whether it is evaluated with wide vector instructions (base/hot.h) */
   double gravity[3];
   double given_length; /* [m] characteristic length given by the user; NaN if not set */
 
@@ -535,21 +542,22 @@ struct baum_mechanism {
   bool flat;                 /* true if no body has a manifold; then nq = nv and q' = v */
   double length;             /* characteristic length */
   baum_i_body_place *places; /* (body_count + 1) */
-  bool all_planar;           /* every body has the three coordinates of a planar body */
-  bool spatial;              /* has a spatial body, joint or force */
+  bool all_planar;           /* true if every body has the three coordinates of a planar body */
+  bool spatial;              /* true if the mechanism has a spatial body, joint or force */
   double *parameters;
   double *design_q; /* (nq) */
   double *design_v; /* (nv) NaN where the velocity is not given */
   bool *held;       /* (nv) whether assembly must not move the coordinate */
-  /* (nv) for each velocity coordinate, the size of a change that matters */
+  /* (nv) for each velocity coordinate, the size of a significant change */
   double *scale;
-  double *position_scale;         /* (nq) for each position, the size of a change that matters */
-  int velocity_row_count;         /* number of rows of velocity level */
-  unsigned char *velocity_rows;   /* (nc) 1: row of velocity level; NULL: there are none */
-  double *row_gains;              /* (nc) 1/2 for rows of velocity level, else 1; NULL: all 1 */
-  int fixed_count;                /* number of fixed bodies, without ground */
-  int fixed_nv;                   /* number of velocities of fixed bodies */
-  double *fixed_q;                /* (nq) contains the positions of fixed bodies */
+  double *position_scale;       /* (nq) for each position, the size of a significant change */
+  int velocity_row_count;       /* number of rows of velocity level */
+  unsigned char *velocity_rows; /* (nc) 1: row of velocity level; NULL: there are none */
+  double *row_gains;            /* (nc) 1/2 for rows of velocity level, else 1; NULL: all 1 */
+  int fixed_count;              /* number of fixed bodies, without ground */
+  int fixed_nv;                 /* number of velocities of fixed bodies */
+  /* (nq) positions of fixed bodies; the entries of other bodies are not used */
+  double *fixed_q;
   baum_i_body_group *body_groups; /* each list of groups ends with a group that has no type */
   baum_i_joint_group *joint_groups;
   baum_i_force_group *force_groups;

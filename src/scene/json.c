@@ -9,7 +9,7 @@
 #include "base/buffer.h"
 #include "base/message.h"
 
-/* The longest number in characters. Exact numbers need 24. */
+/* Largest length of a number, in characters. A double needs 24 characters at most to be exact. */
 enum { NUMBER = 40 };
 
 typedef struct parser {

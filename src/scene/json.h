@@ -34,7 +34,7 @@ typedef struct baum_i_json_node {
 } baum_i_json_node;
 
 typedef struct baum_i_json {
-  baum_i_json_node *nodes; /* (count); the first node is the whole text */
+  baum_i_json_node *nodes; /* (count); the first node is the root of the tree */
   int32_t count;
   char *texts; /* memory of all keys and texts */
 } baum_i_json;

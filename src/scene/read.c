@@ -64,7 +64,7 @@ static void free_arrays(const baum_i_definition *definition, void *def)
 
 /* ---- elements ---- */
 
-/* Read all arrays, or all other fields. */
+/* If `arrays` is set, read all fields that are arrays, otherwise read all other fields. */
 static baum_status read_fields(const baum_i_scene_reader *r, const baum_i_definition *definition,
                                const baum_i_json_node *object, bool arrays, void *def)
 {

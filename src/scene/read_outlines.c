@@ -20,7 +20,7 @@ static baum_status read_form(const baum_i_scene_reader *r, const baum_i_json_nod
                      node->line, text);
 }
 
-/* Allocate memory for a list of rows of three numbers. */
+/* Allocate memory for the rows of a list. Each row has three numbers of `size` bytes. */
 static baum_status make_rows(const baum_i_scene_reader *r, const baum_i_json_node *list,
                              size_t size, void **out)
 {

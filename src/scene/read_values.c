@@ -14,7 +14,7 @@
 
 /* ---- messages ---- */
 
-/* Put the line before the message of a call that failed. */
+/* Put the line number of a node before the message of a call that failed. */
 baum_status baum_i_scene_add_line(const baum_i_scene_reader *r, const baum_i_json_node *node,
                                   baum_status status)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A scene that is being read: its messages, values and outlines. */
+/* The state while a scene is being read, and functions that read its values and outlines. */
 #ifndef BAUM_I_SCENE_READER_H
 #define BAUM_I_SCENE_READER_H
 
@@ -20,12 +20,13 @@ typedef struct baum_i_scene_reader {
 baum_status baum_i_scene_fail_kind(const baum_i_scene_reader *reader, const baum_i_json_node *node,
                                    const char *wanted);
 
-/* Put the line of a node before the message of a call that failed with this status. */
+/* Put the line number of a node before the message of a call that failed with this status. */
 baum_status baum_i_scene_add_line(const baum_i_scene_reader *reader, const baum_i_json_node *node,
                                   baum_status status);
 
-/* Read `count` numbers, a whole number, or a text. null is read as the number NaN. The text stays
- * in the memory of the tree. The functions fail if a value has another kind. */
+/* These functions read `count` numbers, a whole number, or a text. Among numbers, null is read as
+ * NaN. The text stays in the memory of the tree. The functions fail if a value has the wrong
+ * kind. */
 baum_status baum_i_scene_read_numbers(const baum_i_scene_reader *reader,
                                       const baum_i_json_node *list, int count, double *out);
 baum_status baum_i_scene_read_integer(const baum_i_scene_reader *reader,
@@ -36,7 +37,7 @@ baum_status baum_i_scene_read_text(const baum_i_scene_reader *reader, const baum
 baum_status baum_i_scene_read_body(const baum_i_scene_reader *reader, const baum_i_json_node *node,
                                    baum_body_id *out);
 
-/* Read a field of a definition that is not an array. `at` is its place in the definition. */
+/* Read a field that is not an array. `at` points to this field in the definition. */
 baum_status baum_i_scene_read_field(const baum_i_scene_reader *reader,
                                     const baum_i_def_field *field, const baum_i_json_node *node,
                                     void *at);

@@ -119,7 +119,7 @@ int baum_i_scene_find_body(const baum_i_scene_names *names, const char *name)
   }
   int low = 0;
   int high = names->count;
-  while (low < high) { /* the first name that is not before `name` */
+  while (low < high) { /* search for the first name that does not sort before `name` */
     int middle = low + (high - low) / 2;
     if (strcmp(names->sorted[middle]->name, name) < 0) {
       low = middle + 1;

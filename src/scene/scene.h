@@ -27,7 +27,8 @@ extern const baum_i_scene_kind baum_i_scene_kinds[]; /* the last one has no name
 /* The key of the list of a family, such as "bodies". */
 const char *baum_i_scene_list(const baum_i_family *family);
 
-/* Check the arguments that all calls have in common. Returns BAUM_OK or BAUM_ERR_ARGUMENT. */
+/* Check the arguments that all public functions for scenes have in common. Returns BAUM_OK or
+ * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_scene_check_call(const char *call, bool has_mechanism, const baum_hook *hooks,
                                     int32_t hook_count);
 
@@ -35,10 +36,10 @@ baum_status baum_i_scene_check_call(const char *call, bool has_mechanism, const 
 
 /* Tell whether the field is an array of numbers or ids. */
 bool baum_i_scene_is_array(const baum_i_def_field *field);
-/* Return the count that gives the length of an array. */
+/* Return a pointer to the count that gives the length of an array. */
 int32_t *baum_i_scene_counter(const baum_i_def_field *field, void *def);
-/* Tell whether a scene does not contain a count, because the length of an array of the definition
- * is this count. */
+/* Tell whether a count is omitted in scenes, because it is equal to the length of an array of the
+ * same definition. */
 bool baum_i_scene_is_derived(const baum_i_definition *definition, const baum_i_def_field *field);
 /* Tell whether the count of an array follows from its length in the scene. */
 bool baum_i_scene_derives(const baum_i_definition *definition, const baum_i_def_field *array);

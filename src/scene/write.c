@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes a mechanism as a scene: one line for each element, without fields that have their
- * defaults. */
+/* Writes a mechanism as a scene: one line for each element, without the fields that have their
+ * default values. */
 #include <math.h>
 #include <string.h>
 

@@ -6,7 +6,7 @@
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * holds for one of the steps. The size of a row is the largest entry of the row, scaled. The
+ * holds for one of the steps. The size of a row is its largest scaled entry, in magnitude. The
  * second term allows for the rounding error of an entry that is small compared with the other
  * entries of its row. The value g is rejected if the inequality holds for no step and, in addition,
  * the best d and at least one other d differ from g by more than the error of d. The error of d is
@@ -15,13 +15,13 @@
  * friction at rest, the difference between the derivatives on both sides is the same for every
  * step. The function has no derivative there, and the check passes.
  *
- * The check evaluates the design configuration and three configurations near it. In the three
- * others, coordinates and velocities are quasi-random, so that no value is zero or symmetric by
- * chance. The constraint function Phi is not zero in these configurations, so the check rejects
- * derivatives that are only correct for Phi = 0. If a user function fails in a configuration, the
- * check skips this configuration. If a user function fails in all configurations, the check fails.
- * A function is allowed to fail in the design configuration, because velocities that are not given
- * are set to zero there.
+ * The check evaluates the design configuration and three configurations near it. In these three
+ * configurations, coordinates and velocities are quasi-random, so that no value is zero or
+ * symmetric by chance. The constraint function Phi is not zero in these configurations, so the
+ * check rejects derivatives that are only correct for Phi = 0. If a user function fails in a
+ * configuration, the check skips this configuration. If a user function fails in all
+ * configurations, the check fails. A function is allowed to fail in the design configuration,
+ * because velocities that are not given are set to zero there.
  */
 #include "mechanism/general/check.h"
 
@@ -57,7 +57,7 @@ typedef struct column {
   const baum_i_stencil *stencil;
   const baum_i_field *field;
   const baum_i_ray *ray;
-  const double *row_size; /* (size of the field) result of find_row_size(), or NULL */
+  const double *row_size; /* (field->size) result of find_row_size(), or NULL */
   int first;              /* entry i of the ray is entry first + i * stride of the claim */
   int stride;
 } column;
@@ -129,7 +129,8 @@ static bool judge_step(const column *c, const trial *t, double step)
   return right;
 }
 
-/* Return the difference between the derivatives on both sides, computed with this step. */
+/* Return the difference between the one-sided derivatives on both sides of the point, computed with
+ * this step. */
 static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
                    double step, int i)
 {
@@ -198,8 +199,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of a function whose output is rearranged. Each entry is stored at the index of its
- * derivative, so that messages name the right entry of the derivative. */
+/* Context of rearranged_field(), which evaluates a function and stores each entry at the index of
+ * the entry that is its derivative. Messages then name the right entry of the derivative. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;
@@ -237,8 +238,8 @@ baum_status baum_i_compare_entries(const baum_i_user_function *function, const c
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &derived, ray, &here);
 }
 
-/* Find the largest given entry of each row. Each entry is multiplied by the scale of its coordinate
- * first. */
+/* For each row, find the largest of the values that the user function gave, in magnitude. Before
+ * the comparison, each value is multiplied by the scale of its coordinate. */
 static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
                           baum_i_variable variable, int size, double *direction, double *row_size)
 {

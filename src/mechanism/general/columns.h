@@ -64,8 +64,8 @@ void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span 
                              int rows, const double *wide, double *packed);
 
 /* Do the same as baum_i_columns_pack_any(), in the plane, with three numbers for each body. The
- * function is fast if both bodies have all their columns, and if one of two bodies has all its
- * columns and the other is ground. */
+ * function is fast if both bodies have all three columns, or if one of them has all three columns
+ * and the other is ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
 {

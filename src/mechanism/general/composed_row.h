@@ -3,8 +3,8 @@
  * curve, G = 0 is the equation of the curve. For a coupling, G = 0 relates the coordinates of two
  * joints. For a spatial joint, G is the angle as a function of its cosine and sine.
  *
- * A row has `width` columns for each of its bodies. It has up to four bodies, in the order of its
- * span.
+ * A row has `width` columns for each of its bodies. It has up to four bodies, in the order of the
+ * joint's span.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 #define BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H

@@ -4,11 +4,11 @@
  *
  * The positions of spatial bodies determine the angle of a joint only up to whole revolutions. Of
  * the possible values of the angle, the one nearest to an expected angle is used. The expected
- * angle is a linear function of time. At the time angles[2 n] it is angles[2 k], and its rate is
- * angles[2 k + 1]. Here k is the index among n angles. First come the BAUM_I_COORDINATES *
- * joint_count coordinates of all joints. One place for each force follows, which only forces that
- * count revolutions use. A run updates `angles` after steps. If `angles` is NULL or all zeros, the
- * angle is between -pi and pi.
+ * angle is a linear function of time. Let n be the number of angles, and k the index of an angle.
+ * At the time angles[2 n], the expected angle is angles[2 k], and its rate is angles[2 k + 1]. The
+ * angles of the joints come first, with BAUM_I_COORDINATES places for each joint. One place for
+ * each force follows. It is used only if the force counts revolutions. A run updates `angles` after
+ * steps. If `angles` is NULL or all zeros, the angle is between -pi and pi.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATE_H
@@ -79,10 +79,11 @@ double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_poin
 /* Return the expected angle of a force that counts revolutions. */
 double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point *point);
 
-/* Expect that a coordinate has this angle, and keeps it. */
+/* Set the expected angle of a coordinate, and set its expected rate to zero. */
 void baum_i_expect_angle(const baum_i_joint_coordinate *c, const baum_i_point *point, double angle);
 
-/* Expect that all angles keep their values from the time t on. */
+/* Set the rates of all expected angles to zero, so that the angles are constant from the time t
+ * on. */
 void baum_i_hold_angles(baum_i_point *point, double t);
 
 /* Update the angles of a point from its positions. Each angle is predicted from its last value with
@@ -92,8 +93,8 @@ void baum_i_hold_angles(baum_i_point *point, double t);
 double baum_i_follow_angles(baum_i_point *point);
 
 /* Tell whether all angles are still so near to their last values that they need not be updated at
- * time t. `rate` is the largest angular velocity of a body. The last rates of the angles are
- * compared too, because they may be larger than `rate`. `angles` must not be NULL. */
+ * time t. `rate` is the largest angular velocity of a body. The function also considers the last
+ * rates of the angles, because they may be larger than `rate`. `angles` must not be NULL. */
 bool baum_i_angles_are_near(const baum_i_point *point, double t, double rate);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User coordinates are generalized coordinates q and v of any number. User functions compute their
- * mass matrix M(q, t) and their force g(q, v, t). Either v = q', or q' = N(q) v, where the user
- * functions of coordinates_manifold.c define N.
+/* User coordinates are any number of generalized coordinates q with velocities v. User functions
+ * compute their mass matrix M(q, t) and their force g(q, v, t). Either v = q', or q' = N(q) v,
+ * where the user functions of coordinates_manifold.c define N.
  *
  * All derivatives of M a are finite differences (difference.c). Derivatives of g are finite
  * differences, too, unless a user function computes them.

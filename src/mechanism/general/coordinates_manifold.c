@@ -59,8 +59,8 @@ int baum_i_coordinates_positions(const baum_coordinates_def *def)
   return def->position_count > 0 ? def->position_count : def->size;
 }
 
-/* Tell whether the distance of q from the manifold is larger than rounding in numbers that were
- * typed by hand. */
+/* Tell whether q is off the manifold by more than the rounding of numbers that were typed by
+ * hand. */
 static bool is_off(const baum_coordinates_def *def, const double *normal)
 {
   static const double NEAR = 1e-6;

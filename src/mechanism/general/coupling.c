@@ -51,11 +51,11 @@ static const baum_i_def_field fields[] = {
 };
 
 /* Smallest period of Phi [revolutions]. It permits ratios of spatial angles with denominators up to
- * 1000. No gear has as many teeth. */
+ * 1000, which is more than the number of teeth of any gear. */
 static const double SMALLEST_PART = 0.999e-3;
 static const double ROUNDING = 1e-12;
-/* Gradients that cancel up to this part of their size are equal up to rounding. redundancy.c uses
- * the same limit to decide whether rows are dependent. */
+/* If the sum of two gradients is at most this fraction of one of them, they are considered to
+ * cancel. redundancy.c uses the same limit to decide whether rows are dependent. */
 static const double CANCELLED = 1e-10;
 
 /* ---- definition ---- */
@@ -99,8 +99,9 @@ static int find(const int *bodies, int count, int body)
 }
 
 /* Return the smallest change of Phi that whole revolutions of spatial angles can cause. This is the
- * greatest common divisor of two changes: by one revolution of c_a, and by one revolution of c_b.
- * Returns 0 if there is no spatial angle, or if the divisor is below SMALLEST_PART.
+ * greatest common divisor of the change that one revolution of c_a causes and the change that one
+ * revolution of c_b causes. Returns 0 if there is no spatial angle, or if the divisor is below
+ * SMALLEST_PART.
  */
 static double period_of(const baum_i_joint_coordinate *a, const baum_i_joint_coordinate *b,
                         double ratio)
@@ -170,7 +171,7 @@ static baum_status law_at(const baum_i_joint *joint, const baum_i_local *at, dou
 
 /* ---- the row ---- */
 
-/* One coupling in a state of the mechanism. */
+/* A coupling, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_joint_coordinate of[2];
   baum_i_inner x[2];
@@ -210,7 +211,8 @@ static void set_places(const baum_i_joint *joint, const baum_i_point *point, sta
 /* Return the largest element of a gradient. Entries of displacements are multiplied by `length`. */
 static double largest(const double *gradient, int width, double length)
 {
-  const int turns = width == BAUM_I_SPACE ? 3 : 2; /* number of the first angle of a body */
+  /* index of the first rotation column of a body */
+  const int turns = width == BAUM_I_SPACE ? 3 : 2;
   double most = 0.0;
   for (int i = 0; i < BAUM_I_COMPOSED_COLUMNS; i++) {
     most = fmax(most, fabs(gradient[i]) * (i % width < turns ? length : 1.0));

@@ -5,11 +5,11 @@
  *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h             c = 3/4, -3/20, 1/60,   error h^6 f^(7)/140
  *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2  c = 3/2, -3/20, 1/90,   error h^6 f^(8)/560
  *
- * The values of F have rounding errors of a few eps |F|. They cause errors of eps |F| / h in f'
- * and of 6 eps |F| / h^2 in f''. If steps are measured relative to the scale of a coordinate, the
- * best step is near 2^-8 for f' and near 2^-6 for f''. The steps used here are a little smaller.
- * Functions that vary three times as fast as the scale suggests then lose no accuracy. The errors
- * are about 1e-13 for f' and 1e-11 for f''.
+ * The values of F have rounding errors of a few eps |F|. They cause errors of eps |F| / h in f' and
+ * of 6 eps |F| / h^2 in f''. If steps are measured relative to the scale of a coordinate, the best
+ * step is near 2^-8 for f' and near 2^-6 for f''. The steps used here are a little smaller.
+ * Therefore even functions that vary three times as fast as the scale suggests lose no accuracy.
+ * The errors are about 1e-13 for f' and 1e-11 for f''.
  *
  * The same function values also give differences of fourth order (c = 2/3, -1/12 for f' and 4/3,
  * -1/12 for f''). If the results of both orders agree to 1e-7, the error of the sixth order is
@@ -106,7 +106,8 @@ double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
 
 /* ---- one step size ---- */
 
-/* The memory for evaluations of a field, with the step of every coordinate. */
+/* A field, the point at which it is differentiated, the step of every coordinate, and memory for
+ * evaluations. */
 typedef struct probe {
   const baum_i_field *field;
   const baum_i_ray *ray;
@@ -120,7 +121,7 @@ typedef struct probe {
   double *free;
 } probe;
 
-/* Return the step d from x, rounded so that x + d, x + 2 d and x + 3 d are exact. */
+/* Round the step d so that x + d, x + 2 d and x + 3 d are exact. */
 static double exact_step(double x, double d)
 {
   double farthest = fabs(x) + 3.0 * fabs(d);
@@ -191,8 +192,8 @@ static void clear_estimate(const baum_i_estimate *out, int size)
   }
 }
 
-/* Add the contribution of the two values at the distance of k + 1 steps. `centre` is the value
- * without a step. It is NULL for first derivatives. */
+/* Add the contribution of the two values at the distance of k + 1 steps. `centre` is the value at
+ * the point itself. It is NULL for first derivatives. */
 static void add_pair(const baum_i_stencil *stencil, int k, const double *plus, const double *minus,
                      const double *centre, const baum_i_estimate *out, int size)
 {

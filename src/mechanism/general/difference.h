@@ -42,8 +42,8 @@ typedef enum baum_i_variable { BAUM_I_VARIABLE_Q, BAUM_I_VARIABLE_V } baum_i_var
 /* Return the largest |v_i| / scale_i, in 1/s. */
 double baum_i_local_rate(const baum_i_local *at);
 
-/* Return the ray along one coordinate. `direction` (nl) is memory for the direction of the ray,
- * which the ray refers to. */
+/* Return the ray along one coordinate. The function writes the direction of the ray to `direction`
+ * (nl), and the ray points to this memory. */
 baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, int column,
                              double *direction);
 

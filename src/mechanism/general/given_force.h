@@ -18,7 +18,7 @@ typedef struct baum_i_given_force {
   void *user;
 } baum_i_given_force;
 
-/* Initialize this struct from a definition that has members with these names. */
+/* Initialize a baum_i_given_force from a definition that has members with the same names. */
 #define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
                         .force = (DEF)->force,                             \

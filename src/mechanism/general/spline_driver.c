@@ -148,8 +148,8 @@ static void release(void *copy)
 
 /* ---- motion ---- */
 
-/* Return the time within the range of the spline at which the spline is evaluated for the time
- * t. */
+/* Return the time at which the spline must be evaluated for the time t. It lies within the range of
+ * the spline. */
 static double time_within(const baum_spline_driver_def *def, double t)
 {
   double first = def->times[0];

@@ -188,7 +188,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
 }
 
 /* Find whether Phi, or nu - J v if there is no Phi, changes with t at constant q. The function
- * compares its values a short time before and after the present time. */
+ * compares the present values with the values a short time before and after. */
 static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
 {
   baum_i_local here = *at;
@@ -268,7 +268,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 
 /* ---- second derivatives ---- */
 
-/* The derivatives of one joint while they are computed. */
+/* The joint, the factors w and lambda, and the blocks to which second derivatives are added. */
 typedef struct second {
   const baum_i_joint *joint;
   const double *w;      /* (nl) */
@@ -277,7 +277,7 @@ typedef struct second {
   double *jtl_q;
 } second;
 
-/* Write the products J w (rows values) and J^T lambda (nl values), one after the other. */
+/* Write the products J w (`rows` values) and J^T lambda (nl values), one after the other. */
 static baum_status products_field(const void *context, const baum_i_local *at, double *out)
 {
   const second *s = context;
@@ -447,8 +447,8 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
-/* Check gamma, by its second form if possible. jacobian and nu have already been checked, or they
- * define the constraint. */
+/* Check gamma, if possible by the second form that the top of this file describes. jacobian and nu
+ * have already been checked, or they define the constraint. */
 static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
 {
   const baum_user_constraint_def *def = def_of(joint);

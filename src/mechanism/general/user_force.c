@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A generalized force g(q, v, t) on the bodies that the definition names. User functions compute
- * it.
+ * this force.
  *
  * Derivatives for which there is no user function are computed by differences (difference.c).
  */

@@ -22,7 +22,7 @@ int64_t baum_i_scratch_size(int columns, int rows);
  * change, all memory is free again when the function returns. */
 typedef struct baum_i_local {
   baum_i_point *point;
-  /* Needed to move q on a manifold; NULL if q is a vector, so that ql = nl. */
+  /* Needed to move q on a manifold. NULL if q is a vector; then ql = nl. */
   const baum_i_span *span;
   int ql;
   int nl;

@@ -13,7 +13,7 @@
 
 void baum_i_axis_turn(const double axis[2], double c, double s, double along[2])
 {
-  /* The axis is first divided by its largest number, so that squares neither overflow nor become
+  /* The axis is first divided by its largest component, so that squares neither overflow nor become
    * zero. */
   double largest = fmax(fabs(axis[0]), fabs(axis[1]));
   double x = axis[0] / largest;

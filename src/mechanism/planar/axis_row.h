@@ -41,8 +41,8 @@ typedef struct baum_i_planar_axis_head {
  * (its value is not NaN), both `point` and `axis` are in ground axes. */
 void baum_i_axis_lower(const baum_mechanism *mechanism, const baum_i_joint *joint, double along[2]);
 
-/* Set `along` to the unit vector of an axis, rotated back by the angle whose cosine is c and whose
- * sine is s. */
+/* Set `along` to the unit vector of an axis after a rotation by -a, where a is the angle whose
+ * cosine is c and whose sine is s. */
 void baum_i_axis_turn(const double axis[2], double c, double s, double along[2]);
 
 /* ---- the row; its functions are inline, so that the compiler evaluates common terms once ---- */
@@ -118,7 +118,7 @@ void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double directi
 void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double direction[2],
                            const double w[6], double lambda, baum_i_coordinate_blocks *out);
 
-/* Compute the second derivatives of f for the first row of a joint. */
+/* Compute the second derivatives of f, and write them to the places of a joint's first row. */
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
 

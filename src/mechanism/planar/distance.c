@@ -3,7 +3,7 @@
  * point on body_a to the point on body_b, the arms p_a and p_b of these points (planar.h), and F
  * and G of separation.h:
  *
- *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if this is small, and smooth at d = 0
+ *   Phi   = (d . d - L^2) / (2 L)   (1 row); nearly |d| - L if Phi is small, and smooth at d = 0
  *   J     = G^T d / L                                (6 columns)
  *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
  *
@@ -18,7 +18,7 @@
 #include "mechanism/planar/planar_rows.h"
 #include "mechanism/planar/separation.h"
 
-/* Parameters of the joint, which follow its two points. */
+/* The parameters that follow the two points of the joint. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
 /* ---- definition ---- */

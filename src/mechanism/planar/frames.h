@@ -6,7 +6,8 @@
 #include "mechanism/identify.h"
 
 struct baum_i_frames_kernel {
-  /* Set frames (body_count + 1) of a mechanism at q and v. v = NULL means rest. */
+  /* Set frames (body_count + 1) of a mechanism at q and v. v = NULL means that all velocities are
+   * zero. */
   void (*set)(const baum_mechanism *mechanism, const double *q, const double *v,
               baum_i_frame *frames);
 };

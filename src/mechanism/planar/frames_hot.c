@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the frames of all bodies in batches. For each batch, it computes first the angles, then
  * their sines and cosines by vector instructions, and finally the frames. If all bodies are planar
- * bodies, no table of coordinates is needed.
+ * bodies, the table of indices in q and v (`places`) is not needed.
  */
 #include <math.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Knife edge, planar: a point of body_a, with the arm p, moves only along a blade fixed in body_a,
- * relative to body_b. The row is of velocity level. With the unit vector t along the blade, the
- * unit vector k along z, n = k x t, R = r_a - r_b and D = R + p, the velocity of the point relative
- * to body_b across the blade is
+/* Knife edge, planar: relative to body_b, a point of body_a moves only along a blade that is fixed
+ * in body_a. The point has the arm p. The row is of velocity level. With the unit vector t along
+ * the blade, the unit vector k along z, n = k x t, R = r_a - r_b and D = R + p, the velocity of the
+ * point relative to body_b across the blade is
  *
  *   J v = n . (r_a' + w_a k x p - r_b' - w_b k x D),   nu = 0
  *   J   = [ n   c   -n   -(t . R + c) ],   c = t . p                       (6 columns)
@@ -149,7 +149,7 @@ static void edge_second(const baum_i_planar_pair *pair, const double *w, const d
                         -both * x.t[0], -both * x.t[1], x.t_rate + x.w_a * x.n_span);
 }
 
-/* The blade's point, which is on body_a. */
+/* Find the blade's point, which is fixed in body_a, in ground axes. */
 static void place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
 {
   const baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar joints. Each of their rows keeps a point on a point, keeps a distance from an axis, or
- * keeps an angle.
+/* Planar joints whose rows make two points coincide, keep a point on an axis, or keep a relative
+ * angle constant.
  *
  * In a revolute joint (pin) and a fixed joint (weld), two points coincide, one on each body. With
  * p = A s, k x p = (-p_y, p_x) and k x (k x p) = -p:
@@ -24,7 +24,7 @@
  *
  *   Phi = n . d             (1 row), see axis_row.h;  coordinate = A_a e . d
  *
- * Fixed and translational joints also keep the angle of body_b relative to body_a:
+ * Fixed and translational joints also keep the angle of body_b relative to body_a constant:
  *
  *   Phi = angle_b - angle_a - angle      J = [ 0 0 -1 0 0 1 ], gamma = 0
  *

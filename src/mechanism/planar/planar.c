@@ -2,8 +2,8 @@
 /* The part that planar joints and forces have in common: checks of their common fields, and the
  * conversion of points to body axes.
  *
- * A definition may give a point in ground axes, in the design configuration. On a body at r, it
- * becomes s = A^T (point - r).
+ * A definition may give a point in ground axes, in the design configuration. On a body with the
+ * origin r, this point has the body coordinates s = A^T (point - r).
  */
 #include "mechanism/planar/planar.h"
 

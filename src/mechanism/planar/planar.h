@@ -75,8 +75,8 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* The following functions check definitions. The table of fields has been checked before they are
- * called. */
+/* The following functions check definitions. Before they are called, each field has been checked by
+ * the table of fields. */
 
 /* Check that a body has a position in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
@@ -101,8 +101,8 @@ baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const v
 baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
                                      const char *label);
 
-/* Check that one body, or both bodies, have an angle. Planar bodies and ground have one. The checks
- * above must have passed before. */
+/* The first function checks that one body has an angle, and the second that both bodies have one.
+ * Planar bodies and ground have an angle. The checks above must have passed before. */
 baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
                                       const char *label, const char *field);
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,

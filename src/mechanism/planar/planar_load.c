@@ -5,8 +5,8 @@
  *
  *   ground axes    g = (f_x, f_y, p x f + t)   g_q: only the entry (angle, angle), -p . f
  *                  V = -f . (r + p) when t = 0
- *   follows_body   g = (A f, s x f + t)        g_q: only the entries (x, angle) and (y, angle),
- *                                              which are those of A f rotated by 90 degrees
+ *   follows_body   g = (A f, s x f + t)        g_q: only the entries (x, angle) and (y, angle);
+ *                                              they are the vector A f rotated by 90 degrees
  *
  * where a x b = a_1 b_2 - a_2 b_1 for vectors a and b in the plane. A load that has a torque has no
  * potential, because the work of a torque depends on the number of revolutions. A load that has an

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of planar joints that are not kernels. */
+/* Functions for planar joints, except the kernels. */
 #include "mechanism/planar/planar_rows.h"
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3])

@@ -17,7 +17,7 @@
 enum {
   BAUM_I_PLANAR_COLUMNS = 6,
   BAUM_I_PLANAR_ROWS = 3,    /* largest number of rows of a planar joint */
-  BAUM_I_PLANAR_NUMBERS = 4, /* number of the first parameters, which are the points s_a and s_b */
+  BAUM_I_PLANAR_NUMBERS = 4, /* number of parameters for the points s_a and s_b, which come first */
 };
 
 /* A joint, together with the state (point) in which it is evaluated. */

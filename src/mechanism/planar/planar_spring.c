@@ -125,7 +125,7 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* Add g = -T h. With e = d / l, this consists of the force T e and its moment on body_a, and of the
+/* Add g = -T h. With e = d / l, g consists of the force T e and its moment on body_a, and of the
  * force -T e and its moment on body_b. Every evaluation calls this function. It therefore uses
  * vector instructions (pair.h). */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)

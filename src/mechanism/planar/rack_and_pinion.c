@@ -18,7 +18,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/axis_row.h"
 
-/* Parameters of the joint, which follow its two points. */
+/* The parameters that follow the two points of the joint. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
 /* ---- definition ---- */

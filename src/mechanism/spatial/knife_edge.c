@@ -128,7 +128,7 @@ static motion motion_at(const edge *x)
   return out;
 }
 
-/* Returns the motion with these twelve velocities. The angular velocities among them are in body
+/* Returns the motion whose velocities are `twelve`. In this array, angular velocities are in body
  * axes. */
 static motion motion_of(const edge *x, const double twelve[COLUMNS])
 {

@@ -298,8 +298,8 @@ static baum_status lower_fixed(const baum_mechanism *mechanism, const baum_i_joi
     BAUM_I_Y_A, BAUM_I_APART  \
   }
 
-/* The first macro gives the two products that are the sine and the cosine of the angle about z. The
- * second gives the displacement along the axis. */
+/* ANGLE gives the two products that are the sine and the cosine of the angle about z. ALONG gives
+ * the product that is the displacement along an axis. */
 #define ANGLE                 \
   {                           \
     {BAUM_I_Y_A, BAUM_I_X_B}, \

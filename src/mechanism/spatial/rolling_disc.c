@@ -172,7 +172,7 @@ static motion motion_at(const contact *x)
   return out;
 }
 
-/* Returns the motion with these twelve velocities. The angular velocities among them are in body
+/* Returns the motion whose velocities are `twelve`. In this array, angular velocities are in body
  * axes. */
 static motion motion_of(const contact *x, const double twelve[COLUMNS])
 {
@@ -191,7 +191,7 @@ static motion unit_motion(const contact *x, int column)
   return motion_of(x, twelve);
 }
 
-/* Adds G(r), see above. */
+/* Adds G(r), which the top of this file defines. */
 static void add_first(const contact *x, const double r[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);
@@ -203,7 +203,7 @@ static void add_first(const contact *x, const double r[3], double out[3])
   }
 }
 
-/* Adds H(r, y), see above. */
+/* Adds H(r, y), which the top of this file defines. */
 static void add_second(const contact *x, const double r[3], const double y[3], double out[3])
 {
   double kr = baum_i_dot3(x->e[0], r);
@@ -350,7 +350,7 @@ static void bend_along(const contact *x, const motion *v, const motion *y, doubl
 }
 
 /* Computes the row of J with the direction e. It equals the generalized force of a contact force e
- * on body_b and of its opposite on body_a. */
+ * on body_b and the opposite force on body_a. */
 static void row_of(const contact *x, const double e[3], double twelve[COLUMNS])
 {
   double arm_a[3], arm_b[3], moment[3];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks the fields that spatial elements share, and converts their points to body axes.
  *
- * A definition may give a point in ground axes, in the design configuration. On a body at r, it
- * becomes s = A^T (point - r).
+ * A definition may give a point in ground axes, in the design configuration. On a body with the
+ * origin r, this point has the body coordinates s = A^T (point - r).
  */
 #include "mechanism/spatial/spatial.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The part that spatial joints and forces have in common: the first fields of their definitions,
  * checks of these fields, and points. Spatial elements compute derivatives over six columns for
- * each body (general/columns.h). This is also true for a planar body, which may have spatial joints
- * and stays in its plane.
+ * each body (general/columns.h). A planar body may have spatial joints, although it stays in its
+ * plane. It then also has six columns.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
@@ -39,7 +39,7 @@ baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
                                          const char *label, const char *field);
 
-/* Checks that two bodies have orientations and differ. */
+/* Checks that both bodies have orientations, and that they are two different bodies. */
 baum_status baum_i_spatial_check_pair(const baum_mechanism *mechanism, baum_body_id a,
                                       baum_body_id b, const char *label);
 

@@ -26,8 +26,8 @@ enum { MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
 static const double NEAR_UNIT = 1e-6;
 
 /* The smallest principal moment that a body may have, relative to its largest one. It replaces the
- * zero moment of a slender rod about its axis, which would make M singular. In Bricard's mechanism
- * of such rods, this causes an error of only 2e-11 m after 5 s. */
+ * moment of a slender rod about its axis, because a zero moment would make M singular. In Bricard's
+ * mechanism of such rods, this causes an error of only 2e-11 m after 5 s. */
 static const double SMALLEST_MOMENT = 1e-10;
 static const double ROUNDING = 1e-9;
 

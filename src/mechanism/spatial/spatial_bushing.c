@@ -14,8 +14,9 @@
  *   k = (1 - h cot h) / (4 h^2),   h = phi / 2
  *
  * B^T u is the same expression with + theta x u / 2. Let l be the last three numbers of f, and m =
- * B^T l. In H^T f, the moment of l is E_a^T m on body_b and the opposite on body_a. Let D be the
- * derivative along a motion y with the angular velocities W_ya and W_yb:
+ * B^T l. The part of H^T f that belongs to l is the moment E_a^T m on body_b and the opposite
+ * moment on body_a. Let D be the derivative along a motion y with the angular velocities W_ya and
+ * W_yb:
  *
  *   D w = E_a ((W_yb - W_ya) x W_b),   D (E_a^T m) = E_a^T D m + W_ya x E_a^T m
  */
@@ -100,8 +101,8 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return check_matrix(def->damping, label, "damping");
 }
 
-/* Stores the mean of a matrix and its transpose, so that forces of a matrix that is symmetric only
- * up to rounding are conservative. */
+/* Stores the mean of a matrix and its transpose. If the given matrix is symmetric only up to
+ * rounding, the forces are then still conservative. */
 static void set_symmetric(const double given[MATRIX], double out[MATRIX])
 {
   for (int i = 0; i < MATRIX; i++) {
@@ -201,8 +202,8 @@ static baum_i_spatial_row along_axis(int i)
   return (baum_i_spatial_row){(baum_i_spatial_vector)(BAUM_I_X_A + i), BAUM_I_APART};
 }
 
-/* Computes the angular velocities of both bodies, in ground axes, for the unit velocity of a
- * column. Returns false if the column is a translation. */
+/* Computes the angular velocities of both bodies, in ground axes, if the velocity of one column is
+ * 1 and all others are 0. Returns false if the column is a translation. */
 static bool unit_turn(const bushing *b, int column, double w[2][3])
 {
   const int body = column / SIX, i = column % SIX - 3;
@@ -270,7 +271,7 @@ static bushing bushing_at(const baum_i_force *force, const baum_i_point *point)
 
 /* ---- derivatives ---- */
 
-/* Sets the first three of the six rows of (x')_q, which are those of d. Subtracts (d_q^T f)_q from
+/* Sets the first three of the six rows of (x')_q, which belong to d. Subtracts (d_q^T f)_q from
  * `square`. */
 static void add_displacement(const bushing *b, double *rate_q, double *square)
 {
@@ -284,7 +285,7 @@ static void add_displacement(const bushing *b, double *rate_q, double *square)
   }
 }
 
-/* Sets column j of the last three rows of (x')_q, which are those of theta. Subtracts column j of
+/* Sets column j of the last three rows of (x')_q, which belong to theta. Subtracts column j of
  * (theta_q^T f)_q from `square`. */
 static void add_rotation(const bushing *b, int j, double *rate_q, double *square)
 {

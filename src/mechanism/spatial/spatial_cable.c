@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Cable over points that are fixed in bodies. d is the field `transition` of the definition. Let
  * e_k be the vector from point k to point k + 1, l_k = |e_k|, l = sum of l_k, and h = l_q. T(l, l')
- * is the tension: that of a user's law, or with s = l - l_0
+ * is the tension. It is the result of a user's law, or, with s = l - l_0,
  *
  *   T = max(0, k s + c w(s / d) l') for s > 0, otherwise 0;   w(x) = x^2 (3 - 2 x), 1 for x > 1
  *
@@ -11,8 +11,8 @@
  *
  * h, h_q and (l')_q are sums over the parts k, each from point k to point k + 1. The squared length
  * of a part is a product e_k . e_k (spatial_spring.c). A part with l_k = 0 has no direction and is
- * omitted. Points of one body that follow each other are a part of constant length, whose
- * derivatives cancel.
+ * omitted. If consecutive points are on the same body, the part between them has a constant length,
+ * and its derivatives cancel.
  */
 #include <math.h>
 #include <string.h>
@@ -159,10 +159,10 @@ static baum_status potential(const baum_i_force *force, baum_i_point *point, dou
   return BAUM_OK;
 }
 
-/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but loses
- * its potential. The steps of a run are not adapted to this loss, which ends suddenly at s = 0. The
- * power of a damped cable is therefore computed from the whole force, and the loss is the
- * difference of two potentials. */
+/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but its
+ * potential decreases. The step control of a run does not notice this decrease, which ends suddenly
+ * at s = 0. Integrating its power would therefore be inaccurate. For a damped cable, power() uses
+ * the whole force, and the decrease is a difference of two potentials. */
 static bool power_is_whole(const baum_i_force *force)
 {
   const baum_spatial_cable_def *def = force->element.def;
@@ -230,7 +230,8 @@ static void find_columns(const baum_mechanism *m, const baum_i_span *span, const
   }
 }
 
-/* Adds a part to h and (l')_q (nl), and subtracts T times its h_q from force_q (nl x nl). */
+/* Adds the contribution of a part to h and (l')_q (nl), and subtracts T times the part's h_q from
+ * force_q (nl x nl). */
 static void add_second(const baum_i_span *span, const part *p, const int at[COLUMNS],
                        double tension, double *h, double *rate_q, double *force_q)
 {

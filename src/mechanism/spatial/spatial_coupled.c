@@ -29,7 +29,7 @@ enum { PITCH = BAUM_I_SPATIAL_NUMBERS, OFFSET, SCREW_COUNT };
 
 /* ---- rows of both joints ---- */
 
-/* One joint in a state of the mechanism. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct state {
   const baum_i_joint *joint;
   const baum_i_point *point;
@@ -195,7 +195,8 @@ static baum_status lower_screw(const baum_mechanism *mechanism, const baum_i_joi
   return BAUM_OK;
 }
 
-/* The terms are the coordinates of the joint: the displacement, and the angle times a factor. */
+/* Return the factor of a term. Term 0 is the displacement, and term 1 is the angle, each multiplied
+ * by its factor. */
 static double factor_of(const state *s, int number)
 {
   return number == 0 ? 1.0 : -s->numbers[PITCH] / BAUM_I_REVOLUTION;

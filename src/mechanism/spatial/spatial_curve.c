@@ -31,7 +31,7 @@ enum { ROWS = 2, COLUMNS = BAUM_I_PAIR_COLUMNS };
 /* Entries of the result of the curve function, for F and then for G. */
 enum { VALUE, FIRST, SECOND = 4, ENTRIES = 10, CURVE_SIZE = ROWS * ENTRIES };
 
-/* The entry of the second derivative F_ij. */
+/* BEND[i][j] is the index of F_ij in the result of the curve function. */
 static const int BEND[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};
 
 static const baum_i_def_field fields[] = {
@@ -76,7 +76,7 @@ static baum_status curve_at(const void *joint, const baum_i_local *at, double *o
 
 /* ---- one joint ---- */
 
-/* A joint in a state of the mechanism. */
+/* A joint, together with the state (point) in which it is evaluated. */
 typedef struct state {
   baum_i_spatial_pair pair;
   baum_i_coordinate x[3];
@@ -172,8 +172,9 @@ typedef struct second_row {
   double *jtl_q; /* summed over the rows */
 } second_row;
 
-/* Adds the part of the coordinate x_i to the derivatives of a row. `along` has the entries F_ijk
- * r_k in the places of F_ij. `w` has twelve entries, and w_x contains the products g_j w. */
+/* Adds the contribution of the coordinate x_i to the second derivatives of a row. `along` has the
+ * entries F_ijk r_k in the places of F_ij. `w` has twelve entries, and w_x contains the products
+ * g_j w. */
 static void add_coordinate(const state *s, int row, int i, const double *along, const double *w,
                            const double w_x[3], double lambda, const second_row *out)
 {
@@ -200,7 +201,8 @@ static void add_coordinate(const state *s, int row, int i, const double *along, 
   }
 }
 
-/* Computes the derivatives of F, G and their derivatives along the present rate. */
+/* Computes the time derivatives of F and G, and of their first and second derivatives, for the
+ * present rates of x. */
 static baum_status set_along(const baum_i_joint *joint, baum_i_point *point, const state *s,
                              double along[CURVE_SIZE])
 {

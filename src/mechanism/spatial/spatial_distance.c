@@ -10,7 +10,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-/* Parameters of the joint, which follow its two points. */
+/* The parameters that follow the two points of the joint. */
 enum { LENGTH = 6, PARAMETER_COUNT };
 
 static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};

@@ -49,7 +49,8 @@ baum_status baum_i_spatial_lower_frame(const baum_mechanism *mechanism,
                                        const baum_i_element *element, const baum_i_span *span,
                                        double *parameters);
 
-/* Return the table of the rows of a joint of such a type. Returns NULL for other joints. */
+/* Return the table of rows of a joint whose type is a baum_i_spatial_joint_type. Returns NULL for
+ * other joints. */
 const baum_i_spatial_row *baum_i_spatial_rows_of(const baum_i_joint *joint);
 
 /* Return the angle atan2(s, c) and its derivatives, as a function of the coordinates c and s. */

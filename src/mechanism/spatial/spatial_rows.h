@@ -41,7 +41,8 @@ enum {
   BAUM_I_SPATIAL_NUMBERS = 24
 };
 
-/* One joint in a state of the mechanism. All vectors are in ground axes. */
+/* A joint, together with the state (point) in which it is evaluated. All vectors are in ground
+ * axes. */
 typedef struct baum_i_spatial_pair {
   const baum_i_spatial_frame *frame[2];
   double arm[2][3];
@@ -79,8 +80,8 @@ double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatia
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out);
 
-/* Computes the distance l of the two points, its rate l' and its gradient h over the twelve columns
- * of both bodies. If l is too short to have a direction, all three are 0. */
+/* The distance l of the two points, its rate l' and its gradient h over the twelve columns of both
+ * bodies. If l is too short to have a direction, all three are 0. */
 typedef struct baum_i_spatial_length {
   double length;
   double rate;
@@ -118,7 +119,7 @@ void baum_i_spatial_linearize_products(const baum_i_spatial_pair *pair,
                                        const double *w, const double *lambda,
                                        const baum_i_joint_blocks *wide);
 
-/* The function `linearize` of a joint whose rows are products. Each row is one of the products in
+/* Implements linearize() for a joint whose rows are products. Each row is one of the products in
  * `rows`, multiplied by `factor`. */
 void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
                                    const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
@@ -129,7 +130,7 @@ void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point
 void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
                                    double six[BAUM_I_SPACE]);
 
-/* Write the point of body_b in ground axes. */
+/* Write the position of the joint's point on body_b, in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);
 
 /* Return the length |e| in the design configuration. `points` contains the point s_a on body_a and

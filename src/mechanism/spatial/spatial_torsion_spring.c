@@ -9,7 +9,8 @@
  * because s = 4 p_w p_z and c = 2 (p_w^2 - p_z^2). If body_a and body_b are interchanged, only the
  * sign of the angle changes. If z_b points in the direction opposite to z_a, the angle is undefined
  * and the torque is 0. Let h = angle_q, and let T(angle, angle') be the torque of
- * general/spring_law.h, with the partial derivatives T_l by the angle and T_l' by the velocity:
+ * general/spring_law.h, with the partial derivatives T_l with respect to the angle and T_l' with
+ * respect to the angular velocity:
  *
  *   g   = -T h
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (angle')_q
