@@ -188,7 +188,8 @@ class Page:
         text += self.equations()
         python, c = self.programs()
         text += f"## Code\n\n```python\n{python}```\n\n```c\n{c}```\n\n"
-        text += "In this code, `m` or `mechanism` is the mechanism; the other names stand for bodies and joints that were added before.\n\n"
+        text += "In this code, `m` or `mechanism` is the mechanism; the other names stand for bodies and joints that were added "
+        text += "before.\n\n"
         text += f"## What goes wrong\n\n{self.mistake}\n\n"
         text += f"## Fields\n\nThe arguments of the Python method have the same names. Fields that are not set keep their defaults.\n\n"
         text += f"{fields(xml, self.name)}\n"

@@ -2,7 +2,8 @@
 """usage: reference.py XML FOLDER
 
 Prepares the XML of Doxygen in the folder XML for Breathe. Writes the pages of the reference into FOLDER: one page for
-each header of the library, and pages for the Python package. Sphinx fills them in with the comments of the headers and with the docstrings."""
+each header of the library, and pages for the Python package. Sphinx fills these pages with the comments of the headers and with
+the docstrings."""
 
 import inspect
 import re
