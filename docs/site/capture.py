@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: capture.py FOLDER NAME TITLE PROGRAM [ARGUMENT...]
 
-Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html, with this
-title, for the run with the most samples among the first runs of the program. If it has written no drawing, writes
-FOLDER/NAME.svg, which shows the mechanism of this run, or the first frozen mechanism. Also writes the figure
-FOLDER/NAME_figure.svg with the curves of the first page that has curves. If the mechanism has no drawing, the figure
-plots the run."""
+Runs a Python program in a folder. If the program has written no page of a motion, writes FOLDER/NAME.html with the title
+TITLE. This page shows the run that has the most samples among the first runs of the program. If the program has written
+no drawing, writes FOLDER/NAME.svg, which shows the mechanism of this run or, without a run, the first frozen mechanism.
+Also writes the figure FOLDER/NAME_figure.svg with the curves of the first page that has curves. If the mechanism has no
+drawing, the figure plots the run."""
 
 import runpy
 import sys
@@ -16,8 +16,8 @@ import baum
 import matplotlib.pyplot as plt
 from baum import drawings
 
-SHOWN = 400  # samples that are enough for a page
-KEPT = 4  # runs that are considered
+SHOWN = 400  # more samples than this do not make a run better for a page
+KEPT = 4  # only so many runs of the program are considered
 
 
 def remember(cls, name, found, choose):

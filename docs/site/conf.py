@@ -25,7 +25,7 @@ breathe_domain_by_extension = {"h": "c"}
 breathe_show_include = False
 
 autodoc_member_order = "bysource"
-autodoc_typehints = "none"  # they are long; baum.typing explains them
+autodoc_typehints = "none"  # type hints are long; baum.typing explains them
 python_use_unqualified_type_names = True
 python_maximum_signature_line_length = 88
 

@@ -19,7 +19,7 @@ def escaped(text):
 
 
 def split(paragraph):
-    """Return the lines before the first entry, and the entries (name, text)."""
+    """Return the lines of a paragraph before its first entry, and its entries (name, text)."""
     prose, found = [], []
     for line in paragraph:
         match = ENTRY.fullmatch(line)

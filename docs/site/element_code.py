@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The code on the pages of the elements: Python statements of tests/browser/scenes.py, and C code that adds the same element. A
-compiler checks the C code."""
+"""Makes the code that the pages of the elements show: Python statements from tests/browser/scenes.py, and C code that adds the
+same element. A compiler checks the C code."""
 
 import ast
 import ctypes
@@ -71,7 +71,7 @@ def assignment(m, kind, field, type_, value, default):
 
 
 def c_code(m, element):
-    """Return C that adds an element of a mechanism, and the ids that it uses."""
+    """Return C code that adds the same element as the given one, and the ids that this code uses."""
     kind = KINDS[element.kind.name]
     struct, plain = kind.struct(), kind.struct()
     kind.function("get")(m.handle, element.id, ctypes.byref(struct), ctypes.sizeof(struct))
@@ -90,7 +90,7 @@ def c_code(m, element):
 
 
 def as_function(name, block, used):
-    """Return statements as a function."""
+    """Return the text of a C function that contains the statements `block`."""
     ids = "".join(f", baum_{family}_id {id}" for family, id in dict.fromkeys(used))
     return (
         f"static baum_status {name}(baum_mechanism *mechanism{ids})\n{{\n"

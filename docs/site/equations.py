@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Typesets the plain notation of docs/notation.md on the pages of the site: lambda becomes a Greek letter, J^T gets a
-superscript, and Phi_tq a subscript. Where a text names another page by its file, the title of this page and a link to
-it replace the name. Code does not change, and neither does the text that the search finds."""
+superscript, and Phi_tq a subscript. If a text names another page by its file, such as study.md, a link with the title of
+that page replaces the name. Code does not change, and neither does the text that the search finds."""
 
 import re
 import unicodedata
@@ -31,7 +31,7 @@ def typeset(html):
 
 
 def typeset_line(line, wide):
-    """Return a line of an equation in Unicode. wide: keep the columns of matrices aligned."""
+    """Return a line of an equation in Unicode. If `wide` is true, the columns of matrices stay aligned."""
     new = NAME.sub(lambda m: letter(m).ljust(len(m[1]) if wide else 1), line)
     new = re.sub(
         r"\^(-?\d|T)(?![\w/])",
@@ -52,7 +52,7 @@ class Translator(HTML5Translator):
         self.body[before:] = [html if self.builder.current_docname in QUOTING else typeset(html)]
 
     def link(self, found, linked):
-        """Return the title of a page that a text names by its file, as a link if it is not part of one."""
+        """Return the title of a page that a text names by its file. It is a link, unless the text is part of a link already."""
         titles = self.builder.env.titles
         names = [name for name in titles if name.startswith("docs/") and f"/{name}".endswith(f"/{found[1]}")]
         if len(names) != 1:

@@ -2,9 +2,9 @@
 """usage: gallery.py SOURCE EXTRA
 
 Runs the Python examples, the mechanisms of the catalogue and the programs of the cookbook. Writes the pages of the
-gallery into SOURCE/gallery and replaces the marks <!-- motion --> in the cookbook by pages that show the motion of the
-program above. The pages themselves go into EXTRA/motion. Fails if a program or one of its checks fails, if two pages
-have the same title, and if the page of a moving mechanism has no figure or no check."""
+gallery into SOURCE/gallery. In the cookbook, replaces each mark <!-- motion --> by a frame that shows the motion of the
+program above the mark. The HTML pages of the motions go into EXTRA/motion. Fails if a program or one of its checks fails,
+if two pages have the same title, or if the page of a moving mechanism has no figure or no check."""
 
 import ast
 import os
@@ -23,7 +23,7 @@ SITE = Path(__file__).parent
 ROOT = SITE.parents[1]
 PROGRAM = re.compile(r"```python\n(.*?)```\n", flags=re.S)
 MOTION = "<!-- motion -->\n"
-# Variants of other mechanisms, and mechanisms of user coordinates, which have no drawing.
+# The gallery omits variants of other mechanisms, and mechanisms of user coordinates, which have no drawing.
 OMITTED = {"pendulum_sundials", "pendulum_mebdf", "slider_crank_simeon", "slider_crank_sundials"}
 OMITTED |= {"andrews_angles", "andrews_a03", "car_axis", "flyball_stiff"}
 TITLES = {
@@ -55,10 +55,11 @@ SECTIONS = {
     "studies": ("Studies and mistakes", ""),
     "cookbook": (
         "Cookbook",
-        "Pages of the [cookbook](../docs/cookbook/index.md) with a motion.\n\n",
+        "Pages of the [cookbook](../docs/cookbook/index.md) that show a motion.\n\n",
     ),
 }
-# C programs, by the page that shows them. A program with the name of a Python example does the same.
+# The C programs that a page shows, with a text about each. A page that is not listed shows the C program with the name
+# of its Python example, if there is one.
 IN_C = {
     "cart_pole": {
         "control_loop": "A controller in C keeps a crank at constant speed, and measures the time of its intervals",
@@ -67,7 +68,7 @@ IN_C = {
     "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
     "known_rolling_disc": {"rolling_disc": "Two discs in C, one of which rolls steadily"},
 }
-# Channels that the figures show, in addition to the efforts of drivers, or to the energy if there is no driver.
+# Channels that the figures show. The figures also show the efforts of drivers or, without drivers, the energy.
 MEASURED = {
     "andrews_bodies": ["O.coordinate"],
     "bricard": ["joint1.coordinate"],
@@ -113,7 +114,7 @@ assert error.q <= limit
 
 
 def run(program, name, title, arguments=()):
-    """Run a program in a folder of its own. Return the folder, its text output and the time [s]."""
+    """Run a program in a new folder. Return the folder, the text that the program printed, and the time [s] it took."""
     folder = Path(tempfile.mkdtemp())
     command = [sys.executable, SITE / "capture.py", folder, name, title, program, *arguments]
     begun = time.monotonic()
@@ -186,7 +187,7 @@ class Gallery:
         self.source, self.cards = source, {section: [] for section in SECTIONS}
 
     def take(self, folder, prefix):
-        """Move the pages, figures and drawings of a program. Return them."""
+        """Move the pages, figures and drawings of a program into the gallery. Return their new paths."""
         pages, figures, drawings = [], [], []
         for path in sorted(folder.glob("*.html")):
             pages.append(Path(shutil.move(path, self.motion / f"{prefix}{path.name}")))
@@ -197,7 +198,7 @@ class Gallery:
         return pages, figures, drawings
 
     def write(self, section, name, title, printed, body, taken):
-        """Write a page. body: its text after the motion and the figure."""
+        """Write a page. body: its text before the motion and the figure, and its text after them."""
         pages, figures, drawings = taken
         if section != "studies" and pages and not (figures and "check" in printed):
             sys.exit(f"gallery page {name}: no figure or no check")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: modelling.py XML FOLDER
+"""usage: modelling.py XML FOLDER PICTURES
 
-Writes the pages of the part Modelling into FOLDER, one for each kind of element. A page takes its picture and its Python code
-from tests/browser/scenes.py, its equation from docs/catalogue.md, its fields from the comments of the headers (XML is the
-output of Doxygen), and its section on mistakes from elements.md."""
+Writes the pages of the part Modelling into FOLDER, one for each kind of element, and copies their pictures into PICTURES. A page
+takes its picture and its Python code from tests/browser/scenes.py, its equation from docs/catalogue.md, its fields from the
+comments of the headers (XML is the output of Doxygen), and its section on mistakes from elements.md."""
 
 import ast
 import inspect
@@ -34,7 +34,7 @@ GROUPS = {
     "Couplings, drivers and constraints of your own": "coupling driver spline_driver user_constraint".split(),
     "Forces": kinds("force"),
 }
-# The beginning of the row in docs/catalogue.md, for kinds whose name does not give it.
+# For kinds whose row in docs/catalogue.md does not begin with their name: the beginning of this row.
 ROWS = {
     "planar_revolute": "revolute (pin)",
     "planar_translational": "translational",
@@ -61,7 +61,7 @@ CHANNELS = """pose velocity acceleration coordinate displacement angle angle_b x
 
 
 def equations():
-    """Return the cells of all tables of the catalogue, by their first cell."""
+    """Return all rows of the tables of the catalogue: the first cell of a row is the key, its other cells are the value."""
     text = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
     rows = [
         [cell.strip() for cell in line.strip("|").split(" | ")]
@@ -92,7 +92,7 @@ def row_of(name, rows):
 
 
 def written():
-    """Return the sections of elements.md: for each kind its text, Python code and C code."""
+    """Return the sections of elements.md: for each kind its text, and its code by language (python, c)."""
     sections = (ROOT / "docs" / "site" / "elements.md").read_text(encoding="utf-8").split("\n## ")[1:]
     found = {}
     for section in sections:
@@ -188,15 +188,16 @@ class Page:
         text += self.equations()
         python, c = self.programs()
         text += f"## Code\n\n```python\n{python}```\n\n```c\n{c}```\n\n"
-        text += "In this code, `m` or `mechanism` is the mechanism; the other names are bodies and joints that exist already.\n\n"
+        text += "In this code, `m` or `mechanism` is the mechanism; the other names stand for bodies and joints that were added "
+        text += "before.\n\n"
         text += f"## What goes wrong\n\n{self.mistake}\n\n"
         text += f"## Fields\n\nThe arguments of the Python method have the same names. Fields that are not set keep their defaults.\n\n"
         text += f"{fields(xml, self.name)}\n"
         found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
         if found:
             first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
-            text += f"## What a run can record\n\nFor example, `{first}`. The names that can follow the dot, with the count of their "
-            text += f"numbers in parentheses, are: {', '.join(found)}.\n\n"
+            text += f"## What a run can record\n\nFor example, `{first}`. The following names can follow the dot; the number in "
+            text += f"parentheses is the number of values: {', '.join(found)}.\n\n"
         links = uses(self.method)
         text += f"Used in: {', '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"

@@ -2,7 +2,8 @@
 """usage: reference.py XML FOLDER
 
 Prepares the XML of Doxygen in the folder XML for Breathe. Writes the pages of the reference into FOLDER: one page for
-each header of the library, and pages for the Python package. Sphinx fills them in with the comments of the headers and with the docstrings."""
+each header of the library, and pages for the Python package. Sphinx fills these pages with the comments of the headers and with
+the docstrings."""
 
 import inspect
 import re
@@ -66,7 +67,7 @@ def first_line(thing):
 
 
 def python_pages(folder):
-    text = "# Python reference\n\nThe package [for beginners](../../bindings/python/README.md) comes first. "
+    text = "# Python reference\n\nIf you are new to the package, read the [introduction](../../bindings/python/README.md) first. "
     text += "These pages contain the docstrings, which `help()` shows, too.\n\n| page | contents |\n|---|---|\n"
     pages = []
     for name in CLASSES:
@@ -83,11 +84,11 @@ def python_pages(folder):
     ]
     results = [n for n in others if inspect.isclass(getattr(baum, n)) and n not in warned]
     body = "# Functions\n\n" + "".join(directive("function", f"baum.{name}") for name in functions)
-    pages.append(("functions", body, "Gains, stability, studies, sweeps, scenes."))
+    pages.append(("functions", body, "Functions for gains, stability, studies, sweeps and scenes."))
     body = "# Results and outlines\n\n" + "".join(
         directive("class", f"baum.{name}") for name in results
     )
-    pages.append(("results", body, "Named tuples of results, and outlines of bodies."))
+    pages.append(("results", body, "Named tuples that contain results, and classes for outlines of bodies."))
     body = "# Errors and warnings\n\n" + "".join(
         directive("class", f"baum.{name}") for name in warned
     )
@@ -103,8 +104,8 @@ def python_pages(folder):
 
 
 def prepare(path):
-    """Breathe cannot show two parameters with one description, so each gets a copy of it. Macros that a header removes
-    at its end are omitted."""
+    """Change an XML file for Breathe. Breathe cannot show two parameters with one description, so each parameter gets a copy
+    of the description. Macros that a header undefines at its end are omitted."""
     tree = ElementTree.parse(path)
     for found in tree.iterfind(".//parameterlist"):
         items = list(found)

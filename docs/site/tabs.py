@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows a block of Python and a block of C as two tabs if one directly follows the other. site.css hides one of them, and tabs.js
-keeps the chosen language."""
+"""Shows a block of Python and a block of C as two tabs if one block directly follows the other. site.css hides the
+tab that is not chosen, and tabs.js stores the chosen language."""
 
 from docutils import nodes
 

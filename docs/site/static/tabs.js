@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps the language that the reader chooses for all pairs of C and Python, on all pages.
+// When the reader chooses C or Python in one pair of tabs, shows this language in all pairs, on all pages.
 document.addEventListener("DOMContentLoaded", () => {
   const inputs = [...document.querySelectorAll(".tabs > input")];
   const title = (input) => input.nextElementSibling.textContent;
