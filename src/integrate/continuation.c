@@ -7,7 +7,7 @@
  * The configuration found must lie on the branch on which the step began. Newton's method alone
  * does not ensure this: where two branches pass close to each other, a long step may end next to
  * the wrong branch and converge to it. The sign of det J distinguishes the branches: it is constant
- * along a path without singular configurations, and opposite beyond a fold or a crossing. With J0
+ * along a path without singular configurations, and it changes at a fold or at a crossing. With J0
  * at the beginning of the step and J1 at its end, the ratio of the determinants is
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv)
@@ -39,9 +39,9 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* FARTHEST limits Newton's first correction relative to the scales, and the next constant limits
- * the second correction relative to the first. If a correction is larger, the guess may be closer
- * to another configuration. */
+/* FARTHEST limits Newton's first correction relative to the scales, and CONTRACTION limits the
+ * second correction relative to the first. If a correction is larger, the guess may be closer to
+ * another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
 /* Limit on the ratio of a later correction to the one before it. If the ratio is above this limit,

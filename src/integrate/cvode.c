@@ -56,8 +56,9 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Compute a new matrix for Newton's iteration each time, which costs about as much as one
- * evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
+/* Compute a new matrix for Newton's iteration, even if CVODE would accept the old one. This costs
+ * about as much as one evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's
+ * parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
                  N_Vector work1, N_Vector work2, N_Vector work3)
@@ -85,7 +86,8 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q,
  *
- * where the last J is without the rows of velocity level, which do not restrict q.
+ * where the last factor J does not contain the rows of velocity level, because they do not restrict
+ * q.
  *
  * The estimated error e_v of v is not changed, because the projection does not remove its whole
  * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF with the exact Jacobian. Only files of CVODE include this header,
- * and only if the build has SUNDIALS. */
+/* Solves the linear systems of CVODE BDF, whose matrix is the exact Jacobian. Only files of CVODE
+ * include this header, and only if the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_NEWTON_H
 #define BAUM_I_INTEGRATE_CVODE_NEWTON_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The rotation of a rigid body without moments in a step h: symplectic, symmetric, of order 2.
+/* Approximates the rotation of a rigid body without moments in a step h. The approximation is
+ * symplectic, symmetric and of order 2.
  *
  * With principal moments I_0, I_1, I_2, a body with the angular momentum m in body axes has the
  * energy
@@ -29,8 +30,8 @@ typedef struct baum_i_free_rotation {
 
 baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9]);
 
-/* Advance the momentum, in body axes, by a step. w is the constant angular velocity, in body axes,
- * that gives the same rotation. */
+/* Advance the angular momentum, in body axes, by a step h. Write to w the constant angular
+ * velocity, in body axes, that would rotate the body in the same way in the time h. */
 void baum_i_rotate_freely(const baum_i_free_rotation *body, double h, double momentum[3],
                           double w[3]);
 

@@ -59,8 +59,8 @@
 #include <ida/ida.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-/* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. From
- * 1e-1 to 1e-4 the number of iterations is the same. */
+/* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. With
+ * all values from 1e-1 to 1e-4, the number of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
 /* With this factor, the tolerance of v at rtol 1e-13 is 50 times the rounding error of v. Errors of
  * the motion are the same as with the factor 0.01, and runs take fewer steps than with the factor

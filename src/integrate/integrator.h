@@ -39,7 +39,7 @@ typedef struct baum_i_problem {
    * far */
   bool distrusts_projection;
   bool stops;  /* variable step: a step ends exactly at `stop` */
-  double stop; /* [s] ahead of the state by more than the rounding of times */
+  double stop; /* [s] a time that is ahead of the state by more than the rounding of times */
 } baum_i_problem;
 
 /* Time, positions, velocities. */
@@ -53,9 +53,10 @@ typedef struct baum_i_state {
 typedef struct baum_i_statistics {
   int64_t rejected;
   int64_t factorizations;      /* number of factorizations of the method's own matrix */
-  int64_t full_factorizations; /* those that chose new pivots and may allocate */
+  int64_t full_factorizations; /* number of those that chose new pivots, and may allocate */
   int64_t nonlinear_iterations;
-  int64_t forced; /* steps over a singular configuration whose error exceeded the tolerance */
+  /* accepted steps over a singular configuration with an error above the tolerance */
+  int64_t forced;
 } baum_i_statistics;
 
 struct baum_integrator {
@@ -73,7 +74,7 @@ struct baum_integrator {
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
-  /* true if the last evaluation of `advance` is that of the accelerations at the end of the step */
+  /* true if `advance` evaluates the accelerations at the end of the step last */
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
@@ -102,8 +103,8 @@ struct baum_integrator {
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL for methods that have only fixed steps. */
-  /* Take one step in problem->direction, whose length the method chooses. `state` receives the end
-   * of the step. After a failure it is the end of the last good step, from which the next call
+  /* Take one step in problem->direction. The method chooses its length. `state` receives the end of
+   * the step. After a failure, `state` is the end of the last good step, from which the next call
    * restarts. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Interpolate positions and velocities inside the last step. */
@@ -172,7 +173,7 @@ void baum_i_integrator_destroy(const baum_integrator *integrator, void *self); /
 /* Tell whether the integrator offers this formulation. */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
 
-/* Version such as "6.4.1"; "none" in a build without SUNDIALS. */
+/* Return the version of SUNDIALS, such as "6.4.1", or "none" in a build without SUNDIALS. */
 const char *baum_i_sundials_version(void);
 
 #endif

@@ -62,7 +62,8 @@ typedef struct rattle_run {
   int nv;
   int rotation_count;
   rattle_rotation *rotations; /* (rotation_count); NULL in planar mechanisms */
-  double largest_angle;       /* [rad] >= 1, h |momentum| / (smallest moment of inertia) */
+  /* [rad] largest h |momentum| / (smallest moment of inertia) of a body, at least 1 */
+  double largest_angle;
   int64_t iterations;
   double *memory;  /* memory of the arrays below */
   double *q;       /* (nq) end of the step */

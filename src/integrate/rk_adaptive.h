@@ -49,7 +49,7 @@ typedef struct baum_i_rk_adaptive {
   baum_i_kept_message message; /* message of the evaluation that failed */
 } baum_i_rk_adaptive;
 
-/* Members of baum_integrator. `table` points to a baum_i_rk_pair. */
+/* The functions for the table baum_integrator. `table` points to a baum_i_rk_pair. */
 baum_status baum_i_rk_adaptive_open(void *self, const void *table, const baum_i_problem *problem,
                                     const baum_i_state *start);
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,

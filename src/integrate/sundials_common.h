@@ -35,7 +35,7 @@ typedef struct baum_i_sundials {
   baum_status evaluation; /* status of the last evaluation that failed, or BAUM_OK */
   double origin;          /* [s] SUNDIALS' time is t - origin, to keep digits after a late start */
   double t;               /* start of the present step */
-  double evaluated_at;    /* start of the step in which that evaluation failed */
+  double evaluated_at;    /* start of the step in which the last failed evaluation occurred */
   char message[BAUM_I_MESSAGE_SIZE];              /* message of the last evaluation that failed */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last error text of SUNDIALS; "": none */
   bool pivots_forgotten;                          /* KLU must choose new pivots */

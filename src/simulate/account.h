@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The energy account of a run contains the works of the different classes of forces. It is
- * evaluated along the motion, in a workspace of its own. */
+ * evaluated along the motion, in a separate workspace. */
 #ifndef BAUM_I_SIMULATE_ACCOUNT_H
 #define BAUM_I_SIMULATE_ACCOUNT_H
 

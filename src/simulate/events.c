@@ -189,8 +189,8 @@ void baum_i_events_begin(baum_simulation *run)
 }
 
 /* An event that has just been recorded may seem to happen again at once. This is so if a method
- * starts with a small difference from the state, or if the run changes its direction. It then
- * counts as an event that leaves zero, which is not recorded. */
+ * restarts from a slightly different state, or if the run changes its direction. It then counts as
+ * an event that leaves zero, which is not recorded. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   take_values(run, false);

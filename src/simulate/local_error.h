@@ -13,7 +13,8 @@ typedef struct baum_i_local_error {
   double *a[BAUM_I_ACCELERATIONS]; /* (nv) at the starts of the last steps, newest first */
   double t;                        /* [s] start of the last step */
   double h;                        /* [s] length of the step that ended at t */
-  int known;                       /* number of accelerations at equal distances */
+  /* number of valid entries of `a`; the steps between them have equal lengths */
+  int known;
 } baum_i_local_error;
 
 /* The first function returns how many numbers the arrays of a baum_i_local_error need. The second

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the channels, which are the outputs of a run in one state. Accelerations, multipliers
- * and reactions require a solution of equation (5). It is computed only if a channel needs it, and
- * only once for each row of output. */
+ * and reactions require a solution of equation (5) of docs/notation.md. It is computed only if a
+ * channel needs it, and only once for each row of output. */
 #include <limits.h>
 #include <math.h>
 #include <string.h>
