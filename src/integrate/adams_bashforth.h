@@ -8,8 +8,8 @@
 enum { BAUM_I_ADAMS_STEPS_MAX = 4 };
 
 /* The weights of a method as polynomials in theta: w_j(theta) is the integral, from 0 to theta, of
- * the j-th Lagrange polynomial on the nodes 0, -1, .., 1 - k. Its coefficient of theta^(m+1) is
- * weights[j k + m]. w_j(1) is the weight b_j of a whole step. */
+ * the j-th Lagrange polynomial on the nodes 0, -1, .., 1 - k. The coefficient of theta^(m+1) in w_j
+ * is weights[j k + m]. w_j(1) is the weight b_j of a whole step. */
 typedef struct baum_i_adams_table {
   int steps;             /* k <= BAUM_I_ADAMS_STEPS_MAX */
   const double *weights; /* (k x k) */

@@ -12,9 +12,9 @@
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv)
  *
- * It is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the step is
- * sufficient: |D| is then also below 1 along the step, because D grows about in proportion to the
- * length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
+ * This ratio is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the
+ * step is sufficient: |D| is then also below 1 along the step, because D grows about in proportion
+ * to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
  * Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe z that moves
  * every coordinate by a fraction of its scale:
  *

@@ -17,7 +17,7 @@ typedef struct baum_i_configuration {
   double *jacobian; /* (jacobian_size) */
 } baum_i_configuration;
 
-/* Why a configuration was refused. */
+/* The possible reasons why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
   BAUM_I_REFUSAL_FAR, /* Newton's corrections were too large, or hardly decreased */
@@ -29,7 +29,7 @@ typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_STOP,       /* a user function stops the run, or memory is short */
 } baum_i_refusal;
 
-/* How a configuration was found, or why it was not. */
+/* The result of a step: how the configuration was found, or why it was refused. */
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */

@@ -250,9 +250,9 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
   return BAUM_OK;
 }
 
-/* Tell whether the iteration diverges because a change is much larger than the change before it.
- * This is permitted for the second change, and for changes that use the matrix of an earlier
- * iteration. */
+/* Tell whether the iteration diverges: a change is not finite, or is much larger than the change
+ * before it. Growth is permitted for the second change, and for changes that were computed with the
+ * matrix of an earlier iteration. */
 static bool diverges(int k, bool renewed, double size, double before)
 {
   return !isfinite(size) || (k > 1 && renewed && size > 2.0 * before);

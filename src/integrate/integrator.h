@@ -61,13 +61,14 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* passed to open(), to select one method of a family */
-  int order;                        /* 0: variable order */
-  baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;             /* the rule that BAUM_GAINS_DEFAULT means */
-  baum_i_method method;             /* amplification of violations */
-  baum_i_method_family family;      /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
-  /* BDF: the fraction of the error of a step that the error test measures */
+  const void *table; /* passed to open(), to select one method of a family */
+  int order;         /* 0: variable order */
+  /* the default comes first; BAUM_FORMULATION_DEFAULT ends the list */
+  baum_formulation formulations[6];
+  baum_gain_rule gains;        /* the rule that BAUM_GAINS_DEFAULT means */
+  baum_i_method method;        /* amplification of violations */
+  baum_i_method_family family; /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
+  /* BDF: the fraction of the error of a step that the error test measures; see integrator.c */
   double seen;
   /* true for both Euler methods, whose gains lead to a known steady violation: |Phi'| = (h/2)
    * |gamma| and |Phi| = (alpha/beta^2) h |gamma| */
@@ -102,7 +103,8 @@ struct baum_integrator {
    * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
-  /* Variable step; NULL for methods that have only fixed steps. */
+  /* The next two functions are for variable steps. They are NULL for methods that have only fixed
+   * steps. */
   /* Take one step in problem->direction. The method chooses its length. `state` receives the end of
    * the step. After a failure, `state` is the end of the last good step, from which the next call
    * restarts. */
@@ -128,7 +130,7 @@ void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v);
 
-/* Find only a. Fixed bodies may be skipped. */
+/* Find only a, by the same equations. Fixed bodies may be skipped. */
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v);
 

@@ -85,7 +85,7 @@ static void swap(baum_i_configuration **a, baum_i_configuration **b)
   *b = kept;
 }
 
-/* Write to q the guess at t: `from` moved by h v + h^2 a / 2. work (nv). */
+/* Write to q the guess at t: `from` moved by h v + h^2 a / 2. work (nv) is scratch memory. */
 static void extrapolate(const baum_mechanism *m, const baum_i_configuration *from, double t,
                         double *q, double *work)
 {
@@ -132,7 +132,8 @@ static bool solve(kinematics_run *run, const baum_i_configuration *from, baum_i_
   return found;
 }
 
-/* Add the time to the message of a callback, which does not contain it. */
+/* Add the time to the message of a failed callback, because this message does not contain the
+ * time. */
 static baum_status say_when(const baum_i_configuration *from, baum_status status)
 {
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {

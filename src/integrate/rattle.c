@@ -65,18 +65,19 @@ typedef struct rattle_run {
   /* [rad] largest h |momentum| / (smallest moment of inertia) of a body, at least 1 */
   double largest_angle;
   int64_t iterations;
-  double *memory;  /* memory of the arrays below */
-  double *q;       /* (nq) end of the step */
-  double *v;       /* (nv) v', velocities after the first half of the step */
-  double *mean;    /* (nv) velocities that move q; the same array as v unless bodies rotate */
-  double *moments; /* (nv) used in place of gyroscopic moments at the end; NULL: no body rotates */
+  double *memory; /* memory of the arrays below */
+  double *q;      /* (nq) end of the step */
+  double *v;      /* (nv) v', velocities after the first half of the step */
+  double *mean;   /* (nv) velocities that move q; the same array as v unless bodies rotate */
+  /* (nv) they replace gyroscopic moments at the end of the step; NULL: no body rotates */
+  double *moments;
 } rattle_run;
 
 /* ---- rotations ---- */
 
 /* Find the mean velocities of a step from v', and the moments that replace the gyroscopic moments
- * in its second half. v' contains the gyroscopic moment at the start, because the given
- * acceleration contains it. This function removes this moment from the momentum. */
+ * in its second half. The given acceleration, and therefore v', contains the gyroscopic moment at
+ * the start. This function removes this moment from the momentum. */
 static void rotate_bodies(rattle_run *run, const baum_i_state *state, double h)
 {
   memcpy(run->mean, run->v, (size_t)run->nv * sizeof *run->v);

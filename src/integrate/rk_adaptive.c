@@ -4,7 +4,7 @@
  * In the notation of rk.c, with K_(s+1) the rate at the end of the step:
  *
  *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v).
- *                 rk8 has a second estimate E3 of order 3. Its error is then taken as
+ *                 rk8 has a second estimate E3 of order 3, and its error is taken as
  *                 |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls with h^8. |E| alone falls with h^6
  *   interpolant   y + x (F_1 + (1 - x) (F_2 + x (F_3 + (1 - x) (F_4 + ...)))),  x = (t - t_n) / h,
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4

@@ -43,7 +43,7 @@ typedef struct baum_i_rk_adaptive {
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
-  /* The last evaluation that failed in a try and was followed by a shorter try. */
+  /* The next three members describe the last evaluation that failed and so caused a shorter try. */
   baum_status failure;         /* BAUM_OK: none */
   double failure_t;            /* start of the try in which it failed */
   baum_i_kept_message message; /* message of the evaluation that failed */

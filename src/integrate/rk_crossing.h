@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a Runge-Kutta method with variable steps passes singular configurations
+/* Lets a Runge-Kutta method with variable steps pass singular configurations
  * (docs/theory/singular.md).
  *
  * Let p be the smallest pivot relative to its usual value. sqrt(p) decreases linearly towards a

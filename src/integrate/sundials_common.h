@@ -56,7 +56,7 @@ N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
 /* Convert a status to the return value of a callback: 0 on success, +1 if a smaller step may help,
- * otherwise -1. Stores a failure. */
+ * otherwise -1. If the status is a failure, it is stored together with its message. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
 /* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */

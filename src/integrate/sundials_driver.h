@@ -36,7 +36,8 @@ typedef struct baum_i_sundials_package {
   void (*destroy)(void **memory); /* NULL is allowed */
 
   int (*size)(const baum_i_problem *problem); /* n, length of y */
-  /* Complete the start at t. run->y contains (q, v), followed by zeros. NULL: nothing to do. */
+  /* Complete run->y for a start at t. It contains (q, v), followed by zeros. NULL: nothing to
+   * do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
   /* returns run->memory, or NULL if out of memory */
   void *(*create)(int multistep, SUNContext context);

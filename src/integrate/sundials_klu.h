@@ -28,8 +28,8 @@ typedef struct baum_i_sundials_klu {
 } baum_i_sundials_klu;
 
 /* Call this after sundials->problem is set. Returns BAUM_OK or BAUM_ERR_MEMORY. Close `klu` even
- * after a failure, after everything that calls it, and before the baum_i_sundials. A zeroed struct
- * may be closed. */
+ * after a failure. Close it after everything that calls it, and before the baum_i_sundials. A
+ * zeroed struct may be closed. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);

@@ -61,8 +61,8 @@ struct baum_i_account {
   baum_workspace *workspace;
   baum_i_problem problem; /* the problem of the run, but with the workspace of the account */
   int nodes;
-  bool fresh; /* whether the method has taken no step since its last restart */
-  bool far;   /* whether the last projection moved the state far (see FAR) */
+  bool fresh; /* true if the method has taken no step since its last restart */
+  bool far;   /* true if the last projection moved the state far (see FAR) */
   /* Second instance of the method for shorter steps, or NULL if it is not needed. */
   void *stepper;
   baum_i_state from; /* state at the start of the last step */
@@ -262,7 +262,7 @@ static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
   return BAUM_OK;
 }
 
-/* Tell whether the projection has moved a state by far more than the tolerances. */
+/* Tell whether the projection has moved a state by more than FAR tolerances. */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;

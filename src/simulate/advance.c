@@ -81,7 +81,7 @@ static baum_status kept_step(baum_simulation *run, double t_next)
 typedef struct fixed_step {
   baum_i_break at; /* the next break */
   double on_grid;  /* [s] next time on the grid */
-  bool breaks;     /* the step ends at the break */
+  bool breaks;     /* true if the step ends at the break */
 } fixed_step;
 
 static fixed_step find_next(const baum_simulation *run, int direction)
@@ -118,8 +118,8 @@ static baum_status take_next(baum_simulation *run, int direction, const fixed_st
   return next->breaks ? break_step(run, next) : grid_step(run, direction, next->on_grid);
 }
 
-/* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid, or
- * less than a step before t. */
+/* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid.
+ * Otherwise it is less than a step before t. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
@@ -239,8 +239,8 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- beginning and end of every call ---- */
 
-/* Set the direction of the run towards t. If a multistep method cannot restart from the present
- * state, the direction does not change. */
+/* Set the direction of the run towards t. If the method cannot restart from the present state, the
+ * direction does not change. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;

@@ -43,7 +43,7 @@ static const double SURELY = 50.0;
  * smaller than the true one. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
-/* A jump whose estimated error is larger than this is not judged. */
+/* If the estimated error of a jump is larger than this, the branch is unknown. */
 static const double KNOWN = 0.1;
 /* The steps resolve a turn if v changes by less than this fraction from step to step. */
 static const double SMALL_TURN = 0.4;

@@ -294,7 +294,8 @@ static void decide_crossing(baum_simulation *run)
   }
 }
 
-/* End a crossing. The violation that may have caused a gap is known only now. */
+/* End an interval, and record it if it was a crossing. This is decided only now, because the
+ * violation that may have caused a gap was not known before. */
 static void close_crossing(baum_simulation *run)
 {
   decide_crossing(run);
@@ -441,8 +442,8 @@ void baum_i_crossings_renew(baum_simulation *run)
 /* ---- steps of variable length ---- */
 
 /* States inside a step are examined if the step may lead across a singular configuration: if it
- * moves the mechanism by more than LONG [rad] and the smaller pivot of its ends is below PIVOT, or
- * if it moves the mechanism by more than LONG_NEAR and this pivot is below PIVOT_NEAR. */
+ * moves the mechanism by more than LONG [rad] and the smaller of the pivots at its ends is below
+ * PIVOT, or if it moves the mechanism by more than LONG_NEAR and this pivot is below PIVOT_NEAR. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
@@ -515,7 +516,8 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* a restored run may belong to a mechanism with another tag */
+  /* in a restored run, the id may contain the tag of another mechanism */
+  if (entry.joint.index1 > 0) {
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

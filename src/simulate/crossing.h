@@ -23,7 +23,7 @@ typedef struct baum_i_crossing {
 } baum_i_crossing;
 
 struct baum_i_crossings {
-  /* The members before `recent` are plain numbers, which are saved. */
+  /* The members before `recent` are plain numbers. They are part of a saved run. */
   double usual; /* largest pivot so far */
   baum_i_crossing present;
   int32_t recent_count;
@@ -58,8 +58,8 @@ void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is allowed *
 /* Discard the states, because another motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
-/* Store a state of the run and its pivot. This state must have been solved last, because the
- * function evaluates nothing. */
+/* Store a state of the run and its pivot. The function evaluates nothing, so the last solution in
+ * the workspace must belong to this state. */
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
 /* End the present crossing and discard the states, because later pivots cannot be compared with

@@ -287,7 +287,8 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
-/* Deliver events to the user in the order of their times. Stop after the first terminal event. */
+/* Record the events that were found, in the order of their times. At the first terminal event, stop
+ * the run. */
 static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
@@ -300,8 +301,8 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Tell whether the value of any event has changed its side of zero. If `leaving` is true, a value
- * that leaves zero also counts. */
+/* Tell whether the value of any event has passed to the other side of zero. If `leaving` is true, a
+ * value that leaves zero also counts. */
 static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
   bool any = false;

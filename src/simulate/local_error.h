@@ -18,7 +18,7 @@ typedef struct baum_i_local_error {
 } baum_i_local_error;
 
 /* The first function returns how many numbers the arrays of a baum_i_local_error need. The second
- * function places the arrays in memory for this many numbers. */
+ * function places the arrays in `numbers`, which has room for this many numbers. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 

@@ -126,8 +126,8 @@ static double allowed_violation(const baum_simulation *run)
   return fmin(LARGE, allowed);
 }
 
-/* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the errors
- * of the steady formulas are above 10 %. */
+/* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the
+ * formulas for the steady violation have errors above 10 %. */
 static const double STEADY_GAIN = 0.1;
 
 /* Predict the steady violation of both Euler methods: |Phi'| = h |gamma| / 2, |Phi| = alpha h

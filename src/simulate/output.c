@@ -373,7 +373,7 @@ static int fill_joint(const baum_workspace *w, const baum_channel *c, double *ou
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    /* The row of J of this coordinate is the gradient of the coordinate. */
+    /* The row of J of this coordinate is its gradient, so the effort is -lambda. */
     out[0] = -w->lambda[joint->row];
     return 1;
   }

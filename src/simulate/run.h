@@ -112,8 +112,8 @@ struct baum_simulation {
  * array. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints in space: set the angles in the workspace to those of a state,
- * plus the whole revolutions that make them continuous. Returns the result of
+/* Count the revolutions of joints and forces of spatial mechanisms: set the angles in the workspace
+ * to those of a state, plus the whole revolutions that make them continuous. Returns the result of
  * baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
@@ -200,7 +200,7 @@ baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q
  * workspace. It is 0 if nothing moves and there is no gravity. */
 double baum_i_run_start_rate(const baum_simulation *run);
 
-/* [1/s] Return the rate below which velocities are rounding errors. */
+/* [1/s] Return the rate below which velocities count as rounding errors. */
 double baum_i_rest_rate(const baum_mechanism *m);
 
 /* [1/s] Return the mean rate over a short pilot run from the trial state, whose accelerations must
@@ -249,13 +249,13 @@ baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Check before every step whether the run must stop: it was cancelled, has taken too many steps in
- * this call, or makes no progress. The run then stays at the end of its last step, which is in
- * `ahead` for a variable-step method. */
+/* Check before every step whether the run must stop because it was cancelled, the time limit of the
+ * call has passed, the call has taken too many steps, or the steps are too short. The run then
+ * stays at the end of its last step, which is in `ahead` for a variable-step method. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
-/* Check after the first step or sample of a call whether its time limit has passed. Returns BAUM_OK
- * or BAUM_STOP_TIME. */
+/* Check whether the time limit of the present call has passed. The caller skips this check before
+ * the first step or sample of a call. Returns BAUM_OK or BAUM_STOP_TIME. */
 baum_status baum_i_run_has_time(const baum_simulation *run);
 
 /* Check before every sample whether the run was cancelled. This check is separate from
@@ -333,8 +333,8 @@ static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 /* Tell whether the last step ends at the near side of the break. */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* restart.c: pass from the near side of a break, which is the present time, to the far side.
- * Methods with a history restart there, and a new time grid begins there. Returns the statuses of
+/* restart.c: pass a break. The present time is its near side and becomes its far side. Methods with
+ * a history restart there, and a new time grid begins there. Returns the statuses of
  * baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
