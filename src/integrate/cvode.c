@@ -6,10 +6,10 @@
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
  * where (5) and (7) are equations of docs/notation.md. Adams: Adams-Moulton of orders 1 to 12 with
- * fixed-point iteration. If there are gains, Newton's iteration with the part of the Jacobian that
- * the gains cause is used instead (cvode_embedded.c). BDF: orders 1 to 5 with Newton's iteration,
- * the exact Jacobian (cvode_newton.c) and projection. Errors are measured in the weighted root mean
- * square over y, with the tolerances of baum_i_problem_tolerances().
+ * fixed-point iteration. If there are gains, Newton's iteration is used instead, with only the part
+ * of the Jacobian that the gains cause (cvode_embedded.c). BDF: orders 1 to 5 with Newton's
+ * iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured in the
+ * weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 

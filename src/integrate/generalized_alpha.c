@@ -53,7 +53,7 @@ enum { ITERATIONS = 20 };
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* The next iterations use the same matrix as long as their changes of the positions are at most
- * NEAR, and each is below the fraction FAST of the one before. With a matrix of a distant
+ * NEAR, and each change is below FAST times the change before it. With a matrix of a distant
  * configuration, changes may become small although the error in a soft direction is still large. */
 static const double NEAR = 1e-6;
 static const double FAST = 0.1;

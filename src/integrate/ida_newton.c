@@ -103,7 +103,7 @@ static double largest_of(const baum_i_ida_newton *newton, const double *x)
   return largest;
 }
 
-/* Set the tolerance of lambda in the error test, and its weights. */
+/* Set the tolerance of lambda in the error test, and write the weights of lambda. */
 static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
 {
   const baum_i_problem *problem = newton->sundials->problem;

@@ -151,7 +151,7 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
  * the largest one, or -1 if there are no rows. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
-/* Return the fraction, <= 1, of rtol and atol that the error test of a method uses. */
+/* Return the factor, <= 1, by which rtol and atol are multiplied for the error test of a method. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
 /* Tell whether a run uses past steps, so that it must be restarted after jumps. */

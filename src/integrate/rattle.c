@@ -46,8 +46,8 @@ enum { ITERATIONS = 50 };
  * position, and the largest angle by which a body rotates in the step. The angle is included
  * because a rounding error of the momentum rotates a slender body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that no longer decrease are treated as rounding errors up to this multiple of the
- * limit. */
+/* Changes that no longer decrease are treated as rounding errors if they are at most this multiple
+ * of the limit. */
 static const double STALLED = 256.0;
 
 /* The rotation of a rigid body that has a gyroscopic moment. */

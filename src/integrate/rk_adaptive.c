@@ -41,7 +41,7 @@ static const double MOST_MOVED = 10.0;
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
- * half of this number of tries shortens a step from the time scale T to the shortest step. */
+ * half of this number is enough to shorten a step from the time scale T to the shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */

@@ -21,8 +21,9 @@ typedef struct baum_i_rk_pair {
   const double *error3;  /* (error_count) weights of an estimate of order 3, or NULL */
   int extra;             /* number of extra rates */
   const double *extra_c; /* (extra) times of the extra rates, as fractions of the step */
-  const double *extra_a; /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
-  int dense;             /* number of terms F_4, F_5, ... of the interpolant */
+  /* weights of all earlier rates for each extra rate, in rows of s + 1, s + 2, ... numbers */
+  const double *extra_a;
+  int dense;               /* number of terms F_4, F_5, ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) weights of the rates in these terms */
 } baum_i_rk_pair;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix dF/dy + c dF/dy' of a residual form, factored by KLU, for the Newton iterations of IDA
+/* Factors the matrix dF/dy + c dF/dy' of a residual form by KLU, for the Newton iterations of IDA
  * and CVODE BDF. Only their files include this header, and only if the build has SUNDIALS.
  *
  * KLU keeps its pivots as long as solutions are accurate. SUNDIALS itself would choose new pivots,

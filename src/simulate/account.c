@@ -198,8 +198,8 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 /* ---- works ---- */
 
 /* For some elements, the computed power contains all of their forces, even the forces that have a
- * potential. The change of this potential must be added to the integral of the power, because only
- * the other forces count as work. Add `factor` times the potentials of these elements to
+ * potential. The change of this potential, added to the integral of the power, removes the work of
+ * these forces, which must not count. Add `factor` times the potentials of these elements to
  * `works`. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])

@@ -11,7 +11,8 @@
 /* [1/s] In a mechanism without gravity, accelerations count as rounding errors if sqrt(|a| / scale)
  * is below this. With gravity, AT_REST gives the limit. */
 static const double ROUNDING_RATE = 1e-7;
-/* The limit with gravity, relative to the rate at which gravity makes the mechanism swing. */
+/* The same limit for mechanisms with gravity, relative to the rate at which gravity makes the
+ * mechanism swing. */
 static const double AT_REST = 1e-3;
 
 double baum_i_rest_rate(const baum_mechanism *m)

@@ -52,8 +52,8 @@ static const double COARSE = 1e-3;
  * error of the companion stays below 0.01. A result with this error counts as correct. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8; /* the same with error_check */
-/* Tolerance of a companion relative to that of a variable-step run, without error_check and with
- * it. */
+/* If the run has variable steps: tolerance of the companion relative to the tolerance of the run,
+ * without error_check (TIGHTER) and with it (TIGHTER_OF_CHECK). */
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
 /* Largest tolerance of a companion with error_check, relative to that of the run. With a larger

@@ -75,8 +75,8 @@ void baum_i_crossings_renew(baum_simulation *run);
 void baum_i_crossings_look(baum_simulation *run);
 
 /* Note a variable step that has just been taken. Returns true if this function has evaluated
- * accelerations, so that the workspace may contain those of another state than the end of the step.
- * Call baum_i_crossings_look() for the end of the step afterwards. */
+ * accelerations, so that the workspace may contain the accelerations of another state than the end
+ * of the step. Call baum_i_crossings_look() for the end of the step afterwards. */
 bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: decide on which branch the motion has left the singular configuration. For this,

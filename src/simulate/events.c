@@ -157,8 +157,8 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 
 /* ---- start of the search ---- */
 
-/* Fraction of 1/rate within which times count as equal. It applies to methods that start exactly at
- * the given state. */
+/* Times count as equal if they differ by less than this fraction of 1/rate. This applies to methods
+ * that start exactly at the given state. */
 static const double NO_TIME = 1e-10;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)

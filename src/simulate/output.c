@@ -291,8 +291,9 @@ static int fill_slice(const baum_workspace *w, const baum_i_state *state, const 
   return s.count;
 }
 
-/* Compute the acceleration of a point, r'' = a + alpha p' - w^2 p. p is the vector from the centre
- * of the body to the point, and p' is p rotated by 90 degrees (mechanism/planar/planar.h). */
+/* Compute the acceleration of a point, r'' = a + alpha p' - w^2 p. a and alpha are the linear and
+ * angular accelerations of the body, w is its angular velocity, p is the vector from the centre of
+ * the body to the point, and p' is p rotated by 90 degrees (mechanism/planar/planar.h). */
 static void fill_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
 {
   const double *p = marker->arm;
@@ -302,8 +303,9 @@ static void fill_acceleration(const baum_i_marker *marker, const double a[3], do
   out[2] = a[2];
 }
 
-/* Compute the acceleration of a point in space, r'' = a + A (w' x s + w x (w x s)). s is the point
- * in body axes, and A the rotation matrix of the body. */
+/* Compute the acceleration of a point in space, r'' = a + A (w' x s + w x (w x s)). a is the
+ * acceleration of the centre of the body, and A its rotation matrix. The angular velocity w and the
+ * point s are in body axes. */
 static void fill_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
                                       const double a[6], double out[6])
 {

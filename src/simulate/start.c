@@ -150,8 +150,8 @@ static baum_status follow_drivers(baum_simulation *run, const double *violations
 }
 
 /* Assemble the design configuration. This may fail because the drivers begin at values that are far
- * from the design configuration. In this case follow the drivers to these values. Try this with
- * more and more steps. */
+ * from the design configuration. In this case follow the drivers to these values, first in 4 steps,
+ * then in more and more steps, up to DRIVER_STEPS. */
 static baum_status assemble_positions(baum_simulation *run, const double *design, double *work)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -436,9 +436,9 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* A state whose velocities are all given belongs to this run if it violates the constraints by no
- * more than earlier states of the run. Tell whether this is so. Such a state is not changed. A run
- * can therefore return exactly to an earlier state. */
+/* Tell whether a state belongs to this run: all of its velocities are given, and it violates the
+ * constraints by no more than earlier states of the run. Such a state is not changed. A run can
+ * therefore return exactly to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
