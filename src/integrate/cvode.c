@@ -56,9 +56,8 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Compute a new matrix for Newton's iteration, even if CVODE would accept the old one. This costs
- * about as much as one evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's
- * parameters. */
+/* Compute a new matrix, even if CVODE would accept the old one. This costs about as much as one
+ * evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
                  N_Vector work1, N_Vector work2, N_Vector work3)
