@@ -7,8 +7,9 @@
 
 enum { BAUM_I_ADAMS_STEPS_MAX = 4 };
 
-/* Integrals of the Lagrange polynomials over the nodes 0, -1, .., 1 - k, from 0 to theta:
- * w_j(theta) = sum_m weights[j k + m] theta^(m + 1). At theta = 1 they are the method's b_j. */
+/* The weights of a method as polynomials in theta: w_j(theta) is the integral, from 0 to theta, of
+ * the j-th Lagrange polynomial on the nodes 0, -1, .., 1 - k. The coefficient of theta^(m+1) in w_j
+ * is weights[j k + m]. w_j(1) is the weight b_j of a whole step. */
 typedef struct baum_i_adams_table {
   int steps;             /* k <= BAUM_I_ADAMS_STEPS_MAX */
   const double *weights; /* (k x k) */
@@ -27,7 +28,7 @@ typedef struct baum_i_adams {
   double *slots; /* (steps x (nq + nv)) N v and a of each point */
 } baum_i_adams;
 
-/* Members of baum_integrator. `table` points to a baum_i_adams_table. */
+/* The functions for the table baum_integrator. `table` points to a baum_i_adams_table. */
 baum_status baum_i_adams_open(void *self, const void *table, const baum_i_problem *problem,
                               const baum_i_state *start);
 void baum_i_adams_close(void *self);

@@ -7,14 +7,14 @@
  * The configuration found must lie on the branch on which the step began. Newton's method alone
  * does not ensure this: where two branches pass close to each other, a long step may end next to
  * the wrong branch and converge to it. The sign of det J distinguishes the branches: it is constant
- * along a path without singular configurations, and opposite beyond a fold or a crossing. With J0
+ * along a path without singular configurations, and it changes at a fold or at a crossing. With J0
  * at the beginning of the step and J1 at its end, the ratio of the determinants is
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv)
  *
- * It is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the step is
- * sufficient: |D| is then also below 1 along the step, because D grows about in proportion to the
- * length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
+ * This ratio is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the
+ * step is sufficient: |D| is then also below 1 along the step, because D grows about in proportion
+ * to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
  * Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe z that moves
  * every coordinate by a fraction of its scale:
  *
@@ -39,9 +39,9 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* FARTHEST limits Newton's first correction relative to the scales, and the next constant limits
- * the second correction relative to the first. If a correction is larger, the guess may be closer
- * to another configuration. */
+/* FARTHEST limits Newton's first correction relative to the scales, and CONTRACTION limits the
+ * second correction relative to the first. If a correction is larger, the guess may be closer to
+ * another configuration. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
 /* Limit on the ratio of a later correction to the one before it. If the ratio is above this limit,

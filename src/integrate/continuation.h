@@ -17,7 +17,7 @@ typedef struct baum_i_configuration {
   double *jacobian; /* (jacobian_size) */
 } baum_i_configuration;
 
-/* Why a configuration was refused. */
+/* The possible reasons why a configuration was refused. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
   BAUM_I_REFUSAL_FAR, /* Newton's corrections were too large, or hardly decreased */
@@ -29,13 +29,13 @@ typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_STOP,       /* a user function stops the run, or memory is short */
 } baum_i_refusal;
 
-/* How a configuration was found, or why it was not. */
+/* The result of a step: how the configuration was found, or why it was refused. */
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status status; /* failure, for BAUM_I_REFUSAL_EVALUATION, _SINGULAR and _STOP */
   int iterations;     /* number of iterations of Newton's method */
   double contraction; /* ratio of the second correction to the first; 0 if there was only one */
-  double turning;     /* estimate of |I - J^-1 J_from|, J_from at the start */
+  double turning;     /* estimate of |I - J^-1 J_from|; J_from is J at the start of the step */
   int row;            /* violated row, for BAUM_I_REFUSAL_OMITTED */
 } baum_i_verdict;
 
@@ -43,11 +43,12 @@ typedef struct baum_i_verdict {
 typedef struct baum_i_continuation {
   baum_workspace *workspace;
   double *memory;
-  double *distance; /* (nc) norm of each row of J whose columns are multiplied by the scales */
-  double *zero;     /* (nv) */
-  double *probe;    /* (nv) */
-  double *image;    /* (nv) */
-  double *left;     /* (nc) */
+  /* (nc) norm of each row of J after its columns have been multiplied by the scales */
+  double *distance;
+  double *zero;  /* (nv) */
+  double *probe; /* (nv) */
+  double *image; /* (nv) */
+  double *left;  /* (nc) */
 } baum_i_continuation;
 
 /* The cause of a singular configuration. */
@@ -74,7 +75,7 @@ baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_configura
 bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_configuration *from,
                                baum_i_configuration *to, baum_i_verdict *verdict);
 
-/* Analyse why no next configuration was found near an accepted one. */
+/* Analyse why no further configuration was found near the accepted configuration `to`. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_configuration *to,
                                         baum_i_impasse *impasse);
 

@@ -6,10 +6,10 @@
  *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
  * where (5) and (7) are equations of docs/notation.md. Adams: Adams-Moulton of orders 1 to 12 with
- * fixed-point iteration. If there are gains, Newton's iteration with the part of the Jacobian that
- * the gains cause is used instead (cvode_embedded.c). BDF: orders 1 to 5 with Newton's iteration,
- * the exact Jacobian (cvode_newton.c) and projection. Errors are measured in the weighted root mean
- * square over y, with the tolerances of baum_i_problem_tolerances().
+ * fixed-point iteration. If there are gains, Newton's iteration is used instead, with only the part
+ * of the Jacobian that the gains cause (cvode_embedded.c). BDF: orders 1 to 5 with Newton's
+ * iteration, the exact Jacobian (cvode_newton.c) and projection. Errors are measured in the
+ * weighted root mean square over y, with the tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 
@@ -56,7 +56,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* Compute a new matrix for Newton's iteration each time, which costs about as much as one
+/* Compute a new matrix, even if CVODE would accept the old one. This costs about as much as one
  * evaluation. NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
@@ -85,7 +85,8 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  *
  *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q,
  *
- * where the last J is without the rows of velocity level, which do not restrict q.
+ * where the last factor J does not contain the rows of velocity level, because they do not restrict
+ * q.
  *
  * The estimated error e_v of v is not changed, because the projection does not remove its whole
  * normal component: the error of q tangential to the manifold contributes J e_v = -(J v)_q e_q,

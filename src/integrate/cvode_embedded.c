@@ -39,7 +39,7 @@
 
 #include "integrate/sundials_klu.h"
 
-/* Convert the status of a solution to CVODE's flag. 1 makes CVODE try a smaller step. */
+/* Convert the status of a solution to CVODE's flag. The flag 1 makes CVODE try a smaller step. */
 static int answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of CVODE Adams with the derivatives of the stabilization terms. Only files of
- * CVODE include this header, and only if the build has SUNDIALS. */
+/* Newton's iteration for CVODE's Adams method. Its matrix contains only the derivatives of the
+ * stabilization terms. Only files of CVODE include this header, and only if the build has
+ * SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_EMBEDDED_H
 #define BAUM_I_INTEGRATE_CVODE_EMBEDDED_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF with the exact Jacobian. Only files of CVODE include this header,
- * and only if the build has SUNDIALS. */
+/* Solves the linear systems of CVODE BDF, whose matrix is the exact Jacobian. Only files of CVODE
+ * include this header, and only if the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_NEWTON_H
 #define BAUM_I_INTEGRATE_CVODE_NEWTON_H
 
@@ -9,12 +9,13 @@
 typedef struct baum_i_cvode_newton {
   baum_i_sundials_klu klu;
   SUNLinearSolver solver; /* CVODE calls it, and it calls klu */
-  double c;               /* [1/s] 1 / gamma of CVODE, for which the matrix was computed */
-  double *numbers;        /* memory of all arrays below */
-  double *y;              /* (n) q, v, lambda */
-  double *dy;             /* (n) q', v', 0 */
-  double *mass;           /* block values of M, for which the matrix was computed */
-  double *jacobian;       /* block values of J, for which the matrix was computed */
+  /* [1/s] 1 / gamma for the value of CVODE's gamma with which the matrix was computed */
+  double c;
+  double *numbers;  /* memory of all arrays below */
+  double *y;        /* (n) q, v, lambda */
+  double *dy;       /* (n) q', v', 0 */
+  double *mass;     /* block values of M, for which the matrix was computed */
+  double *jacobian; /* block values of J, for which the matrix was computed */
 } baum_i_cvode_newton;
 
 /* The same rules as for baum_i_sundials_klu_open() and _close() apply. Attach newton->solver to

@@ -26,7 +26,8 @@ baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9])
   return out;
 }
 
-/* Rotates the quaternion p further, with the constant angular velocity w for the time h. */
+/* Rotate the orientation given by the quaternion p with the constant angular velocity w for the
+ * time h. */
 static void turn(double h, const double w[3], double p[4])
 {
   const double rotation[3] = {h * w[0], h * w[1], h * w[2]};

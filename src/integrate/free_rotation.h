@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The rotation of a rigid body without moments in a step h: symplectic, symmetric, of order 2.
+/* Approximates the rotation of a rigid body without moments in a step h. The approximation is
+ * symplectic, symmetric and of order 2.
  *
  * With principal moments I_0, I_1, I_2, a body with the angular momentum m in body axes has the
  * energy
@@ -9,8 +10,8 @@
  * The first two terms are the energy of a symmetric top, which rotates by exp(h m / I_1), then by
  * exp(h m_0 (1/I_0 - 1/I_1)) about axis 0. The last term rotates the body about axis 2, half a step
  * before the top's rotation and half a step after it (F. Fasso, J. Comput. Phys. 189 (2003)
- * 527-538). The momentum in ground axes does not change. The rotation is exact for symmetric
- * bodies, and for all bodies that rotate about a principal axis.
+ * 527-538). The angular momentum in ground axes does not change. The rotation is exact for
+ * symmetric bodies, and for all bodies that rotate about a principal axis.
  *
  * I_1 is the middle moment. Of the other two axes, axis 2 is the one with the smaller
  * |1/I - 1/I_1|. In a slender body, axis 0 is therefore the long axis.
@@ -29,8 +30,8 @@ typedef struct baum_i_free_rotation {
 
 baum_i_free_rotation baum_i_free_rotation_of(const double inertia[9]);
 
-/* Advance the momentum, in body axes, by a step. w is the constant angular velocity, in body axes,
- * that gives the same rotation. */
+/* Advance the angular momentum, in body axes, by a step h. Write to w the constant angular
+ * velocity, in body axes, that would rotate the body in the same way in the time h. */
 void baum_i_rotate_freely(const baum_i_free_rotation *body, double h, double momentum[3],
                           double w[3]);
 

@@ -53,7 +53,7 @@ enum { ITERATIONS = 20 };
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* The next iterations use the same matrix as long as their changes of the positions are at most
- * NEAR, and each is below the fraction FAST of the one before. With a matrix of a distant
+ * NEAR, and each change is below FAST times the change before it. With a matrix of a distant
  * configuration, changes may become small although the error in a soft direction is still large. */
 static const double NEAR = 1e-6;
 static const double FAST = 0.1;
@@ -139,7 +139,7 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
 
 /* ---- one step ---- */
 
-/* (1 - alpha_m) a_1 = (1 - alpha_f) v'_1 + alpha_f v' - alpha_m a */
+/* Return a_1 from (1 - alpha_m) a_1 = (1 - alpha_f) v'_1 + alpha_f v' - alpha_m a. */
 static double next_a(double rate_next, double rate, double a)
 {
   return ((1.0 - ALPHA_F) * rate_next + ALPHA_F * rate - ALPHA_M * a) / (1.0 - ALPHA_M);
@@ -250,8 +250,9 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, dou
   return BAUM_OK;
 }
 
-/* The second change may be larger than the first, and a change with a kept matrix larger than the
- * one before. */
+/* Tell whether the iteration diverges: a change is not finite, or is much larger than the change
+ * before it. Growth is permitted for the second change, and for changes that were computed with the
+ * matrix of an earlier iteration. */
 static bool diverges(int k, bool renewed, double size, double before)
 {
   return !isfinite(size) || (k > 1 && renewed && size > 2.0 * before);
@@ -318,8 +319,8 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-/* Accept the last trial. After a step of another length than that of the grid, the past steps are
- * discarded, as in every method. */
+/* Accept the last trial. If the length of this step differs from the step of the grid, the results
+ * of past steps are discarded, as in all other methods with a history. */
 static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   alpha_run *run = self;

@@ -13,11 +13,11 @@
  *
  * IDA solves these equations reliably only under the following conditions, which were found by
  * measurement:
- * - The error test excludes multipliers, because their errors do not accumulate, and at index 3
- *   also velocities. At index 1, tolerance_lambda adds lambda to the test. In other forms the error
- *   estimate of lambda does not decrease with the step as it should. Newton's iteration has a
- *   separate convergence test that includes multipliers (ida_newton.c). Without this test,
- *   multipliers diverge.
+ * - The error test excludes multipliers, because their errors do not accumulate. At index 3 it also
+ *   excludes velocities. At index 1, tolerance_lambda adds lambda to the test. In other
+ *   formulations the error estimate of lambda does not decrease with the step as it should.
+ *   Newton's iteration has a separate convergence test that includes multipliers (ida_newton.c).
+ *   Without this test, multipliers diverge.
  * - The start is consistent: q and v are projected if Phi or Phi' is among the equations and not
  *   small, and v' and lambda come from one solution of (5) or (7) of docs/notation.md. IDA's own
  *   search for a consistent start can succeed with wrong accelerations.
@@ -206,10 +206,10 @@ static baum_status complete_start(baum_i_sundials *sundials, double t)
 }
 
 /* Set the length h of the first step. The step has order 1 and the error h^2 |q''| / 2, where |q''|
- * <= rate^2 scale. At index 3, h is chosen such that this error equals the tolerance. The other
- * forms also test velocities, whose derivatives are larger, so their h is a fifth of that length.
- * At index 3 a smaller h is not possible: velocities are differences of q divided by h, and would
- * consist mostly of rounding errors. */
+ * <= rate^2 scale. At index 3, h is chosen such that this error equals the tolerance. In the other
+ * formulations, the error test also includes velocities, whose derivatives are larger, so their h
+ * is a fifth of that length. At index 3 a smaller h is not possible: velocities are differences of
+ * q divided by h, and would consist mostly of rounding errors. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;

@@ -59,8 +59,8 @@
 #include <ida/ida.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-/* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. From
- * 1e-1 to 1e-4 the number of iterations is the same. */
+/* Errors of multipliers do not accumulate, so the tolerance only has to prevent divergence. With
+ * all values from 1e-1 to 1e-4, the number of iterations is the same. */
 static const double MULTIPLIER_TOLERANCE = 1e-2;
 /* With this factor, the tolerance of v at rtol 1e-13 is 50 times the rounding error of v. Errors of
  * the motion are the same as with the factor 0.01, and runs take fewer steps than with the factor
@@ -103,7 +103,7 @@ static double largest_of(const baum_i_ida_newton *newton, const double *x)
   return largest;
 }
 
-/* Set the tolerance of lambda in the error test, and its weights. */
+/* Set the tolerance of lambda in the error test, and write the weights of lambda. */
 static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
 {
   const baum_i_problem *problem = newton->sundials->problem;

@@ -20,7 +20,7 @@ typedef struct baum_i_ida_newton {
   double tested;         /* [J] tolerance of |lambda_i| n_i in the error test; INFINITY: none */
   double share;          /* factor on the tolerances of q and v in the Newton test, <= 1 */
   double action;         /* [J s] largest |mu_i| n_i at the start of the step */
-  double action_q;       /* [J s^2] largest W_jj s_j tolerance_q_j */
+  double action_q;       /* [J s^2] largest W_jj s_j tolerance_q_j; W: see ida_newton.c */
   double first;          /* size of the first correction of the step */
 } baum_i_ida_newton;
 
@@ -35,14 +35,14 @@ void baum_i_ida_newton_close(baum_i_ida_newton *newton);
 void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
 /* Compute `energy` and `action` at the start of a step from the multipliers, which are lambda,
- * followed by mu for GGL. `weights` contains 1 / tolerance of q and v (nq + nv). If lambda is
- * tested, the function writes the weights of lambda (nc) after them. */
+ * followed by mu for GGL. `weights` contains 1 / tolerance of q and v (nq + nv). If the error test
+ * includes lambda, the function writes the weights of lambda (nc) after those of q and v. */
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 
-/* Adapt the solution to a matrix that was computed for another coefficient c0. The first function
- * scales the right-hand side before the solution, and the second one scales the solution. ratio is
- * c / c0. */
+/* Correct a solution for a matrix that was computed for a coefficient c0 instead of the present c.
+ * The first function scales the right-hand side before the solution, and the second one scales the
+ * solution. ratio is c / c0. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution);

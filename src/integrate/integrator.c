@@ -17,13 +17,13 @@
  *   with alpha_0 = 1 + 1/2 + ... + 1/q. The past steps have errors, too, so the step adds alpha_0
  *   times this error to the error of the motion (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary
  *   Differential Equations I, 1993, III.2: the error constant). CVODE tests the first of these
- *   errors. IDA tests alpha_0 times this error. At order 5, which they nearly always use, alpha_0
+ *   errors. IDA tests alpha_0 times this error. At order 5, which both nearly always use, alpha_0
  *   is 137/60.
- * - The order is at most 5, and BDF takes up to three times the steps of Adams methods, which adds
- *   error. With a third of the tolerance, IDA and CVODE's BDF have at most about the error of Adams
- *   methods at the same rtol, in energies, times of events and positions. With the full tolerance,
- *   they have up to six times that error. With a third of the tolerance, IDA takes 1.2 times the
- *   steps and CVODE 1.33 times (docs/theory/energy.md).
+ * - The order is at most 5, and BDF takes up to three times as many steps as Adams methods, so more
+ *   errors add up. With a third of the tolerance, IDA and CVODE's BDF have at most about the error
+ *   of Adams methods at the same rtol, in energies, times of events and positions. With the full
+ *   tolerance, they have up to six times that error. The smaller tolerance multiplies the number of
+ *   steps by 1.2 for IDA and by 1.33 for CVODE (docs/theory/energy.md).
  *
  * Below LEAST_RTOL, where rounding matters, a smaller tolerance would only increase the number of
  * steps. */

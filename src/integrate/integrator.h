@@ -39,7 +39,7 @@ typedef struct baum_i_problem {
    * far */
   bool distrusts_projection;
   bool stops;  /* variable step: a step ends exactly at `stop` */
-  double stop; /* [s] ahead of the state by more than the rounding of times */
+  double stop; /* [s] a time that is ahead of the state by more than the rounding of times */
 } baum_i_problem;
 
 /* Time, positions, velocities. */
@@ -53,27 +53,29 @@ typedef struct baum_i_state {
 typedef struct baum_i_statistics {
   int64_t rejected;
   int64_t factorizations;      /* number of factorizations of the method's own matrix */
-  int64_t full_factorizations; /* those that chose new pivots and may allocate */
+  int64_t full_factorizations; /* number of those that chose new pivots, and may allocate */
   int64_t nonlinear_iterations;
-  int64_t forced; /* steps over a singular configuration whose error exceeded the tolerance */
+  /* accepted steps over a singular configuration with an error above the tolerance */
+  int64_t forced;
 } baum_i_statistics;
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* passed to open(), to select one method of a family */
-  int order;                        /* 0: variable order */
-  baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;             /* the rule that BAUM_GAINS_DEFAULT means */
-  baum_i_method method;             /* amplification of violations */
-  baum_i_method_family family;      /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
-  /* BDF: the fraction of the error of a step that the error test measures */
+  const void *table; /* passed to open(), to select one method of a family */
+  int order;         /* 0: variable order */
+  /* the default comes first; BAUM_FORMULATION_DEFAULT ends the list */
+  baum_formulation formulations[6];
+  baum_gain_rule gains;        /* the rule that BAUM_GAINS_DEFAULT means */
+  baum_i_method method;        /* amplification of violations */
+  baum_i_method_family family; /* only for methods of kind BAUM_I_METHOD_VARIABLE_STEP */
+  /* BDF: the fraction of the error of a step that the error test measures; see integrator.c */
   double seen;
   /* true for both Euler methods, whose gains lead to a known steady violation: |Phi'| = (h/2)
    * |gamma| and |Phi| = (alpha/beta^2) h |gamma| */
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
-  /* true if the last evaluation of `advance` is that of the accelerations at the end of the step */
+  /* true if `advance` evaluates the accelerations at the end of the step last */
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
@@ -101,9 +103,10 @@ struct baum_integrator {
    * accepted was only a trial. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
-  /* Variable step; NULL for methods that have only fixed steps. */
-  /* Take one step in problem->direction, whose length the method chooses. `state` receives the end
-   * of the step. After a failure it is the end of the last good step, from which the next call
+  /* The next two functions are for variable steps. They are NULL for methods that have only fixed
+   * steps. */
+  /* Take one step in problem->direction. The method chooses its length. `state` receives the end of
+   * the step. After a failure, `state` is the end of the last good step, from which the next call
    * restarts. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Interpolate positions and velocities inside the last step. */
@@ -127,7 +130,7 @@ void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v);
 
-/* Find only a. Fixed bodies may be skipped. */
+/* Find only a, by the same equations. Fixed bodies may be skipped. */
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v);
 
@@ -148,7 +151,7 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
  * the largest one, or -1 if there are no rows. */
 double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
 
-/* Return the fraction, <= 1, of rtol and atol that the error test of a method uses. */
+/* Return the factor, <= 1, by which rtol and atol are multiplied for the error test of a method. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
 /* Tell whether a run uses past steps, so that it must be restarted after jumps. */
@@ -172,7 +175,7 @@ void baum_i_integrator_destroy(const baum_integrator *integrator, void *self); /
 /* Tell whether the integrator offers this formulation. */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
 
-/* Version such as "6.4.1"; "none" in a build without SUNDIALS. */
+/* Return the version of SUNDIALS, such as "6.4.1", or "none" in a build without SUNDIALS. */
 const char *baum_i_sundials_version(void);
 
 #endif

@@ -44,7 +44,7 @@ static const double LONGEST = 1e6;
  * because no shorter step is possible, |J^-1| is about 1e5. */
 static const double SINGULAR_GAIN = 1e3;
 /* The configuration is treated as a fold if the share of drivers (`pull` of continuation.h) is
- * above this number. Where branches cross, the share is only about 1 / gain. */
+ * above this number. Where branches cross, the share is only about 1 / |J^-1|. */
 static const double FOLD_PULL = 1e-3;
 
 enum { STORED = 4, MOST_PIECES = 10000 /* largest number of steps in walk() */ };
@@ -65,7 +65,7 @@ typedef struct kinematics_run {
 
 /* ---- configurations ---- */
 
-/* Return the count of numbers of a configuration. They are contiguous and begin with q. */
+/* Return how many numbers a configuration consists of. They are contiguous and begin with q. */
 static size_t number_count(const baum_mechanism *m)
 {
   return (size_t)m->nq + 3 * (size_t)m->nv + (size_t)m->jacobian_size;
@@ -85,7 +85,7 @@ static void swap(baum_i_configuration **a, baum_i_configuration **b)
   *b = kept;
 }
 
-/* Write to q the guess at t: `from` moved by h v + h^2 a / 2. work (nv). */
+/* Write to q the guess at t: `from` moved by h v + h^2 a / 2. work (nv) is scratch memory. */
 static void extrapolate(const baum_mechanism *m, const baum_i_configuration *from, double t,
                         double *q, double *work)
 {
@@ -132,7 +132,8 @@ static bool solve(kinematics_run *run, const baum_i_configuration *from, baum_i_
   return found;
 }
 
-/* Add the time to the message of a callback, which does not contain it. */
+/* Add the time to the message of a failed callback, because this message does not contain the
+ * time. */
 static baum_status say_when(const baum_i_configuration *from, baum_status status)
 {
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
@@ -220,8 +221,8 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
     t, h, baum_i_joint_label(m, at.driver).text);
 }
 
-/* Take one step from *from towards t_end and write its end to *to. Refused steps are shortened. *h
- * is the length to try on entry, and the length for the next step on return. */
+/* Take one step from *from towards t_end and write its end to *to. Refused steps are shortened. On
+ * entry, *h is the length to try first. On return, it is the length for the next step. */
 static baum_status step(kinematics_run *run, const baum_i_problem *problem,
                         const baum_i_configuration *from, baum_i_configuration *to, double t_end,
                         double *h)
@@ -328,8 +329,8 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
     t);
 }
 
-/* Find the configuration that is nearest to a given state and on its branch. This configuration
- * becomes both the start and the end of the last step. */
+/* Find the configuration that is nearest to a given state and on the same branch. This
+ * configuration becomes both the start and the end of the last step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;

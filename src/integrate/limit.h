@@ -17,9 +17,9 @@
  * singular configuration. */
 #define BAUM_I_PIVOT_IN_POSE 4e-8
 
-/* Compute the limit of the accelerations (nv) at a state. room (nq + nv) is scratch memory. The
- * workspace is left at another state. Returns false if the limit cannot be computed, because the
- * mechanism hardly moves or an evaluation fails. */
+/* Compute the limit of the accelerations (nv) at a state. room (nq + nv) is scratch memory.
+ * Afterwards the workspace contains the evaluation of another state. Returns false if the limit
+ * cannot be computed, because the mechanism hardly moves or an evaluation fails. */
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,
                                double *room, double *limit);
 

@@ -46,8 +46,8 @@ enum { ITERATIONS = 50 };
  * position, and the largest angle by which a body rotates in the step. The angle is included
  * because a rounding error of the momentum rotates a slender body about its axis. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
-/* Changes that no longer decrease are treated as rounding errors up to this multiple of the
- * limit. */
+/* Changes that no longer decrease are treated as rounding errors if they are at most this multiple
+ * of the limit. */
 static const double STALLED = 256.0;
 
 /* The rotation of a rigid body that has a gyroscopic moment. */
@@ -62,20 +62,22 @@ typedef struct rattle_run {
   int nv;
   int rotation_count;
   rattle_rotation *rotations; /* (rotation_count); NULL in planar mechanisms */
-  double largest_angle;       /* [rad] >= 1, h |momentum| / (smallest moment of inertia) */
+  /* [rad] largest h |momentum| / (smallest moment of inertia) of a body, at least 1 */
+  double largest_angle;
   int64_t iterations;
-  double *memory;  /* memory of the arrays below */
-  double *q;       /* (nq) end of the step */
-  double *v;       /* (nv) v', velocities after the first half of the step */
-  double *mean;    /* (nv) velocities that move q; the same array as v unless bodies rotate */
-  double *moments; /* (nv) used in place of gyroscopic moments at the end; NULL: no body rotates */
+  double *memory; /* memory of the arrays below */
+  double *q;      /* (nq) end of the step */
+  double *v;      /* (nv) v', velocities after the first half of the step */
+  double *mean;   /* (nv) velocities that move q; the same array as v unless bodies rotate */
+  /* (nv) they replace gyroscopic moments at the end of the step; NULL: no body rotates */
+  double *moments;
 } rattle_run;
 
 /* ---- rotations ---- */
 
 /* Find the mean velocities of a step from v', and the moments that replace the gyroscopic moments
- * in its second half. v' contains the gyroscopic moment at the start, because the given
- * acceleration contains it. This function removes this moment from the momentum. */
+ * in its second half. The given acceleration, and therefore v', contains the gyroscopic moment at
+ * the start. This function removes this moment from the momentum. */
 static void rotate_bodies(rattle_run *run, const baum_i_state *state, double h)
 {
   memcpy(run->mean, run->v, (size_t)run->nv * sizeof *run->v);

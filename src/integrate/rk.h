@@ -29,7 +29,7 @@ typedef struct baum_i_rk {
   double *point; /* (size) (Q_i, V_i) of the present stage */
 } baum_i_rk;
 
-/* Members of baum_integrator. `table` points to a baum_i_rk_table. */
+/* The functions for the table baum_integrator. `table` points to a baum_i_rk_table. */
 baum_status baum_i_rk_open(void *self, const void *table, const baum_i_problem *problem,
                            const baum_i_state *start);
 void baum_i_rk_close(void *self);

@@ -4,16 +4,16 @@
  * In the notation of rk.c, with K_(s+1) the rate at the end of the step:
  *
  *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v).
- *                 rk8 has a second estimate E3 of order 3. Its error is then taken as
+ *                 rk8 has a second estimate E3 of order 3, and its error is taken as
  *                 |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls with h^8. |E| alone falls with h^6
  *   interpolant   y + x (F_1 + (1 - x) (F_2 + x (F_3 + (1 - x) (F_4 + ...)))),  x = (t - t_n) / h,
  *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
  *                 ... = h sum d_i K_i
  *
- * Whatever F_4 and the later terms are, the interpolant has the states and rates of both ends of
- * the step. The norm of the error and the tolerances are the same as those of CVODE, so that all
- * methods are about equally accurate at the same rtol. Extra rates of the interpolant are evaluated
- * only if a time inside the step is requested, and never affect the motion.
+ * Whatever F_4 and the later terms are, the interpolant agrees with the states and rates at both
+ * ends of the step. The norm of the error and the tolerances are the same as those of CVODE, so
+ * that all methods are about equally accurate at the same rtol. Extra rates of the interpolant are
+ * evaluated only if a time inside the step is requested, and never affect the motion.
  *
  * Projection: the end of a step is projected before the rate there is evaluated. The interpolant
  * thus ends at the projected state, and the next step begins there. If the error estimate needs the
@@ -32,8 +32,8 @@
 /* Square of the weight of the error estimate of order 3. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
-/* Largest displacement by the projection, in units of the tolerance, if
- * problem->distrusts_projection. */
+/* Largest displacement by the projection, in units of the tolerance, with which a step is accepted
+ * if problem->distrusts_projection is true. */
 static const double MOST_MOVED = 10.0;
 
 /* Shortest step, relative to the time or to 1/rate of the motion, whichever is larger. In a step of
@@ -41,7 +41,7 @@ static const double MOST_MOVED = 10.0;
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* Largest number of tries of one step. Each try is at most 0.9 times as long as the last one, so
- * half of this number of tries shortens a step from the time scale T to the shortest step. */
+ * half of this number is enough to shorten a step from the time scale T to the shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
@@ -70,8 +70,8 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
          status == BAUM_ERR_CONVERGENCE;
 }
 
-/* Fail because the step is too short. If an earlier evaluation failed very close to this time, it
- * is the reason, even though the last evaluation succeeded. */
+/* Fail because the step is too short. If an earlier evaluation failed very close to this time, its
+ * failure is the reason, even if the last evaluation succeeded. */
 static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                               double h)
 {

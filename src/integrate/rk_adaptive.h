@@ -21,8 +21,9 @@ typedef struct baum_i_rk_pair {
   const double *error3;  /* (error_count) weights of an estimate of order 3, or NULL */
   int extra;             /* number of extra rates */
   const double *extra_c; /* (extra) times of the extra rates, as fractions of the step */
-  const double *extra_a; /* weights of all earlier rates, in rows of s + 1, s + 2, ... numbers */
-  int dense;             /* number of terms F_4, F_5, ... of the interpolant */
+  /* weights of all earlier rates for each extra rate, in rows of s + 1, s + 2, ... numbers */
+  const double *extra_a;
+  int dense;               /* number of terms F_4, F_5, ... of the interpolant */
   const double *dense_row; /* (dense x (s + 1 + extra)) weights of the rates in these terms */
 } baum_i_rk_pair;
 
@@ -43,13 +44,13 @@ typedef struct baum_i_rk_adaptive {
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
-  /* The last evaluation that failed in a try and was followed by a shorter try. */
+  /* The next three members describe the last evaluation that failed and so caused a shorter try. */
   baum_status failure;         /* BAUM_OK: none */
   double failure_t;            /* start of the try in which it failed */
   baum_i_kept_message message; /* message of the evaluation that failed */
 } baum_i_rk_adaptive;
 
-/* Members of baum_integrator. `table` points to a baum_i_rk_pair. */
+/* The functions for the table baum_integrator. `table` points to a baum_i_rk_pair. */
 baum_status baum_i_rk_adaptive_open(void *self, const void *table, const baum_i_problem *problem,
                                     const baum_i_state *start);
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,

@@ -15,9 +15,9 @@ static const double STEP_OVER = 0.05;
 static const double LARGEST_FORCED = 0.01;
 /* A step over a singular configuration may have the error ROUNDING / p, relative to the scales,
  * where p is the pivot at its start (see below). This error comes from rounding, and from gains
- * that correct violations. For n_four_bar of the catalogue with 40 windows the error times p was up
- * to 2e-10. Refusing such a step would not help, because a step from a point closer to the
- * configuration is less accurate. */
+ * that correct violations. For the mechanism n_four_bar of the catalogue (with windows = 40), the
+ * error times p was up to 2e-10. Refusing such a step would not help, because a step from a point
+ * closer to the configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
 /* Limits for the pivot p relative to its usual value. If p is below PIVOT_AHEAD, the method
@@ -72,9 +72,9 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
   }
 }
 
-/* Find the usual pivot for a start in a singular configuration. The pivot at the start is nearly 0
- * and no earlier one is known, so the usual pivot is that of a later configuration. This
- * configuration need not be exactly on the path. */
+/* Find the usual pivot for a start in a singular configuration. The pivot at the start is nearly 0,
+ * and no earlier pivot is known, so the pivot of a later configuration is used. This configuration
+ * need not be exactly on the path. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {

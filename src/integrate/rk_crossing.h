@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a Runge-Kutta method with variable steps passes singular configurations
+/* Lets a Runge-Kutta method with variable steps pass singular configurations
  * (docs/theory/singular.md).
  *
  * Let p be the smallest pivot relative to its usual value. sqrt(p) decreases linearly towards a
@@ -26,7 +26,7 @@ typedef struct baum_i_rk_crossing {
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
-/* Start at t. The last evaluation must have been that of the rate at t. */
+/* Start at t. The rate at t must have been evaluated last. */
 void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                               const baum_i_problem *problem, double t);
 
@@ -44,8 +44,8 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
  * tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* Check the end of a step. The last evaluation must have been that of this end. Returns false if
- * the step must not end there. */
+/* Check the end of a step. This end must have been evaluated last. Returns false if the step must
+ * not end there. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
 
 /* Continue after an accepted step. Its end is the start of the next step, which has the length

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The loops of Runge-Kutta methods over rates K_j of n numbers each, n a multiple of
+/* The loops of Runge-Kutta methods over rates K_j of n numbers each, where n is a multiple of
  * BAUM_I_RK_LANES. They are optimized because with few bodies plain loops would cost as much as the
  * evaluations of the accelerations. */
 #ifndef BAUM_I_INTEGRATE_RK_KERNEL_H

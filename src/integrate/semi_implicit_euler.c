@@ -5,8 +5,9 @@
  *   q(t + h) = q moved by h v(t + h)   (nq)   new velocities
  *
  * The amplification z of a violation is a root of z^2 + (B + 2A - 2) z + (1 - 2A), where A = alpha
- * h and B = (beta h)^2. The polynomial differs from that of explicit Euler. The dead-beat point is
- * alpha = 1/(2h), beta = 1/h. The dead-beat point of explicit Euler is unstable here.
+ * h and B = (beta h)^2. The polynomial differs from that of explicit Euler. At the dead-beat point,
+ * alpha = 1/(2h) and beta = 1/h, both roots are 0. The dead-beat point of explicit Euler is
+ * unstable for this method.
  */
 #include "integrate/integrator.h"
 

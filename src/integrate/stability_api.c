@@ -17,7 +17,8 @@ static baum_status check_integrator(const baum_integrator *integrator)
                          "stability: integrator is NULL, must be one such as baum_euler()");
 }
 
-/* Check that the integrator has a region of stability. */
+/* Check that the integrator has a fixed step and uses gains, because only such methods have a
+ * region of stability. */
 static baum_status check_fixed_step(const baum_integrator *integrator)
 {
   BAUM_I_TRY(check_integrator(integrator));

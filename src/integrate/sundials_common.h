@@ -35,7 +35,7 @@ typedef struct baum_i_sundials {
   baum_status evaluation; /* status of the last evaluation that failed, or BAUM_OK */
   double origin;          /* [s] SUNDIALS' time is t - origin, to keep digits after a late start */
   double t;               /* start of the present step */
-  double evaluated_at;    /* start of the step in which that evaluation failed */
+  double evaluated_at;    /* start of the step in which the last failed evaluation occurred */
   char message[BAUM_I_MESSAGE_SIZE];              /* message of the last evaluation that failed */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last error text of SUNDIALS; "": none */
   bool pivots_forgotten;                          /* KLU must choose new pivots */
@@ -49,14 +49,15 @@ baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
 /* Return one of the preallocated vectors. When SUNDIALS clones it, the clone is also preallocated.
- * Returns NULL if none is left, which does not occur for vectors of this library. */
+ * Returns NULL if none is left. There are enough of them for all vectors that this library
+ * requests. */
 N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
 /* Store an error text of SUNDIALS. */
 void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
 /* Convert a status to the return value of a callback: 0 on success, +1 if a smaller step may help,
- * otherwise -1. Stores a failure. */
+ * otherwise -1. If the status is a failure, it is stored together with its message. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
 /* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */

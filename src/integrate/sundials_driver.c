@@ -163,7 +163,8 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out)
 /* ---- one step ---- */
 
 /* Begin a step. If an evaluation very close to this time has failed, its failure is kept. If steps
- * then become too short, this failure is the reason, even if the last evaluation succeeds. */
+ * then become too short, this failure is reported as the reason, even if the last evaluation
+ * succeeds. */
 static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
 {
   bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;

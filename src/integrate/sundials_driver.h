@@ -36,7 +36,8 @@ typedef struct baum_i_sundials_package {
   void (*destroy)(void **memory); /* NULL is allowed */
 
   int (*size)(const baum_i_problem *problem); /* n, length of y */
-  /* Complete the start at t. run->y contains (q, v), followed by zeros. NULL: nothing to do. */
+  /* Complete run->y for a start at t. It contains (q, v), followed by zeros. NULL: nothing to
+   * do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
   /* returns run->memory, or NULL if out of memory */
   void *(*create)(int multistep, SUNContext context);
@@ -45,8 +46,8 @@ typedef struct baum_i_sundials_package {
   int (*restart)(baum_i_sundials *run);
   /* Take one step towards target. Its end is written to run->y, its time to *tau. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
-  /* Free what the method's `open` and `attach` have allocated. After a failure, they may not have
-   * run at all. run->memory is freed before this call. */
+  /* Free what the method's `open` and `attach` have allocated. If the creation of the run failed,
+   * `open` and `attach` may not have been called. run->memory is freed before this call. */
   void (*close)(baum_i_sundials *run);
 } baum_i_sundials_package;
 
@@ -87,8 +88,8 @@ typedef struct baum_i_sundials_method {
 
 /* ---- operations of an integrator ---- */
 
-/* Members of baum_integrator. `table` points to a baum_i_sundials_method. The memory of a run
- * begins with a baum_i_sundials. */
+/* The functions for the table baum_integrator. `table` points to a baum_i_sundials_method. The
+ * memory of a run begins with a baum_i_sundials. */
 baum_status baum_i_sundials_open_run(void *self, const void *table, const baum_i_problem *problem,
                                      const baum_i_state *start);
 void baum_i_sundials_close_run(void *self);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix dF/dy + c dF/dy' of a residual form, factored by KLU, for the Newton iterations of IDA
+/* Factors the matrix dF/dy + c dF/dy' of a residual form by KLU, for the Newton iterations of IDA
  * and CVODE BDF. Only their files include this header, and only if the build has SUNDIALS.
  *
  * KLU keeps its pivots as long as solutions are accurate. SUNDIALS itself would choose new pivots,
@@ -24,12 +24,12 @@ typedef struct baum_i_sundials_klu {
   double *entry;     /* (n) largest entry of each row of A */
   N_Vector right;    /* (n) scratch for the caller */
   N_Vector solution; /* (n) scratch for the caller */
-  bool fresh;        /* pivots were chosen for the present matrix */
+  bool fresh;        /* true if pivots were chosen for the present matrix, not for an earlier one */
 } baum_i_sundials_klu;
 
 /* Call this after sundials->problem is set. Returns BAUM_OK or BAUM_ERR_MEMORY. Close `klu` even
- * after a failure, after everything that calls it, and before the baum_i_sundials. A zeroed struct
- * may be closed. */
+ * after a failure. Close it after everything that calls it, and before the baum_i_sundials. A
+ * zeroed struct may be closed. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
@@ -47,9 +47,9 @@ int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
  * displacements (nv). c is the coefficient of the matrix. */
 int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b);
 
-/* Create a linear solver of SUNDIALS that consists of the functions `factor` and `solve`. They find
- * `content` in its member of this name. Free it with SUNLinSolFree(). Returns NULL if out of
- * memory. */
+/* Create a linear solver of SUNDIALS that consists of the functions `factor` and `solve`. Its
+ * member `content` is set to the argument `content`, so that these functions find it there. Free it
+ * with SUNLinSolFree(). Returns NULL if out of memory. */
 SUNLinearSolver baum_i_sundials_front(const baum_i_sundials *sundials, void *content,
                                       int (*factor)(SUNLinearSolver, SUNMatrix),
                                       int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,

@@ -9,10 +9,11 @@
  * Forces with a potential V do not change T + V, so they do not count as work. The powers of all
  * other forces are integrated over each step by a Gauss rule. At the nodes of this rule, which are
  * inside the step, lambda is computed from the equations that the run integrates, (5) or (7) of
- * docs/notation.md. Equation (5) is also used for the formulations of index 2 and 3. Motions by
- * these formulations satisfy J v = nu or Phi = 0, and the second line of (5), J a = gamma, is the
- * derivative of these equations. The gains of the stabilization change the multipliers by lambda_s.
- * With the matrix S = J M^-1 J^T of (5), the power of this change is
+ * docs/notation.md. Equation (5) is also used for the formulations of index 2 and 3. Motions that
+ * are integrated by these formulations satisfy J v = nu or Phi = 0. They therefore also satisfy the
+ * second line of (5), J a = gamma, which follows from these equations by differentiation. The gains
+ * of the stabilization change the multipliers by lambda_s. With the matrix S = J M^-1 J^T of (5),
+ * the power of this change is
  *
  *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
  *   (5).
@@ -23,8 +24,8 @@
  * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
  * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
  * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
- * the end of a shorter step from the same start. States inside a variable step are found in the
- * same way if the projection after the step is large, for example after a start off the
+ * the end of a shorter step from the same start. States inside a variable step are also found by
+ * shorter steps if the projection after the step is large, for example after a start off the
  * constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the projected state
  * and not at the state before the projection.
  *
@@ -60,8 +61,8 @@ struct baum_i_account {
   baum_workspace *workspace;
   baum_i_problem problem; /* the problem of the run, but with the workspace of the account */
   int nodes;
-  bool fresh; /* whether the method has taken no step since its last restart */
-  bool far;   /* whether the last projection moved the state far (see FAR) */
+  bool fresh; /* true if the method has taken no step since its last restart */
+  bool far;   /* true if the last projection moved the state far (see FAR) */
   /* Second instance of the method for shorter steps, or NULL if it is not needed. */
   void *stepper;
   baum_i_state from; /* state at the start of the last step */
@@ -196,9 +197,10 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 
 /* ---- works ---- */
 
-/* The power of some elements was computed from all of their forces, including forces that have a
- * potential. Add `factor` times the potentials of these elements to `works`. The potentials of
- * other elements are not added. */
+/* For some elements, the computed power contains all of their forces, even the forces that have a
+ * potential. The change of this potential, added to the integral of the power, removes the work of
+ * these forces, which must not count. Add `factor` times the potentials of these elements to
+ * `works`. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {
@@ -245,7 +247,8 @@ static baum_status add_projection(baum_i_account *account, double t, const doubl
   return BAUM_OK;
 }
 
-/* IDA may have started from another state than the given one. Move account->from to this state. */
+/* IDA may have moved the given initial state before its first step. Move account->from to the state
+ * at which IDA started, and count the change of energy as work of the projection. */
 static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
@@ -259,7 +262,7 @@ static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
   return BAUM_OK;
 }
 
-/* Tell whether the projection has moved a state by far more than the tolerances. */
+/* Tell whether the projection has moved a state by more than FAR tolerances. */
 static bool moved_far(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -299,8 +302,8 @@ static baum_status choose_nodes(baum_simulation *run, stretch *s)
   return status;
 }
 
-/* Add the works of the motion from account->from to `state`. If the formulation includes
- * projection, add the work of the projection, too. */
+/* Add to `works` the works of the motion from account->from to `state`. If the formulation includes
+ * projection, also add the work of the projection. */
 static baum_status work_to(baum_simulation *run, const baum_i_state *state,
                            double works[BAUM_I_WORKS])
 {
@@ -385,7 +388,8 @@ void baum_i_account_accept(baum_simulation *run)
   memset(run->account->last, 0, sizeof run->account->last);
 }
 
-/* Find the state at time t, which is inside the last step, before its projection. */
+/* Find the state at a time t inside the last step as it is before projection, and write it to
+ * account->unprojected. */
 static baum_status find_unprojected(baum_simulation *run, double t)
 {
   baum_i_account *account = run->account;

@@ -3,7 +3,7 @@
  *
  * Fixed step: times are origin + k h. A step is tried on the trial state, projected if the
  * formulation includes projection, and checked. Only then does the trial state become the present
- * state. A sample off the grid is a trial that is discarded.
+ * state. A sample between two grid times is the end of a trial step that is discarded afterwards.
  *
  * Variable step: the method takes whole steps, whose lengths it chooses, up to or beyond the
  * requested time. Reported states are interpolated inside the last step and projected if the
@@ -54,7 +54,7 @@ static void leave_grid(baum_simulation *run)
 }
 
 /* Search the step to t_next, which has just been tried, for events. If there is a terminal event,
- * keep the step up to the event and return BAUM_STOP_EVENT. */
+ * accept the step up to the event and return BAUM_STOP_EVENT. */
 static baum_status watch_step(baum_simulation *run, double t_next)
 {
   baum_status status = run->events ? baum_i_events_watch(run, t_next) : BAUM_OK;
@@ -81,7 +81,7 @@ static baum_status kept_step(baum_simulation *run, double t_next)
 typedef struct fixed_step {
   baum_i_break at; /* the next break */
   double on_grid;  /* [s] next time on the grid */
-  bool breaks;     /* the step ends at the break */
+  bool breaks;     /* true if the step ends at the break */
 } fixed_step;
 
 static fixed_step find_next(const baum_simulation *run, int direction)
@@ -118,8 +118,8 @@ static baum_status take_next(baum_simulation *run, int direction, const fixed_st
   return next->breaks ? break_step(run, next) : grid_step(run, direction, next->on_grid);
 }
 
-/* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid, or
- * less than a step before t. */
+/* Take all whole steps that do not pass t. Afterwards the present time is t if t is on the grid.
+ * Otherwise it is less than a step before t. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
@@ -156,7 +156,7 @@ static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   BAUM_I_TRY(baum_i_run_try_own_step(run));
-  /* Phi and Phi' at the end of the step are known if the last evaluation was that of its end. */
+  /* Phi and Phi' at the end of the step are known if this end was evaluated last. */
   bool known = !baum_i_crossings_step(run, &run->trial) && run->integrator->evaluates_end;
   if (run->account) {
     baum_i_account_step(run);
@@ -179,7 +179,8 @@ static void catch_up(baum_simulation *run)
   baum_i_run_copy(run, &run->ahead, &run->state);
 }
 
-/* Search the last step for events, up to t or its end. A terminal event sets the present state. */
+/* Search the last step for events up to t, or up to its end if it ends before t. If a terminal
+ * event is found, the state at the event becomes the present state. */
 static baum_status watch_last(baum_simulation *run, double t)
 {
   bool passed = run->problem.direction * (run->ahead.t - t) > 0.0;
@@ -238,8 +239,8 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- beginning and end of every call ---- */
 
-/* Set the direction of the run towards t. If a multistep method cannot restart from the present
- * state, the direction does not change. */
+/* Set the direction of the run towards t. If the method cannot restart from the present state, the
+ * direction does not change. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -280,9 +281,9 @@ static void begin_call(baum_simulation *run, public_call *c)
   c->before = baum_i_message_keep();
 }
 
-/* End a call. Evaluate and monitor its last state, which no step has evaluated. If the time limit
- * of the call has passed, the next call does this. Results then do not depend on the speed of the
- * machine. */
+/* End a call: evaluate and monitor its last state, because no step has evaluated it. If the call
+ * stops because its time limit has passed, this is left to the next call, so that results do not
+ * depend on the speed of the machine. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
@@ -296,7 +297,8 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_output(run, state);
   }
-  atomic_store(&run->cancelled, 0); /* including requests from user functions in this call */
+  /* this also discards requests that user functions have made in this call */
+  atomic_store(&run->cancelled, 0);
   run->counters.wall += baum_i_wall_seconds() - c->start;
   if (status == BAUM_OK && look != BAUM_OK) {
     return baum_i_run_fail(run, look);
@@ -321,7 +323,7 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
   return finish_call(simulation, advance(simulation, t, &c.taken), &c);
 }
 
-/* Take a step of the method's own length from the end of the last one. */
+/* Take a step from the end of the last step. The method chooses the length. */
 static baum_status own_step(baum_simulation *run)
 {
   BAUM_I_TRY(pass_breaks(run));

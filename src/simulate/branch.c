@@ -8,7 +8,7 @@
  * clear state after it. There their derivative p' is compared with the velocity v of the run:
  *
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
- *   error   the same for the difference of two polynomials of degrees 2 m - 1 and 2 m - 3
+ *   error   the same, with the difference of p' of two polynomials, of degrees 2 m - 1 and 2 m - 3
  *
  * m is the number of clear states through which p passes. It is chosen so that the error is as
  * small as possible.
@@ -29,7 +29,7 @@
 
 /* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
  * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
- * Over the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
+ * With the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
  * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, this is unknown. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
@@ -39,11 +39,11 @@ static const double KICK = 5e-4;
 static const double SURELY = 50.0;
 /* For jumps above LARGE_KICK, the smaller factor LIKELY replaces SURELY, because runs with such
  * jumps are mostly wrong after the next crossing. The estimated error depends on the steps and
- * therefore on the tolerance. In correct runs it may be more than ten times smaller than the true
- * error. */
+ * therefore on the tolerance. In correct runs, the estimated error may be more than ten times
+ * smaller than the true one. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
-/* A jump whose estimated error is larger than this is not judged. */
+/* If the estimated error of a jump is larger than this, the branch is unknown. */
 static const double KNOWN = 0.1;
 /* The steps resolve a turn if v changes by less than this fraction from step to step. */
 static const double SMALL_TURN = 0.4;
@@ -99,7 +99,7 @@ static double pivot_at(void *user, double t)
 }
 
 /* The search finds the time to within a millionth of the interval. The relative error of the pivot
- * is the square of this, because the pivot is smallest there. */
+ * is only about the square of this fraction, because the pivot has a minimum at this time. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {

@@ -12,8 +12,9 @@
 #include "base/hot.h"
 #include "simulate/run.h"
 
-/* Distance of the earlier side from b in rounding errors of the largest time with which the method
- * computes. It must be so large that the times of a method's stages are not rounded to b. */
+/* Distance of the earlier side from b, as a multiple of the rounding error of the largest time with
+ * which the method computes. It must be so large that the times of a method's stages are not
+ * rounded to b. */
 static const double ROUNDINGS = 16.0;
 
 /* Return the distance from the earlier side of a break to b. */

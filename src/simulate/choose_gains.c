@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chooses the gains of a run. For this purpose, it finds the rate of the motion, which the rule
- * `auto` requires. */
+/* Chooses the gains of a run. If the gain rule is `auto`, it first finds the rate of the motion,
+ * which this rule requires. */
 #include <math.h>
 
 #include "base/alloc.h"
@@ -11,7 +11,8 @@
 /* [1/s] In a mechanism without gravity, accelerations count as rounding errors if sqrt(|a| / scale)
  * is below this. With gravity, AT_REST gives the limit. */
 static const double ROUNDING_RATE = 1e-7;
-/* The limit with gravity, relative to the rate at which gravity makes the mechanism swing. */
+/* The same limit for mechanisms with gravity, relative to the rate at which gravity makes the
+ * mechanism swing. */
 static const double AT_REST = 1e-3;
 
 double baum_i_rest_rate(const baum_mechanism *m)
@@ -97,7 +98,8 @@ static baum_status copy_row_gains(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Keep the worst amplification that any row of the run has. */
+/* Update run->gains with the choice for one row, such that it contains the worst amplification and
+ * the smallest step limit of all rows. */
 static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 {
   baum_i_gain_choice *all = &run->gains;
@@ -107,15 +109,16 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
-/* A factor of a row was refused. Add the name of the row to the message. */
+/* The gains that result from a factor of row_gains were refused. Add the name of the row to the
+ * message. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row],
                      baum_i_row_label(run->workspace->mechanism, row).text, baum_message());
 }
 
-/* Check the gains of all rows. Successive rows of one kind with the same factor are checked only
- * once. */
+/* Check the gains of all rows. Successive rows that have the same factor and are all of position
+ * level, or all of velocity level, are checked only once. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;

@@ -3,18 +3,20 @@
  * run.
  *
  * Fixed-step methods have no tolerance, and they take many short steps where rk8 with projection
- * takes one long step. Beside a fixed-step run, the companion therefore uses rk8, and this costs
+ * takes one long step. If the run has a fixed step, the companion therefore uses rk8, which costs
  * little compared with the run. The companion starts as soon as the error of the run may matter.
- * This is so when the sum of the run's local errors, multiplied by 1e4, would be large. Beside a
- * variable-step run with a loose tolerance, the companion starts when the run first crosses a
- * singular configuration, because crossings amplify errors. The first state of the companion is a
- * state that the run had some steps earlier, when it was still accurate. If run and companion
- * differ by more than DOUBTFUL for some time, the run warns. Short peaks of the difference are
- * ignored. They occur, for example, if a light rod flips a little too late.
+ * This is the case when the sum of the run's local errors is so large that, amplified by 1e4, it
+ * would make the result wrong. If the run has variable steps and a loose tolerance, the companion
+ * starts when the run first crosses a singular configuration, because crossings amplify errors. The
+ * first state of the companion is a state that the run had some steps earlier, when it was still
+ * accurate. If run and companion differ by more than DOUBTFUL for some time, the run warns. Short
+ * peaks of the difference are ignored. They occur, for example, if a light rod flips a little too
+ * late.
  *
- * With the option error_check, the companion starts together with the run. Beside a variable-step
- * run it then uses the method of the run with 0.03 times the tolerance. With 0.1 times the
- * tolerance, run and companion had the same wrong motion in one of 2000 mechanisms.
+ * With the option error_check, the companion starts together with the run. If the run has variable
+ * steps, the companion then uses the method of the run with 0.03 times the tolerance. A factor of
+ * 0.1 is not enough: with it, run and companion had the same wrong motion in one of 2000
+ * mechanisms.
  *
  * The companion has its own workspace. Its evaluations therefore do not change the solver or the
  * counters of the run. The companion ends if it fails, or if it costs too much compared with the
@@ -39,18 +41,19 @@ static const double LASTING = 0.1;
 /* The warning recommends a step with which the run would have about this error. FINE is well below
  * DOUBTFUL, because the error continues to grow after the warning. */
 static const double FINE = 0.002;
-/* If the sum of local errors is below this, no companion is necessary. Multiplied by 1e3, such a
- * sum is negligible. Multiplied by 1e4, it does not make the result wrong. */
+/* If the sum of local errors is below this, no companion is necessary, although the motion may
+ * amplify errors: an amplification by 1e3 leaves the error negligible, and one by 1e4 does not make
+ * the result wrong. */
 static const double NEGLIGIBLE = 1e-5;
-/* As long as no local error has been estimated, errors may matter if (angle of a step)^order is
- * above this. */
+/* At the start no local error has been estimated. The companion then starts at once if (step * rate
+ * of the motion)^order is above this. */
 static const double COARSE = 1e-3;
 /* Tolerance rtol of rk8 as a companion. Even if errors are multiplied by 1e3 during the motion, the
  * error of the companion stays below 0.01. A result with this error counts as correct. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8; /* the same with error_check */
-/* Tolerance of a companion relative to that of a variable-step run, without error_check and with
- * it. */
+/* If the run has variable steps: tolerance of the companion relative to the tolerance of the run,
+ * without error_check (TIGHTER) and with it (TIGHTER_OF_CHECK). */
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
 /* Largest tolerance of a companion with error_check, relative to that of the run. With a larger
@@ -58,17 +61,17 @@ static const double TIGHTER_OF_CHECK = 0.03;
 static const double LARGEST_PART_OF_CHECK = 0.5;
 static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
 /* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST applies
- * if the user has not requested the companion, which must then not slow the run down much. FREE
- * further evaluations are always allowed, because short runs with long steps take only few
- * evaluations. */
+ * without error_check. The user has then not requested the companion, so it must not slow the run
+ * down much. FREE further evaluations are always allowed, because short runs with long steps take
+ * only few evaluations. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
 
 enum {
   STRIDE = 8, /* number of steps between two stored states */
-  /* The local errors of some steps are unknown. The error of the run is unknown if these are more
-   * than UNSEEN steps and more than a quarter of all steps. */
+  /* The local errors of some steps are unknown. The error of the run is unknown if there are more
+   * than UNSEEN such steps and they are more than a quarter of all steps. */
   UNSEEN = 16
 };
 
@@ -217,7 +220,7 @@ static void warn_if_apart(baum_simulation *run, double t, bool output)
 
 /* ---- following the run ---- */
 
-/* Find the companion's state at time t of the run. This time is inside the last step of the
+/* Write the companion's state at time t to c->at. This time is inside the last step of the
  * companion. */
 static baum_status interpolate_at(baum_simulation *run, double t)
 {

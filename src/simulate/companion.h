@@ -9,8 +9,8 @@
 /* Tell whether a run needs a companion. run->problem must already be set. */
 bool baum_i_companion_is_wanted(const baum_simulation *run);
 
-/* Create the companion, which starts at the trial state of the run. Returns BAUM_OK,
- * BAUM_ERR_MEMORY or BAUM_ERR_UNSUPPORTED. */
+/* Create the companion. It starts at the trial state of the run. Returns BAUM_OK, BAUM_ERR_MEMORY
+ * or BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_companion_create(baum_simulation *run);
 void baum_i_companion_destroy(baum_i_companion *companion);
 

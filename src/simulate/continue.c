@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates a run that continues from the present state of another run. Both runs belong to the same
- * mechanism, but the new run has its own options. */
+/* Lets a run continue from the present state of another run. Both runs belong to the same
+ * mechanism, but each run has its own options. */
 #include "base/alloc.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/coordinate.h"

@@ -3,7 +3,7 @@
  *
  * The pivot p of a state is the smallest pivot in the solution of the equations at this state. p is
  * divided by the largest p of the run so far. Near a singular configuration p is proportional to
- * the square of the distance, so sqrt(p) falls linearly to zero and rises again linearly.
+ * the square of the distance from it, so sqrt(p) falls linearly to zero and rises again linearly.
  *
  * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
  *   last state before it and the first state after it.
@@ -11,8 +11,8 @@
  *   states, and its slopes are so steep that it could be zero between them, the run searches for
  *   the least p of the motion through the three states.
  * - If the least p < SINGULAR and J loses rank there, the interval is a crossing. The run then
- *   records it, decides which branch the motion has taken (branch.c), and warns. In all other
- *   intervals, pivots are only smaller than usual. */
+ *   records it, decides which branch the motion has taken (branch.c), and warns. All other
+ *   intervals are not crossings: their pivots are only smaller than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -22,8 +22,9 @@
 #include "base/sized.h"
 #include "mechanism/definition.h"
 
-/* Largest pivot of a crossing. The distance from the singular configuration is then at most a
- * thirtieth of the usual one. */
+/* An interval counts as a crossing if J loses rank and its smallest pivot is below this. sqrt(p) is
+ * then at most a thirtieth of its usual value, and so is the distance from the singular
+ * configuration. */
 static const double SINGULAR = 1e-3;
 
 /* Value of lowest.pivot after the crossing has been recorded. The interval then continues without
@@ -191,7 +192,7 @@ static void open_crossing(baum_i_crossings *p, double from)
   p->present = (baum_i_crossing){.from = from, .joint = -1};
 }
 
-/* Tell whether a pivot is that of a singular configuration, or of a gap that a violation has
+/* Tell whether a pivot belongs to a singular configuration, or to a gap that a violation has
  * caused. */
 static bool is_singular(baum_simulation *run, double pivot)
 {
@@ -199,8 +200,9 @@ static bool is_singular(baum_simulation *run, double pivot)
 }
 
 /* Tell whether all rows of J together, active and omitted, keep their rank although the pivot is
- * small. There are two causes: the active rows alone lose rank, or a body is light. When a light
- * rod comes taut, for example, the pivot falls to the ratio of the masses, but no further. */
+ * small. This has two possible causes: the active rows alone lose rank, or a body is light. When a
+ * light rod comes taut, for example, the pivot falls to the ratio of the masses, but not to
+ * zero. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
@@ -235,7 +237,8 @@ static void search_least_pivot(baum_simulation *run)
   }
 }
 
-/* Examine the last state, which is near-singular, for the smallest pivot. */
+/* The last state is near-singular. If it has the smallest pivot of the interval, store this pivot
+ * and find out whether there is a gap. */
 static void examine_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
@@ -291,7 +294,8 @@ static void decide_crossing(baum_simulation *run)
   }
 }
 
-/* End a crossing. The violation that may have caused a gap is known only now. */
+/* End an interval, and record it if it was a crossing. This is decided only now, because the
+ * violation that may have caused a gap was not known before. */
 static void close_crossing(baum_simulation *run)
 {
   decide_crossing(run);
@@ -400,7 +404,7 @@ void baum_i_crossings_end(baum_simulation *run)
   p->usual = 0.0;
 }
 
-/* Find the pivots of states again. Raise *usual to the largest of them. */
+/* Recompute the pivots of `knots`, and raise *usual to the largest of them. */
 static baum_status find_pivots(baum_workspace *w, baum_i_knot *knots, int count, double *usual)
 {
   for (int k = 0; k < count; k++) {
@@ -438,8 +442,8 @@ void baum_i_crossings_renew(baum_simulation *run)
 /* ---- steps of variable length ---- */
 
 /* States inside a step are examined if the step may lead across a singular configuration: if it
- * moves more than LONG [rad] and the smaller pivot of its ends is below PIVOT, or if it moves more
- * than LONG_NEAR and this pivot is below PIVOT_NEAR. */
+ * moves the mechanism by more than LONG [rad] and the smaller of the pivots at its ends is below
+ * PIVOT, or if it moves the mechanism by more than LONG_NEAR and this pivot is below PIVOT_NEAR. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
@@ -512,7 +516,8 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   int64_t most = count < BAUM_I_NEAR_SINGULAR_KEPT ? count : BAUM_I_NEAR_SINGULAR_KEPT;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
-  if (entry.joint.index1 > 0) { /* a restored run may belong to a mechanism with another tag */
+  /* in a restored run, the id may contain the tag of another mechanism */
+  if (entry.joint.index1 > 0) {
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
   baum_i_give_sized(out, caller_size, &entry, sizeof entry);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Singularity crossings: monitors how a run passes near singular configurations. singular_step.c
- * changes steps there. */
+/* Singularity crossings: monitors how a run passes near singular configurations. Steps that begin
+ * or end near such configurations are changed in singular_step.c. */
 #ifndef BAUM_I_SIMULATE_CROSSING_H
 #define BAUM_I_SIMULATE_CROSSING_H
 
@@ -9,12 +9,13 @@
 
 enum {
   BAUM_I_NEAR_SINGULAR_KEPT = 64, /* number of stored intervals; later ones are only counted */
-  BAUM_I_RECENT = 3               /* states */
+  BAUM_I_RECENT = 3               /* number of stored recent states */
 };
 
 /* A crossing that has begun, or that has been found between two steps. */
 typedef struct baum_i_crossing {
-  double from;         /* [s] last state before it that was not near-singular */
+  /* [s] time of the last state before the crossing that was not near-singular */
+  double from;
   double largest_turn; /* [-] largest relative change of the velocity in a step */
   /* 1: the pivots indicate a gap between branches instead of a singular configuration */
   int32_t gap;
@@ -22,19 +23,20 @@ typedef struct baum_i_crossing {
 } baum_i_crossing;
 
 struct baum_i_crossings {
-  /* The members before `recent` are plain numbers, which are saved. */
+  /* The members before `recent` are plain numbers. They are part of a saved run. */
   double usual; /* largest pivot so far */
   baum_i_crossing present;
   int32_t recent_count;
   int32_t clear_count;
   int32_t open;
   int32_t unseen;      /* 1: the last recent state has not been examined */
-  int32_t joint_noted; /* joint of the smallest pivot of that state, or -1 */
+  int32_t joint_noted; /* joint of the smallest pivot of the last recent state, or -1 */
 
   baum_i_knot recent[BAUM_I_RECENT]; /* last states in order of time */
   /* clear states, which are far from singular ones and from each other */
   baum_i_knot clear[BAUM_I_HERMITE_MOST];
-  baum_i_knot at; /* scratch: states between others */
+  /* `at`, `other` and `between` are scratch memory for states between the recent ones */
+  baum_i_knot at;
   baum_i_knot other;
   baum_i_knot between;
   baum_i_knot lowest; /* t, pivot and q of the lowest pivot of the present crossing */
@@ -56,24 +58,25 @@ void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is allowed *
 /* Discard the states, because another motion begins. */
 void baum_i_crossings_forget(baum_i_crossings *crossings);
 
-/* Note a state of the run. The last solution must be that of this state. Evaluates nothing. */
+/* Store a state of the run and its pivot. The function evaluates nothing, so the last solution in
+ * the workspace must belong to this state. */
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
-/* End the present crossing, because later pivots cannot be compared with earlier ones. crossings
- * must not be NULL. */
+/* End the present crossing and discard the states, because later pivots cannot be compared with
+ * earlier ones. crossings must not be NULL. */
 void baum_i_crossings_end(baum_simulation *run);
 
-/* Find the pivots of the last states again after other rows have been omitted. They can then be
+/* Recompute the pivots of the last states after other rows have been omitted, so that they can be
  * compared with later pivots. An open interval stays open. crossings must not be NULL. */
 void baum_i_crossings_renew(baum_simulation *run);
 
-/* Examine the state that was noted last. May evaluate. Failures of user functions are not
- * reported. */
+/* Examine the state that was noted last. This may evaluate the mechanism, but failures of user
+ * functions are not reported. */
 void baum_i_crossings_look(baum_simulation *run);
 
 /* Note a variable step that has just been taken. Returns true if this function has evaluated
- * accelerations, so that the workspace may contain those of another state than the end of the step.
- * Call baum_i_crossings_look() for the end of the step afterwards. */
+ * accelerations, so that the workspace may contain the accelerations of another state than the end
+ * of the step. Call baum_i_crossings_look() for the end of the step afterwards. */
 bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: decide on which branch the motion has left the singular configuration. For this,
@@ -81,8 +84,8 @@ bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
  * Write the result to *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
-/* branch.c: return the least pivot, relative to the usual one, of the motion through `knots`, and
- * its time and joint. Returns INFINITY if evaluations fail. */
+/* branch.c: return the least pivot, relative to the usual one, of the motion through `knots`. Write
+ * its time to *at and its joint to *joint. Returns INFINITY if evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint);
 
@@ -90,8 +93,8 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, const double *w);
 
 /* branch.c: tell whether there is a gap between branches instead of a singular configuration. The
- * first function examines the last recent state. The second examines a time t among the recent
- * states, at which the motion has the given pivot. */
+ * first function examines the last recent state. The second examines the motion at a time t between
+ * the recent states, where it has the given pivot. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 

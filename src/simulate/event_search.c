@@ -8,10 +8,10 @@
  * The sign of g is compared at the quarters of each step, at outputs, and at the end of the step.
  * At a quarter, g is first computed for an approximate state that costs little: the interpolant
  * without projection, or the cubic polynomial through both ends of the step. The accurate state is
- * computed only if the approximate state shows another sign. Interpolants of successive steps do
- * not meet exactly. The side of zero on which each event was is therefore stored from one check to
- * the next, and from one step to the next. Because of this, no event is found twice, and none is
- * lost.
+ * computed only if g has changed its sign at the approximate state. Interpolants of successive
+ * steps do not meet exactly. Therefore, the run stores on which side of zero the value of each
+ * event is, from one check to the next and from one step to the next. Because of this, no event is
+ * found twice, and none is lost.
  *
  * When g has different signs at two times, the secant method finds the zero between them. It uses
  * the weights of Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects the
@@ -57,9 +57,9 @@ static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out
   baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
-/* If only a smaller fraction than this of a step is wanted, the cubic polynomial equals the motion
- * up to rounding. The polynomial is then used instead of a step, because some methods divide by the
- * length of the step. */
+/* If a time is closer to the start of a step than this fraction of the step, the cubic polynomial
+ * equals the motion up to rounding. It then replaces a step to this time, because some methods
+ * divide by the length of the step. */
 static const double SHORTEST = 1e-9;
 
 static baum_status find_state_by_step(baum_simulation *run, double t)
@@ -206,7 +206,8 @@ static void record_event(baum_simulation *run, int k, double t)
   events->recorded++;
 }
 
-/* Tell whether event k only leaves zero after the start. This does not count as an event. */
+/* Tell whether the value of event k was zero when the search started and only leaves zero now. This
+ * does not count as an event. */
 static bool leaves_zero(const baum_simulation *run, int k)
 {
   const baum_i_events *events = run->events;
@@ -286,7 +287,8 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
-/* Deliver events to the user in the order of their times. Stop after the first terminal event. */
+/* Record the events that were found, in the order of their times. At the first terminal event, stop
+ * the run. */
 static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
@@ -299,8 +301,8 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Tell whether the value of any event has changed its side of zero. If `leaving` is true, a value
- * that leaves zero also counts. */
+/* Tell whether the value of any event has passed to the other side of zero. If `leaving` is true, a
+ * value that leaves zero also counts. */
 static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
   bool any = false;

@@ -157,8 +157,8 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 
 /* ---- start of the search ---- */
 
-/* Fraction of 1/rate within which times count as equal. It applies to methods that start exactly at
- * the given state. */
+/* Times count as equal if they differ by less than this fraction of 1/rate. This applies to methods
+ * that start exactly at the given state. */
 static const double NO_TIME = 1e-10;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
@@ -189,8 +189,8 @@ void baum_i_events_begin(baum_simulation *run)
 }
 
 /* An event that has just been recorded may seem to happen again at once. This is so if a method
- * starts with a small difference from the state, or if the run changes its direction. It then
- * counts as an event that leaves zero, which is not recorded. */
+ * restarts from a slightly different state, or if the run changes its direction. It then counts as
+ * an event that leaves zero, which is not recorded. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   take_values(run, false);

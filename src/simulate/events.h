@@ -15,8 +15,8 @@ typedef struct baum_i_event_mark {
   double value;
   double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
-  /* 1 if the value has not passed zero since the start; if it then leaves zero, this is not an
-   * event. */
+  /* 1: the value has not passed zero since the search started. If it was zero then and leaves zero
+   * now, this is not an event. */
   int32_t fresh;
 } baum_i_event_mark;
 
@@ -31,7 +31,7 @@ typedef struct baum_i_event {
 struct baum_i_events {
   /* The members before `list` are plain numbers. They are part of a saved run. */
   int64_t recorded;
-  double t;     /* the motion has been searched up to t */
+  double t;     /* [s] time up to which the motion has been searched */
   double begin; /* [s] time at which the search was last started */
   double from;  /* [s] start of the last step, for variable steps */
 
@@ -59,7 +59,7 @@ void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 
 /* Search the motion for events up to the time `to`. With fixed steps, the trial state must be the
- * end of a step to `to`. The search may overwrite the trial state, and then it repeats this step.
+ * end of a step to `to`. If the search overwrites the trial state, it repeats this step at the end.
  * Returns BAUM_STOP_EVENT if an event has stopped the run, with the trial state at the event.
  * Otherwise returns BAUM_OK or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);

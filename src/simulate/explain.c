@@ -101,8 +101,8 @@ static void explain_solver(baum_simulation *run)
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
   } else if (run->integrator->solves_residuals) {
-    /* The integrator solves with its own matrix. The solver for accelerations solves equation (5)
-     * only at the start and for outputs. */
+    /* The integrator solves with its own matrix. The solver for accelerations is used only at the
+     * start and for outputs, to solve equation (5) of docs/notation.md. */
     say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n",
         text.text);
   } else {

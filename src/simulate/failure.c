@@ -3,9 +3,10 @@
  * are probably the cause, and advice. The function that failed has already set a message with the
  * time and the step.
  *
- * For this purpose, equation (5) is solved once at the last good step. The solution shows
+ * For this purpose, equation (5) of docs/notation.md is solved once at the end of the last good
+ * step. The solution shows
  *
- *   the joint with the largest violation, if it is large, otherwise with the largest multiplier
+ *   the joint with the largest violation; if this is small, the joint with the largest multiplier
  *   the body with the largest acceleration
  *
  * All these quantities are compared relative to the scales. */

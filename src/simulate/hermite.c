@@ -15,7 +15,8 @@
 
 #include <string.h>
 
-/* The factors by which q_k and q'_k of one knot are multiplied. */
+/* The factors of one knot: p(t) contains q q_k + v q'_k, and p'(t) contains q_rate q_k + v_rate
+ * q'_k. */
 typedef struct factors {
   double q;
   double v;

@@ -32,8 +32,7 @@ void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m
   }
 }
 
-/* For q that is not a vector, compute dq without its last term (h/2) N dv, as a displacement
- * (nv). */
+/* If q is not a vector, compute dq without its last term (h/2) N dv, as a displacement (nv). */
 static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
                                           double h)
 {

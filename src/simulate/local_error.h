@@ -13,11 +13,12 @@ typedef struct baum_i_local_error {
   double *a[BAUM_I_ACCELERATIONS]; /* (nv) at the starts of the last steps, newest first */
   double t;                        /* [s] start of the last step */
   double h;                        /* [s] length of the step that ended at t */
-  int known;                       /* number of accelerations at equal distances */
+  /* number of valid entries of `a`; the steps between them have equal lengths */
+  int known;
 } baum_i_local_error;
 
 /* The first function returns how many numbers the arrays of a baum_i_local_error need. The second
- * function places the arrays in memory for this many numbers. */
+ * function places the arrays in `numbers`, which has room for this many numbers. */
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 

@@ -56,9 +56,9 @@ static void observe_singular(baum_simulation *run, double t)
 
 /* Omitted rows depend on the others only if the constraints do not contradict each other and the
  * motion stays on its branch. At a distance d from a configuration in which the active rows alone
- * are singular, the violation of the omitted rows may be 1/d times that of the active rows. Very
- * close to this configuration, the violation of the omitted rows may be the square root of that of
- * the active rows. A larger violation is a contradiction. */
+ * are singular, the violation of the omitted rows may be 1/d times the violation of the active
+ * rows. Very close to this configuration, the violation of the omitted rows may be as large as the
+ * square root of the violation of the active rows. A larger violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -126,8 +126,8 @@ static double allowed_violation(const baum_simulation *run)
   return fmin(LARGE, allowed);
 }
 
-/* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the errors
- * of the steady formulas are above 10 %. */
+/* If gains are below this fraction of 1/h, the violation follows gamma with a delay, and the
+ * formulas for the steady violation have errors above 10 %. */
 static const double STEADY_GAIN = 0.1;
 
 /* Predict the steady violation of both Euler methods: |Phi'| = h |gamma| / 2, |Phi| = alpha h
@@ -252,8 +252,8 @@ void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end)
 
 /* ---- counters ---- */
 
-/* The counters that add up counts of solvers and methods in this process and, for a restored run,
- * counts of earlier processes. */
+/* The counters of the work of solvers and methods. In a restored run, they also include the work
+ * that was done before the run was saved. */
 static const size_t COUNTED[BAUM_I_WORK] = {
   offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
   offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),

@@ -26,7 +26,8 @@ static baum_status check_finite(const baum_simulation *run, const baum_i_state *
   return kernel->is_finite(m->nq + m->nv, state->q) ? BAUM_OK : fail_not_finite(run, state);
 }
 
-/* Add the time to the message of a callback, which does not contain it. */
+/* Add the time to the message of a failed callback, because this message does not contain the
+ * time. */
 static baum_status explain(baum_simulation *run, baum_status status)
 {
   if (status == BAUM_OK) {

@@ -219,7 +219,7 @@ static baum_status check_row_gains(const baum_simulation_options *o)
 }
 
 /* Check tolerance_lambda. It is allowed only at index 1, because multipliers are as smooth as
- * accelerations there. In the other forms, the error estimate of an implicit method does not
+ * accelerations there. In the other formulations, the error estimate of an implicit method does not
  * decrease with the step as fast as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the channels, which are the outputs of a run in one state. Accelerations, multipliers
- * and reactions require a solution of equation (5). It is computed only if a channel needs it, and
- * only once for each row of output. */
+ * and reactions require a solution of equation (5) of docs/notation.md. It is computed only if a
+ * channel needs it, and only once for each row of output. */
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -291,8 +291,9 @@ static int fill_slice(const baum_workspace *w, const baum_i_state *state, const 
   return s.count;
 }
 
-/* Compute the acceleration of a point, r'' = a + alpha p' - w^2 p. p is the vector from the centre
- * of the body to the point, and p' is p rotated by 90 degrees (mechanism/planar/planar.h). */
+/* Compute the acceleration of a point, r'' = a + alpha p' - w^2 p. a and alpha are the linear and
+ * angular accelerations of the body, w is its angular velocity, p is the vector from the centre of
+ * the body to the point, and p' is p rotated by 90 degrees (mechanism/planar/planar.h). */
 static void fill_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
 {
   const double *p = marker->arm;
@@ -302,8 +303,9 @@ static void fill_acceleration(const baum_i_marker *marker, const double a[3], do
   out[2] = a[2];
 }
 
-/* Compute the acceleration of a point in space, r'' = a + A (w' x s + w x (w x s)). s is the point
- * in body axes, and A the rotation matrix of the body. */
+/* Compute the acceleration of a point in space, r'' = a + A (w' x s + w x (w x s)). a is the
+ * acceleration of the centre of the body, and A its rotation matrix. The angular velocity w and the
+ * point s are in body axes. */
 static void fill_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
                                       const double a[6], double out[6])
 {
@@ -373,7 +375,7 @@ static int fill_joint(const baum_workspace *w, const baum_channel *c, double *ou
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    /* The row of J of this coordinate is the gradient of the coordinate. */
+    /* The row of J of this coordinate is its gradient, so the effort is -lambda. */
     out[0] = -w->lambda[joint->row];
     return 1;
   }

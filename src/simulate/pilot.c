@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pilot is a short run that finds the mean rate of a motion over its first radians. |v| / L and
- * |a| / L are the scaled sizes of the velocities and accelerations:
+/* A pilot is a short run that finds the mean rate of a motion over its first radians. If |v| / L
+ * and |a| / L denote the sizes of the velocities and accelerations relative to the scales,
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restarts a run after an abrupt change. The change may be that of an input, of the law of a
- * driver, of the set of omitted rows, or of a function at a break.
+/* Restarts a run after an abrupt change. The change may concern an input, the law of a driver, the
+ * set of omitted rows, or a function that jumps at a break.
  *
  * A fixed-step method without a history computes every step from the present state alone, so it
- * needs no restart. A variable-step method has a history, and it must restart from the present
- * state. The present state may be before the end of the method's last step. */
+ * needs no restart. All other methods have a history, and must restart from the present state. With
+ * variable steps, the present state may be before the end of the method's last step. */
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"

@@ -18,8 +18,8 @@ static void tell_others(baum_simulation *run)
   }
 }
 
-/* Project the present state before other rows are omitted. If the kept rows are ill-conditioned,
- * the omitted rows are violated more than the kept rows. Without the projection, the violation
+/* Project the present state before other rows are omitted. If the active rows are ill-conditioned,
+ * the omitted rows are violated more than the active rows. Without the projection, the violation
  * would grow tenfold each time other rows are chosen. A state that the user has just given with
  * BAUM_START_AS_GIVEN is not changed. */
 static void project_present(baum_simulation *run)

@@ -13,10 +13,11 @@
 enum {
   BAUM_I_WARNINGS = 24, /* more than the number of kinds of warnings */
   BAUM_I_EXPLAIN_SIZE = 3072,
-  BAUM_I_WORK = 5 /* number of counts that solvers and methods keep, see monitor.c */
+  BAUM_I_WORK = 5 /* number of counters of the work of solvers and methods; see monitor.c */
 };
 
-/* The time of a fixed-step method is origin + k step, and not a sum of steps. */
+/* The time grid of a fixed-step method. A grid time is computed as origin + k times the step,
+ * because a sum of k steps would accumulate rounding errors. */
 typedef struct baum_i_grid {
   double origin;
   int64_t k;
@@ -31,7 +32,7 @@ typedef struct baum_i_jump {
 } baum_i_jump;
 
 typedef struct baum_i_schedule {
-  baum_i_jump *jumps; /* (room) in order of time */
+  baum_i_jump *jumps; /* (room) the first `count` entries are used, in the order of time */
   int count;
   int room;
 } baum_i_schedule;
@@ -43,17 +44,19 @@ typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
-  /* The members before `options` are plain numbers, which are saved. */
+  /* The members before `options` are plain numbers. They are part of a saved run. */
   baum_i_grid grid;
-  double origin; /* [s] time of the last restart of the method; the method may use t - origin */
+  /* [s] time of the last restart; the method may compute with t - origin instead of t */
+  double origin;
   double start_energy;
-  double largest_gamma;  /* largest |gamma_i| of all rows i and all steps */
-  double rows_looked_at; /* [s] last check of the redundant rows with KLU or QR; see rows.c */
-  double judged_phi;     /* max_phi when it was last compared with its limit */
-  /* max_phi_rate when it was last compared, for rows of velocity level */
+  double largest_gamma; /* largest |gamma_i| of all rows i and all steps */
+  /* [s] time of the last check of the redundant rows if KLU or QR solves; see rows.c */
+  double rows_looked_at;
+  double judged_phi; /* max_phi when it was last compared with its limit */
+  /* max_phi_rate when it was last compared with the limit for rows of velocity level */
   double judged_phi_rate;
   int64_t near_singular_seen; /* workspace->near_singular at the last check */
-  /* how many occurrences of each warning a status has announced */
+  /* for each entry of `warnings`: number of occurrences that a status BAUM_WARNED has reported */
   int64_t announced[BAUM_I_WARNINGS];
   baum_counters counters;
 
@@ -67,25 +70,27 @@ struct baum_simulation {
    * NULL: the option is not given */
   double *row_gains;
   baum_i_account *account; /* energy account, see account.h; NULL: none */
-  baum_workspace
-    *beside[2]; /* account's and companion's workspaces, or NULL; both call user functions */
+  /* workspaces of the account [0] and the companion [1], or NULL; they also call user functions */
+  baum_workspace *beside[2];
   baum_i_events *events;       /* see events.h; NULL: no events */
   baum_i_companion *companion; /* see companion.h; NULL: no error estimate */
 
   baum_i_crossings *crossings; /* see crossing.h; NULL: crossings are not monitored */
 
-  double *parameters;       /* own copy after a driver law has been set, else NULL */
+  /* the run's own copy, made when a driver law is first set; until then NULL */
+  double *parameters;
   baum_i_schedule schedule; /* schedule of the inputs */
   double *memory;           /* memory of the arrays below */
   baum_i_state state;       /* present state, which is reported */
   baum_i_state ahead;       /* variable step: end of the last step of the method */
-  baum_i_state trial;       /* end of a tried step, or a sample that is not part of the motion */
-  baum_i_state spare;       /* further state for steps near a singular configuration */
-  double *acceleration;     /* (nv) at the start of a step */
+  /* end of a tried step, or a state that is only reported and is not part of the motion */
+  baum_i_state trial;
+  baum_i_state spare;   /* further state for steps near a singular configuration */
+  double *acceleration; /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* fingerprint of the mechanism */
-  /* work that other processes have done for a restored run, minus the counts of this process before
-   * the run was restored */
+  /* numbers added to the counts of this process, so that the counters of a restored run continue
+   * from the saved values; 0 if the run was not restored */
   int64_t work_before[BAUM_I_WORK];
   baum_warning warnings[BAUM_I_WARNINGS]; /* one entry for each kind of warning */
   char explain[BAUM_I_EXPLAIN_SIZE];
@@ -97,7 +102,8 @@ struct baum_simulation {
   double time_limit;    /* [s] largest wall time of a call */
   double deadline;      /* [s] wall time at which the present call stops */
   bool reporting;       /* true while progress() runs */
-  double paced_at;      /* [s] time of the last check of the pace of this call */
+  /* [s] time in the motion at which the lengths of the steps were last checked; see interrupt.c */
+  double paced_at;
 };
 
 /* ---- run.c ---- */
@@ -106,8 +112,9 @@ struct baum_simulation {
  * array. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints in space: set the angles in the workspace to those of a state,
- * plus the revolutions that keep them continuous. Returns the result of baum_i_follow_angles(). */
+/* Count the revolutions of joints and forces of spatial mechanisms: set the angles in the workspace
+ * to those of a state, plus the whole revolutions that make them continuous. Returns the result of
+ * baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
 /* Call baum_i_run_follow_angles() at the end of a step, unless all angles are still near to their
@@ -131,8 +138,8 @@ static inline double baum_i_run_last_end(const baum_simulation *run)
  * workspace. */
 void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
-/* Create a workspace with the solver and the omitted rows of the run. Returns the statuses of
- * baum_i_workspace_create() and baum_i_use_blocks(). */
+/* Create a workspace that uses the same solver and omits the same rows as the workspace of the run.
+ * Returns the statuses of baum_i_workspace_create() and baum_i_use_blocks(). */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
 
 enum { BAUM_I_NO_JOINT = -1 };
@@ -154,8 +161,8 @@ baum_status baum_i_run_finish(baum_simulation *run);
 /* Store the message of a failure in the run and return the status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
-/* Check the arguments of a call that fills a sized struct from a run. Returns BAUM_OK or
- * BAUM_ERR_ARGUMENT. */
+/* Check the arguments of a public function that fills a struct of caller_size bytes from a run.
+ * Returns BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
                                  const char *call);
 
@@ -178,12 +185,13 @@ baum_status baum_i_run_check_velocities(baum_simulation *run);
  * state. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, whose energy is known, the present state. A new time grid begins there, and
- * changes of energy count from there. */
+/* Make the trial state, whose energy is known, the present state. A new time grid begins at its
+ * time, and changes of energy are measured from its energy. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
-/* Do what baum_simulation_set_state() does. The counted revolutions are those that are nearest to
- * the angles in the workspace, which need not be the angles of the present state. */
+/* Do what baum_simulation_set_state() does. The number of revolutions of each angle is chosen such
+ * that the angle is nearest to its value in the workspace. The workspace need not contain the
+ * angles of the present state. */
 baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q, const double *v);
 
 /* ---- choose_gains.c, pilot.c ---- */
@@ -192,12 +200,13 @@ baum_status baum_i_run_set_state(baum_simulation *run, double t, const double *q
  * workspace. It is 0 if nothing moves and there is no gravity. */
 double baum_i_run_start_rate(const baum_simulation *run);
 
-/* [1/s] Return the rate below which velocities are rounding errors. */
+/* [1/s] Return the rate below which velocities count as rounding errors. */
 double baum_i_rest_rate(const baum_mechanism *m);
 
 /* [1/s] Return the mean rate over a short pilot run from the trial state, whose accelerations must
- * be in the workspace. Overwrites run->ahead, run->state and the workspace. swing [1/s] is the
- * least rate for which steps are chosen. */
+ * be in the workspace. Overwrites run->ahead, run->state and the workspace. The lengths of the
+ * pilot's steps are chosen for the present rate of the motion, or for the rate swing [1/s] if that
+ * is larger. */
 double baum_i_run_pilot(baum_simulation *run, double swing);
 
 /* Choose the gains of the problem, and the step limit that they require. */
@@ -205,53 +214,57 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Monitor violation, gamma and near-singular configurations of the state that the workspace
- * evaluated last, at time t. */
+/* Monitor the state that the workspace evaluated last, whose time is t: its violation, whether it
+ * is near-singular, and gamma if with_gamma is true. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
-/* Warn if a force jumps in the step that ends at `end` and is about to be kept. */
+/* Warn if a force jumps in the step that ends at `end`. Call this just before the step is
+ * accepted. */
 void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end);
 
 /* Accept the violation of the present state, which the user has given, without a warning. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
-/* Return the relative error of derivatives of user constraints that are computed by differences; 0
- * if all are given. */
+/* Derivatives of user constraints that the user does not provide are computed by differences.
+ * Return their relative error, or 0 if the user provides all derivatives. */
 double baum_i_difference_noise(const baum_mechanism *mechanism);
 
-/* Update the counters of work. */
+/* Update the counters of evaluations, near-singular states and other work in run->counters. */
 void baum_i_run_count(baum_simulation *run);
 
-/* Continue counting from the present values of run->counters. */
+/* Let the counters of work continue from the present values of run->counters, which have just been
+ * restored. */
 void baum_i_run_count_from_here(baum_simulation *run);
 
 /* ---- restart.c ---- */
 
-/* Prepare a change of inputs or driver laws at the present state. */
+/* Call this before the equations or the direction of the run change at the present state. The
+ * account and the companion are brought to this state with the old equations. */
 void baum_i_run_end_before_change(baum_simulation *run);
 
-/* Restart after a change of the equations at the present state, which may be before the end of the
- * last step. Methods with a history restart there. If the restart fails, the method restarts at its
- * next step, from the same state. */
+/* Restart at the present state after the equations have changed. With variable steps, the present
+ * state may be before the end of the last step. Only methods with a history restart. If the restart
+ * fails, the method restarts at its next step, from the same state. */
 baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Check before every step whether the run must stop: it was cancelled, has taken too many steps in
- * this call, or makes no progress. The run then stays at the end of its last step, which is in
- * `ahead` for a variable-step method. */
+/* Check before every step whether the run must stop because it was cancelled, the time limit of the
+ * call has passed, the call has taken too many steps, or the steps are too short. The run then
+ * stays at the end of its last step, which is in `ahead` for a variable-step method. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
-/* Check after the first step or sample of a call whether its time limit has passed. Returns BAUM_OK
- * or BAUM_STOP_TIME. */
+/* Check whether the time limit of the present call has passed. The caller skips this check before
+ * the first step or sample of a call. Returns BAUM_OK or BAUM_STOP_TIME. */
 baum_status baum_i_run_has_time(const baum_simulation *run);
 
-/* Check before every sample, which may not need a step, whether the run was cancelled. Returns
- * BAUM_OK or BAUM_STOP_CANCELLED. */
+/* Check before every sample whether the run was cancelled. This check is separate from
+ * baum_i_run_may_go_on(), because a sample may not need a step. Returns BAUM_OK or
+ * BAUM_STOP_CANCELLED. */
 baum_status baum_i_run_is_wanted(baum_simulation *run);
 
 /* Refuse calls from inside a callback of the run (BAUM_ERR_STATE) and a NULL run
- * (BAUM_ERR_ARGUMENT). progress() may read the run. */
+ * (BAUM_ERR_ARGUMENT). The callback progress() may read the run, but may not change it. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
@@ -260,8 +273,8 @@ baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *ca
 /* Fixed step: set the trial state to the end of a step from the present state to t_next. */
 baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe);
 
-/* Variable step: set the trial state to the end of a step from `ahead`, whose length the method
- * chooses. */
+/* Variable step: set the trial state to the end of a step from `ahead`. The method chooses the
+ * length of the step. */
 baum_status baum_i_run_try_own_step(baum_simulation *run);
 
 /* Variable step: set the trial state to the interpolated state at t inside the last step, and
@@ -289,13 +302,14 @@ baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
 /* Copy a schedule to an empty one. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
 
-/* Tell whether bytes, of any alignment, are `count` valid jumps of a run with input_count
- * inputs. */
+/* Tell whether `bytes` contains `count` valid jumps of a run with input_count inputs. The address
+ * may have any alignment. */
 bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);
 
 /* ---- breaks.c ---- */
 
-/* The two sides of a break, in the order in which the run meets them. */
+/* A break is a time at which functions of the mechanism or inputs may jump. These are its two
+ * sides, in the order in which the run reaches them. */
 typedef struct baum_i_break {
   double near; /* [s] time at which a step ends */
   double far;  /* [s] time at which the next step begins */
@@ -319,19 +333,20 @@ static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 /* Tell whether the last step ends at the near side of the break. */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* restart.c: pass from the near side of a break, which is the present time, to the far side.
- * Methods with a history restart there, and a new time grid begins there. Returns the statuses of
+/* restart.c: pass a break. The present time is its near side and becomes its far side. Methods with
+ * a history restart there, and a new time grid begins there. Returns the statuses of
  * baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 /* ---- rows.c ---- */
 
 /* Check the omitted redundant rows at the present state, where the next step begins. If the active
- * rows have become ill-conditioned, omit other rows and restart methods. Returns the statuses of
- * baum_i_run_restart(). Does nothing for kinematics. */
+ * rows have become ill-conditioned, omit other rows. A method that cannot keep its history then
+ * restarts. Returns the statuses of baum_i_run_restart(). Does nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
-/* Choose the omitted rows for a given state. The caller restarts everything afterwards. */
+/* Choose the omitted rows for a given state, and end the present crossing. The caller must restart
+ * the method afterwards. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
 /* Omit the rows i for which omitted[i] is not 0 (nc entries). Returns the statuses of
@@ -341,8 +356,8 @@ baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omit
 /* ---- singular_step.c ---- */
 
 /* Replace run->acceleration at the start of a step by its limit if the configuration is singular.
- * Uses the trial state. The present state is evaluated again. Returns the statuses of this
- * evaluation. */
+ * Overwrites the trial state. Evaluates the present state again afterwards, and returns the status
+ * of this evaluation. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run);
 
 /* Project the trial state, the end of a step, onto the constraints at t. The projection is skipped
@@ -352,8 +367,8 @@ baum_status baum_i_run_project(baum_simulation *run, double t);
 
 /* ---- failure.c ---- */
 
-/* Add to the message of a failed step the joint and body that are probably the cause, from the last
- * good state, and what may help. Returns the status. */
+/* Complete the message of a failed step: name the joint and the body that are probably the cause,
+ * as found at the last good state `at`, and add advice. Returns the status. */
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
                                        const baum_i_state *at);
 
@@ -364,7 +379,8 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
 baum_status baum_i_check_channels(const baum_mechanism *mechanism, const baum_channel *channels,
                                   int count, int *width);
 
-/* Return channel k of an array of a caller, whose struct may be of an older version. */
+/* Return channel k of a caller's array. The caller may have been compiled with an older version of
+ * the struct. */
 baum_channel baum_i_channel(const baum_channel *channels, int k);
 
 /* Append a description such as `pose of body 3 "slider" at (0.1, 0) m` to a text. The channel must

@@ -65,7 +65,7 @@ static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
   "the checksum of the events",
 };
 
-/* Return a digest as a double, which holds its upper 53 bits exactly. */
+/* Return the upper 53 bits of a digest as a double, which can represent them exactly. */
 static double number_of(const baum_i_digest *sum)
 {
   return (double)(sum->value >> 11);
@@ -369,8 +369,8 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   return BAUM_OK;
 }
 
-/* Check that the buffer omits as many rows as this run, or that all rows of this run are
- * independent. */
+/* Check that the buffer omits as many rows as this run. If this run omits no rows, the number is
+ * not checked. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
@@ -386,8 +386,8 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
                "does not fit: this run cannot omit the redundant rows that the saved run omits");
 }
 
-/* Check that a driver whose law is the polynomial of its parameters (general/driven.h) has a
- * polynomial in the buffer, too. This type of driver has no other law. */
+/* If the law of a driver is the polynomial of its parameters (general/driven.h), the driver has no
+ * other law. Check that the buffer contains a polynomial for each of these drivers. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
@@ -476,8 +476,8 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
 
 /* ---- restore ---- */
 
-/* Do what may fail: allocate memory for own parameters and scheduled jumps, and omit the saved
- * rows. */
+/* Do the part of restoring that may fail: allocate memory for parameters and scheduled jumps, and
+ * omit the rows that the saved run omits. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {
@@ -526,7 +526,7 @@ static void own_ids(baum_simulation *run)
   }
 }
 
-/* Make all entries valid, even if they were arbitrary bytes. */
+/* Make all entries for events and warnings valid, even if the buffer contained arbitrary bytes. */
 static void own_entries(baum_simulation *run)
 {
   for (int k = 0; run->events && k < run->events->count; k++) {

@@ -67,12 +67,12 @@ void baum_i_saved_add_some(baum_i_saved *list, void *place, size_t unit, int64_t
 /* Make the list of all parts of a run (save.c). */
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);
 
-/* The first function returns how many bytes the saved list has at most. The second function writes
- * the list and returns the end of the written bytes. */
+/* The first function returns the largest number of bytes that the written list can have. The second
+ * function writes the list and returns the end of the written bytes. */
 size_t baum_i_saved_size(const baum_i_saved *list);
 unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to);
 
-/* Where each part of a saved list is in a buffer, and how many entries it has. */
+/* The address of each part in a buffer, and the number of its entries. */
 typedef struct baum_i_saved_places {
   const unsigned char *at[BAUM_I_SAVED_PARTS];
   int64_t count[BAUM_I_SAVED_PARTS];

@@ -127,7 +127,7 @@ static void warn_settings(baum_simulation *run)
 /* ---- create ---- */
 
 /* Choose the omitted rows at the initial configuration, and use the block solver if it suits the
- * active rows. */
+ * mechanism with the active rows. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;

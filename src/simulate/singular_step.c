@@ -7,8 +7,9 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Tell whether the last solution is that of a singular configuration. If the block solver has given
- * up, the pivot comes from another solver, whose pivots are larger. */
+/* Tell whether the configuration of the last solution is singular. If the block solver has refused
+ * this configuration, the pivot comes from another solver. Pivots of that solver are larger, and so
+ * is their limit. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -53,8 +54,8 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   return skips ? BAUM_OK : status;
 }
 
-/* Return the pivot of the present state. It is computed if the last knot is not the present
- * state. */
+/* Return the pivot of the present state: that of the last knot if this is the present state,
+ * otherwise the pivot of the last solution. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

@@ -41,8 +41,8 @@ static int vector_end(const baum_i_body *body, int i)
   return i < first_angle(body) ? first_angle(body) : body->v + body->nv;
 }
 
-/* Return the unit of a coordinate. User coordinates have units that the user chooses, so their unit
- * is empty. */
+/* Return the unit of a coordinate. For user coordinates, whose unit only the user knows, return an
+ * empty text. */
 static const char *unit_of(const baum_i_body *body, int coordinate)
 {
   if (body->type->frame == BAUM_I_FRAME_NONE) {
@@ -112,9 +112,9 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
   return check_displacement(run, before, moved);
 }
 
-/* Find by how much each driver is violated in the design configuration, and write this to the rows
- * of the drivers. The other rows are zero. Return false if no driver is violated, which means that
- * all drivers begin in the design configuration. */
+/* Find by how much each driver is violated in the design configuration, and write this to the entry
+ * of its row in `violations`. The entries of other rows are zero. Return false if no driver is
+ * violated. All drivers then begin in the design configuration. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
@@ -150,8 +150,8 @@ static baum_status follow_drivers(baum_simulation *run, const double *violations
 }
 
 /* Assemble the design configuration. This may fail because the drivers begin at values that are far
- * from the design configuration. In this case follow the drivers to these values. Try this with
- * more and more steps. */
+ * from the design configuration. In this case follow the drivers to these values, first in 4 steps,
+ * then in more and more steps, up to DRIVER_STEPS. */
 static baum_status assemble_positions(baum_simulation *run, const double *design, double *work)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -168,9 +168,9 @@ static baum_status assemble_positions(baum_simulation *run, const double *design
   return baum_i_message_settle(status, &kept);
 }
 
-/* Add to the message about given velocities v the body that assembly has moved most, and its
- * displacement. Velocities that satisfy the constraints in an inaccurate design configuration do
- * not satisfy them in the assembled one. */
+/* The given velocities v were refused. Add to the message the body that assembly has moved most,
+ * and its displacement. Velocities that satisfy the constraints in an inaccurate design
+ * configuration do not satisfy them in the assembled one. */
 static baum_status explain_velocities(baum_simulation *run, const double *design, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -245,7 +245,7 @@ static baum_status check_exact(baum_simulation *run)
 /* Velocities may satisfy ill-conditioned rows up to rounding, although the rows do not determine
  * these velocities accurately. Suppose, for example, that two pins a nanometre apart connect two
  * bodies. A relative angular velocity of 1 rad/s then violates the rows by only 1e-9 m/s. The
- * accelerations then have errors. Their size is the size of the change of velocities that a
+ * accelerations then have errors of the same relative size as the change of velocities that a
  * projection would cause. */
 /* If a projection changes the velocities by more than this, relative to their size, the run
  * warns. */
@@ -397,8 +397,8 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN if free" : "");
 }
 
-/* Rounding of the given numbers may move q off the manifold of valid positions. Check that q is not
- * farther from it than such rounding explains. */
+/* Rounding of the given numbers may move q off the manifold of valid positions. Check that the
+ * distance of q from the manifold is small enough to be explained by rounding. */
 static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
 {
   static const double NEAR = 1e-6;
@@ -436,9 +436,9 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
-/* A state whose velocities are all given belongs to this run if it violates the constraints by no
- * more than earlier states of the run. Tell whether this is so. Such a state is not changed. A run
- * can therefore return exactly to an earlier state. */
+/* Tell whether a state belongs to this run: all of its velocities are given, and it violates the
+ * constraints by no more than earlier states of the run. Such a state is not changed. A run can
+ * therefore return exactly to an earlier state. */
 static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
 {
   baum_workspace *w = run->workspace;
