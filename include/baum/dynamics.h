@@ -44,8 +44,8 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
 /** Read the design configuration and the given initial velocities.
  *  @param      workspace  of the mechanism
- *  @param[out] q,v        (nq), (nv); v is NaN where no initial velocity is given. Each may be
- *                         NULL.
+ *  @param[out] q          (nq); may be NULL
+ *  @param[out] v          (nv), NaN where no initial velocity is given; may be NULL
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
@@ -274,7 +274,8 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
 
 /** Project a state onto the constraints: change q by the least amount such that Phi = 0, and then v
  *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
- *  M; for this norm, the axial moment of inertia of a slender rod may be increased.
+ *  M. For a slender rod, whose axial moment of inertia is very small, this norm uses a larger
+ *  moment.
  *  @param         workspace,t  see the top of this file
  *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
  *                              unchanged on failure
