@@ -21,7 +21,8 @@
 
 /* ---- the example ---- */
 
-/* What the functions of the example return, and an error that is added to their results. */
+/* Tells the functions of the example which value they return, and which error they add to their
+ * results. */
 typedef struct arm {
   int answer;
   double spoil; /* is added to mass()[0][1] and to force()[1] */

@@ -120,8 +120,8 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
 /* The gains are 1000 1/s, for a pendulum that swings at 0.4 Hz. With fixed-point iteration, steps
  * could not be longer than 1 / gain, which would take 34000 evaluations. Newton's iteration uses
  * the derivatives of the terms with gains, and takes about 5000 evaluations. With small gains, even
- * fewer evaluations are needed. Large gains need more, because they amplify rounding errors so that
- * steps fail the error test. */
+ * fewer evaluations are needed. Large gains need more evaluations, because they amplify rounding
+ * errors, so that steps fail the error test. */
 static void high_gains_do_not_limit_the_steps(void **state)
 {
   (void)state;
@@ -141,8 +141,8 @@ static void high_gains_do_not_limit_the_steps(void **state)
 /* ---- projection ---- */
 
 typedef struct projected {
-  double phi;      /* [m] largest at the end of a step */
-  double phi_rate; /* [m/s] largest at the end of a step */
+  double phi;      /* [m] largest |Phi| at the ends of steps */
+  double phi_rate; /* [m/s] largest |Phi'| at the ends of steps */
 } projected;
 
 static projected swing(baum_mechanism *mechanism, baum_formulation formulation, double direction)

@@ -23,7 +23,7 @@
 
 enum { SIZE = 200, STATES = 5, MECHANISMS = 40 };
 
-/* A problem that the tests use only for its linear systems. */
+/* The linear solver of CVODE BDF and the data that it needs, but without CVODE. */
 typedef struct solver {
   baum_workspace *workspace;
   baum_i_problem problem;

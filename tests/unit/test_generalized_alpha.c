@@ -410,8 +410,8 @@ static baum_mechanism *link_with_gauge(double *k)
   return m;
 }
 
-/* The scale of u is 1e-5. The rounding error of x is therefore 1e-11 of this scale, whatever the
- * step. The iteration must accept this error. */
+/* The scale of u is 1e-5. The rounding error of x is about 1e-16, which is 1e-11 of the scale of u,
+ * whatever the step. The iteration must accept this error. */
 static void the_iteration_accepts_rounding_errors_of_a_small_coordinate(void **state)
 {
   (void)state;

@@ -222,7 +222,7 @@ static void stability_is_reported_for_each_integrator(void **state)
   assert_true(isnan(out.spectral_radius));
   double limit = 0.0;
   assert_int_equal(baum_stability_limit(baum_rk4(), 1.0, &limit), BAUM_OK);
-  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* the limit on the real axis of mu */
+  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* for alpha = beta */
   double good[2];
   assert_int_equal(baum_stability_deadbeat(baum_semi_implicit_euler(), &good[0], &good[1]),
                    BAUM_OK);

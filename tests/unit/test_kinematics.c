@@ -274,7 +274,7 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* Errors grow by 1 / sin(angle), which is at most 3. */
+    /* Errors are amplified by 1 / sin(angle), which is at most 3. */
     ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);

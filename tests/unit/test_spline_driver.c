@@ -189,8 +189,8 @@ static void a_periodic_spline_repeats_and_approximates_the_sine(void **state)
   test_point_close(&p);
 }
 
-/* Compares values 1e-12 s before and after each knot. At one of the knots, a periodic spline
- * repeats. */
+/* Compares values 1e-12 s before and after each knot. A periodic spline continues with the next
+ * period after its last knot. */
 static void second_derivatives_are_continuous(void **state)
 {
   (void)state;

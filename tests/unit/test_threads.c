@@ -85,8 +85,8 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Returns integrator number k (modulo their count) if it can run the mechanism in this build.
- * Otherwise returns rk4. */
+/* Returns integrator number k (modulo the number of integrators) if this integrator can run the
+ * mechanism in this build. Otherwise returns rk4. */
 static const baum_integrator *choose_integrator(int k)
 {
   int count = 0;
