@@ -133,7 +133,7 @@ static void dampers_take_energy(void **state)
 
 /* The length of the spring is l = |2 cos 2t|. When its length is l, the spring force 4 l has done
  * the work 8 - 2 l^2. The account lists this work under `springs`, because the library knows no
- * potential of a user's law. */
+ * potential of a law that the user gives. */
 static void the_work_of_a_law_is_listed_under_springs(void **state)
 {
   (void)state;

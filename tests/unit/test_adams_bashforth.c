@@ -264,8 +264,8 @@ static void set_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples at one third and at two thirds of every step do not change any digit of the motion. They
- * are as accurate as the results at grid points. */
+/* Samples at one third and at two thirds of every step do not change any digit of the motion. The
+ * samples are as accurate as the results at grid points. */
 static void samples_between_grid_points_are_accurate_and_change_nothing(void **state)
 {
   (void)state;

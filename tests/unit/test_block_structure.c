@@ -98,7 +98,8 @@ static void a_chain_of_bodies_couples_neighbouring_joints(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  /* No joint is a pin, so every coupling is a general pair that sets its own block. */
+  /* No joint is a pin. Every coupling is therefore in the list of general pairs, and sets its own
+   * block. */
   assert_int_equal(b->first_count, BODIES - 2);
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));

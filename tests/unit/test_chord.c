@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests chord iterations. They correct q with the factorization of another configuration, instead
- * of factoring again. The tests cover every solver and the calls that fail. */
+/* Tests chord iterations. They correct q with a factorization that was made in another
+ * configuration, instead of factoring again. The tests cover every solver and the calls that
+ * fail. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -45,7 +45,7 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
 }
 
 /* In a step of 0.1 s the pendulum moves by about half a radian. This is too long for methods of
- * order 1, but suitable for order 4 and higher. 0.4 s is too long for rk4. */
+ * order 1, but suitable for methods of order 4 and higher. A step of 0.4 s is too long for rk4. */
 static void the_longest_accurate_step_depends_on_the_order(void **state)
 {
   (void)state;
@@ -348,7 +348,7 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
 
 /* ---- runs that abandon their companion ---- */
 
-/* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force it to steps of
+/* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force rk8 to steps of
  * a microsecond. */
 static void stiff_runs_abandon_their_companion(void **state)
 {

@@ -40,7 +40,7 @@ typedef struct point {
   double dy[SIZE_MAX_DAE];
   double scale[SIZE_MAX_DAE]; /* scales of the columns */
   int size;                   /* number of columns */
-  int shift;                  /* nq - nv; for an unknown after q, its index in y minus its column */
+  int shift;                  /* nq - nv: v and the multipliers in column j are y[j + shift] */
 } point;
 
 /* Sets the scales of the columns. With these scales, the results of the tests do not depend on

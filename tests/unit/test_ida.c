@@ -480,9 +480,9 @@ static void few_of_the_first_steps_are_rejected(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line adds two redundant rows. They are replaced by the equations
- * lambda_i = 0 and mu_i = 0. The motions with one and with two guides differ by their global
- * errors, which are about 100 rtol after one revolution. */
+/* A second guide on the same line adds two redundant rows. IDA solves the equations lambda_i = 0
+ * and mu_i = 0 instead of these rows. The motions with one and with two guides differ by their
+ * global errors, which are about 100 rtol after one revolution. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;

@@ -171,9 +171,9 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The state violates Phi and Phi'. The acceleration along the rod therefore depends on the gains.
- * Only Baumgarte's formulation may use the gains. If the run goes backwards in time, the sign of
- * alpha is reversed. */
+/* The state violates Phi = 0 and Phi' = 0. The acceleration along the rod therefore depends on the
+ * gains. Only Baumgarte's formulation may use the gains. If the run goes backwards in time, the
+ * sign of alpha is reversed. */
 static void gains_follow_formulation_and_direction(void **state)
 {
   (void)state;

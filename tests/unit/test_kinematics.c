@@ -104,7 +104,8 @@ static void follow(const slider_crank *data, double gap, tally *all)
 }
 
 /* At the same crank angle, the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2)
- * apart. For the three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
+ * apart. Here l is the length of the rod, r the length of the crank, and e the offset. For the
+ * three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;

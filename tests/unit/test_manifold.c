@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests positions on a manifold (nq > nv): the functions move, rate and difference, derivatives
- * along the manifold, and the checks of definitions. */
+/* Tests positions on a manifold (nq > nv): the functions move(), rate() and difference(),
+ * derivatives along the manifold, and the checks of definitions. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -20,8 +20,8 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* Sizes of the largest tested mechanism, which has every element. WIDE includes the multipliers
- * lambda and mu of GGL. */
+/* Sizes of the largest tested mechanism, which has every kind of element. WIDE includes the
+ * multipliers lambda and mu of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
 /* ---- scenes and their states ---- */

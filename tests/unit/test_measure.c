@@ -104,8 +104,8 @@ static void polynomials_have_no_local_error(void **state)
     s.a[k] = numbers[k][2];
   }
   for (int k = 0; k < 2; k++) {
-    /* The error of the Hermite rule is h^5 / 720 q^(5) = 0. Rounding errors of terms below 6
-     * remain. */
+    /* The error of the Hermite rule is h^5 / 720 times the fifth derivative of q, which is 0. Only
+     * the rounding errors of terms below 6 remain. */
     ASSERT_NEAR(kernel_of(k)->local_error(MOST, &s), 0.0, 0.0, 1e-14);
   }
   numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* e = 0.5 */

@@ -88,7 +88,8 @@ static double most(const double *values, int count)
   return out;
 }
 
-/* Computes the area of the region by counting the points of a fine grid that are inside. */
+/* Computes the area of the region by counting the points of a fine grid that are inside the
+ * region. */
 static double counted_area(int method, double radius, double A, double B)
 {
   int inside = 0;

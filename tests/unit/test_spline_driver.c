@@ -342,7 +342,7 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  /* The two end values differ only by 1e-13. */
+  /* The first value and the last value differ by 1e-13. A periodic spline must accept this. */
   baum_spline_driver_def def = spline_def_of(times, values, 4, true);
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;

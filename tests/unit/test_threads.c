@@ -251,7 +251,7 @@ static void *fail_repeatedly(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* the message is of another thread */
+      j->status = BAUM_ERR_INTEGRATOR; /* the message comes from another thread */
     }
   }
   return NULL;
