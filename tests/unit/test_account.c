@@ -310,8 +310,9 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* A force of 2 N for 1 s accelerates 1 kg to 2 m/s. Then 4 N for 1 s accelerate it to 6 m/s. The
- * account continues after a new input value, but set_state() restarts it. */
+/* In 1 s, a force of 2 N accelerates a particle of 1 kg from rest to 2 m/s. In the next second, a
+ * force of 4 N accelerates the particle to 6 m/s. The account continues after a new input value,
+ * but set_state() restarts the account. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;

@@ -218,7 +218,7 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "phi", -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
   /* The number in the message is a second difference, which has only seven correct digits. The test
-   * therefore does not compare its last three digits. */
+   * therefore does not compare the last three digits of this number. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,

@@ -46,8 +46,8 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
   return alpha;
 }
 
-/* Makes a pendulum from a particle of 1 kg on a rod of 1 m. It is at rest at `angle` from the
- * upward vertical. */
+/* Makes a pendulum from a particle of 1 kg on a rod of 1 m. The pendulum is at rest at `angle` from
+ * the upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
   baum_mechanism *m = NULL;

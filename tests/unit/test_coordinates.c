@@ -112,7 +112,8 @@ static baum_mechanism *empty(void)
   return mechanism;
 }
 
-/* Adds the body of the example after another body, so that its columns do not start at 0. */
+/* Adds the body of the example after another body, so that the columns of the example do not start
+ * at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};

@@ -222,8 +222,8 @@ static void projection_is_as_good_as_gains(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The constraint is x = 0 at first. From 0.5 s on it is e^x = 0, which is differentiable but has no
- * solution. */
+/* The constraint is x = 0 at first. From 0.5 s on, the constraint is e^x = 0, which is
+ * differentiable but has no solution. */
 static int vanish(double t, const double *q, double *out, void *user)
 {
   (void)user;

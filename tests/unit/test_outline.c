@@ -71,7 +71,7 @@ static void outlines_have_the_given_radius(void **state)
         if (alpha_h[k] > 1e-12 && beta2_h2[k] > 1e-12) {
           double got = amplification_at(m, alpha_h[k], beta2_h2[k]).spectral_radius;
           /* The points are found by 42 bisections. The spectral radius of rk8 changes steeply,
-           * which amplifies their error. */
+           * which amplifies the errors of the points. */
           ASSERT_NEAR(got, radii[r], 0.0, 1e-9);
         }
       }
