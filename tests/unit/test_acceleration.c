@@ -21,8 +21,8 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* Builds the stabilized equations of motion, with (7) of docs/theory/formulations.md, as one dense
- * system. */
+/* Builds the equations of motion as one dense linear system. The rows of the constraints are the
+ * stabilized rows (7) of docs/theory/formulations.md. */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
 {
@@ -216,7 +216,7 @@ static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
   double reaction[3];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda), BAUM_OK);
   assert_int_equal(baum_workspace_reaction(w, 0.0, q, lambda, joint, reaction), BAUM_OK);
-  /* The ground carries the weight of the beam and its moment about the weld. */
+  /* The ground carries the weight of the beam, and the moment of this weight about the weld. */
   ASSERT_NEAR(reaction[0], 0.0, 0.0, 1e-12);
   ASSERT_NEAR(reaction[1], -3.0 * 9.81, 1e-13, 0.0);
   ASSERT_NEAR(reaction[2], -3.0 * 9.81 * 2.0, 1e-13, 0.0);
@@ -235,8 +235,8 @@ static void stabilization_pulls_a_violated_pendulum_back(void **state)
   const double v[2] = {0.0, -0.2};
   double a[2];
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 10.0, 10.0, a, NULL), BAUM_OK);
-  /* With y = -r: Phi = (r^2 - 1) / 2, Phi' = r r', and Phi'' = r'^2 + r r'' = -2 alpha
-   * Phi' - beta^2 Phi. */
+  /* The particle is below the pin, at y = -r. Therefore Phi = (r^2 - 1) / 2 and Phi' = r r'. The
+   * stabilized equation is Phi'' = r'^2 + r r'' = -2 alpha Phi' - beta^2 Phi. */
   double phi = 0.5 * (1.21 - 1.0);
   double rate = 1.1 * 0.2;
   ASSERT_NEAR(a[1], -(-20.0 * rate - 100.0 * phi - 0.04) / 1.1, 1e-13, 0.0);
@@ -264,8 +264,8 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* The block solver divides by the square root of the mass. It leaves a negative mass to the solver
- * of the whole system. No solver accepts a zero mass. */
+/* The block solver needs the square root of the mass. If a mass is negative, the solver of the
+ * whole system therefore replaces it. No solver accepts a zero mass. */
 static void a_negative_mass_is_left_to_the_solver_of_the_whole_system(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the energy account with motions that are known in closed form. In each of the first tests,
- * only one kind of work is done. The others test how the account starts and continues in a run. */
+/* Tests the energy account with motions that are known in closed form. Each of the first tests has
+ * only one source of work. The other tests check how the account starts and continues in a run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -133,7 +133,7 @@ static void dampers_take_energy(void **state)
 
 /* The length of the spring is l = |2 cos 2t|. When its length is l, the spring force 4 l has done
  * the work 8 - 2 l^2. The account lists this work under `springs`, because the library knows no
- * potential of a user's law. */
+ * potential of a law that the user gives. */
 static void the_work_of_a_law_is_listed_under_springs(void **state)
 {
   (void)state;
@@ -176,9 +176,9 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* M v' = 0 with M = 1 + q^2 is not a Lagrange equation. The velocity v = 1 stays constant. The
- * energy thus changes by v^2 q^2 / 2 because of M' alone, and the account lists this change under
- * `bodies`. */
+/* The mass is M = 1 + q^2, but the equation of motion is only M v' = 0. It lacks the terms with M'
+ * of Lagrange's equation, so the velocity v = 1 stays constant. The kinetic energy M v^2 / 2 thus
+ * grows because of M' alone. The account lists this change under `bodies`. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
   (void)state;
@@ -194,7 +194,7 @@ static void a_varying_mass_is_in_the_account(void **state)
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }
 
-/* A driver accelerates a wheel of 2 kg m^2 from rest by 3 rad/s^2. After 1 s it has done 9 J of
+/* A driver accelerates a wheel of 2 kg m^2 from rest by 3 rad/s^2. In 1 s the driver does 9 J of
  * work. */
 static void drivers_do_work(void **state)
 {
@@ -265,8 +265,9 @@ static void violation_does_work(void **state)
   ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
 }
 
-/* With alpha = beta = 2 the exact motion is x - 1 = t exp(-2 t), v = (1 - 2 t) exp(-2 t).
- * `violation` includes the work of the force that balances the weight, and `gains` excludes it. */
+/* With alpha = beta = 2 the exact motion is x - 1 = t exp(-2 t), v = (1 - 2 t) exp(-2 t). The field
+ * `violation` of the account includes the work of the force that balances the weight. The field
+ * `gains` excludes this work. */
 static void gains_are_a_part_of_the_violation(void **state)
 {
   (void)state;
@@ -309,8 +310,9 @@ static baum_mechanism *make_pushed(baum_input_id *input)
   return m;
 }
 
-/* A force of 2 N for 1 s accelerates 1 kg to 2 m/s. Then 4 N for 1 s accelerate it to 6 m/s. The
- * account continues after a new input value, but set_state() restarts it. */
+/* In 1 s, a force of 2 N accelerates a particle of 1 kg from rest to 2 m/s. In the next second, a
+ * force of 4 N accelerates the particle to 6 m/s. The account continues after a new input value,
+ * but set_state() restarts the account. */
 static void inputs_continue_and_states_restart(void **state)
 {
   (void)state;

@@ -58,8 +58,8 @@ static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
   }
 }
 
-/* For the force t^p with p = k, the error of one step of the velocity is C k! h^(k+1). Here C is
- * the error constant of the method. */
+/* For the force t^p with p = k, the velocity error of one step is C k! h^(k+1), where C is the
+ * error constant of the method. */
 static void a_force_of_the_next_power_shows_the_error_constant(void **state)
 {
   static const double CONSTANT[] = {5.0 / 12.0, 3.0 / 8.0, 251.0 / 720.0};
@@ -151,11 +151,12 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
   return run;
 }
 
-/* Runs with a fixed step and returns the error at the end. */
+/* A function that makes a run with a fixed step and returns the error at the end of the run. */
 typedef double error_fn(const baum_integrator *integrator, double step);
 
-/* Computes the order of every method from its errors with two steps, and checks it. The longer step
- * is 2^3 times the shorter one. Error terms of higher order change the result by less than 0.2. */
+/* Computes the order of every method from its errors with two step sizes, and checks this order.
+ * The larger step size is 2^3 times the smaller one. Error terms of higher order change the result
+ * by less than 0.2. */
 static void demand_order(error_fn *error)
 {
   for (int k = 0; k < METHOD_COUNT; k++) {
@@ -240,7 +241,7 @@ static void reversing_does_not_cost_the_order(void **state)
   demand_order(error_there_and_back);
 }
 
-/* During the run, sets a later state of the same motion. */
+/* The motion is x = cos t. At t = 1, the run is set to the state of this motion at t = 5. */
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
@@ -263,8 +264,8 @@ static void set_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples at one third and at two thirds of every step do not change any digit of the motion. They
- * are as accurate as the results at grid points. */
+/* Samples at one third and at two thirds of every step do not change any digit of the motion. The
+ * samples are as accurate as the results at grid points. */
 static void samples_between_grid_points_are_accurate_and_change_nothing(void **state)
 {
   (void)state;

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Tests the roots z by which one step multiplies a constraint violation. The roots depend on A =
+ * alpha h and B = (beta h)^2. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -22,7 +24,8 @@ static void is_class(int method, double alpha_h, double beta2_h2, baum_stability
   assert_int_equal(got.stability, want);
 }
 
-/* Compares the sum and the product of an Euler method's roots with those of z^2 + c1 z + c0. */
+/* Checks that the roots of an Euler method are those of z^2 + c1 z + c0: their sum must be -c1, and
+ * their product c0. */
 static void has_polynomial(int method, double A, double B, double c1, double c0)
 {
   baum_amplification got = amplification_at(method, A, B);
@@ -84,9 +87,9 @@ static void edges_of_the_triangles_are_marginal(void **state)
   }
 }
 
-/* At (A, B) = (2, 4), explicit Euler has the double root z = -1, which is on the unit circle.
- * Rounding of A and B splits it into two roots that are 1e-8 apart. The library must not report
- * them as unstable. */
+/* At (A, B) = (2, 4), explicit Euler has the double root z = -1, which is on the unit circle. If A
+ * and B are rounded, this root splits into two roots that are 1e-8 apart. The library must not
+ * report these roots as unstable. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;
@@ -134,17 +137,17 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
   }
 }
 
-/* Compares spectral radii at the points (1, 1) and (1, 2) with their closed forms. The second point
- * is that of the Taylor gains. */
+/* Compares spectral radii at two points (A, B) with their closed forms. The points are (1, 1) and
+ * (1, 2). The Taylor gains give the second point. */
 static void spectral_radii_have_their_closed_forms(void **state)
 {
   (void)state;
   static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {0.0, 1.0},
-    /* Golden ratio, and 1 + sqrt 2. */
+    /* The golden ratio, and 1 + sqrt(2). */
     [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951},
     [RK2] = {0.5, 0.0},
-    [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* R(-1), and |1 + i| / 3 */
+    [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* 1 - 1 + 1/2 - 1/6, and |1 + i| / 3 */
     [RK4] = {0.375, 0.37267799624996495},     /* 9/24, and sqrt(5) / 6 */
   };
   for (int m = 0; m < ONE_STEP_COUNT; m++) {
@@ -271,8 +274,8 @@ static void spectral_radius_is_the_observed_growth(void **state)
     for (int m = 0; m < ONE_STEP_COUNT; m++) {
       agrees_with_the_step_matrix(m, &o);
       double radius = amplification_at(m, o.A, o.B).spectral_radius;
-      /* If the roots are complex, log |y| oscillates about its mean growth. In 1800 steps this
-       * averages out. */
+      /* If the roots are complex, log |y| oscillates about its mean growth. Over 1800 steps the
+       * oscillation averages out. */
       ASSERT_NEAR(observed_log_radius(m, &o), log(radius), 0.0, 5e-3);
     }
   }

@@ -73,7 +73,8 @@ static void a_rough_design_is_assembled_and_held_bodies_stay_exactly(void **stat
     assert_true(s.q[i] == design[i]);
   }
   assert_true(s.v[2] == 150.0);
-  /* The closed form is angle = asin(e / l2) and x = l1 + l2 cos(angle). */
+  /* In closed form, the angle of the rod is asin(offset / rod length), and the slider is at x =
+   * crank length + rod length cos(angle). */
   double angle = asin(0.05 / 0.306);
   ASSERT_NEAR(s.q[5], angle, 1e-14, 0.0);
   ASSERT_NEAR(s.q[6], 0.153 + 0.306 * cos(angle), 1e-14, 0.0);
@@ -177,8 +178,9 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The second coordinate has no mass and no constraint. KLU cannot determine its change and reports
- * a singular system. Least squares leave it unchanged. */
+/* The second coordinate has no mass and no constraint. KLU cannot determine how this coordinate
+ * changes, and reports a singular system. The least-squares solver leaves the coordinate
+ * unchanged. */
 static void a_coordinate_without_mass_and_constraint_stays_or_is_refused(void **state)
 {
   (void)state;
@@ -262,7 +264,7 @@ static void projection_changes_velocities_least_in_the_mass_metric(void **state)
   }
   assert_int_equal(baum_workspace_project(s.w, 0.0, s.q, s.v), BAUM_OK);
   assert_int_equal(baum_workspace_mass(s.w, 0.0, s.q, mass), BAUM_OK);
-  /* The change is M-orthogonal to every velocity that J allows. `exact` is one of them. */
+  /* The change must be M-orthogonal to every velocity v with J v = 0, such as `exact`. */
   double product = 0.0;
   double size = 0.0;
   for (int i = 0; i < NV; i++) {
@@ -287,8 +289,8 @@ static void contradicting_constraints_are_not_projected_and_the_state_stays(void
   rod.body_a = BAUM_GROUND;
   rod.body_b = body;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  /* Two rods of 1 m join one body to ground points that are 5 m apart. No position satisfies both
-   * rods. */
+  /* Two rods of 1 m join one body to ground points that are 5 m apart. No position of the body
+   * satisfies both constraints. */
   for (int k = 0; k < 2; k++) {
     rod.length = 1.0;
     rod.point_a[0] = 5.0 * k;

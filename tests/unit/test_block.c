@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the block solver alone. Its results are compared with solutions in quadruple precision.
- * Both versions of its loops are tested: the plain one, and the one for this processor.
- * test_block_structure.c tests its structure, and tests/physics/test_random_mechanisms.c tests it
- * in random mechanisms. */
+/* Tests the block solver alone. Its results are compared with solutions in quadruple precision. The
+ * loops of the solver exist in two versions, a plain one and one for this processor, and both are
+ * tested. test_block_structure.c tests how the solver couples joints, and
+ * tests/physics/test_random_mechanisms.c tests the solver in random mechanisms. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -161,8 +161,8 @@ static void assert_solution(const equations *x, const double *want, double toler
 }
 
 /* Tests the solver twice: without iterative refinement, as in most evaluations, and with two steps
- * of refinement. The condition number of the Schur complement J M^-1 J^T is the square of the
- * condition number of J M^(-1/2), which is up to 1e5 in these systems. */
+ * of refinement. In these systems, the condition number of J M^(-1/2) is up to 1e5. The condition
+ * number of the Schur complement J M^-1 J^T is the square of this number. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -200,8 +200,8 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
   }
 }
 
-/* First omits every fourth row. This changes the pairs of rows, and leaves some nodes without a
- * row. Then omits all rows. */
+/* First omits every fourth row. This changes the pairs of rows, called nodes, that the solver
+ * forms, and leaves some nodes without a row. Then omits all rows. */
 static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
@@ -380,8 +380,8 @@ static void assert_near_all(const double *got, const double *want, int count, do
   }
 }
 
-/* Compares three results for a mechanism in its design configuration: both versions of the loops,
- * and the solver of the whole system. */
+/* Compares three results for a mechanism in its design configuration: from both versions of the
+ * loops, and from the solver of the whole system. */
 static void compare(const baum_mechanism *m, double tolerance)
 {
   baum_workspace *w[3];
@@ -469,7 +469,7 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
 }
 
 /* Two pins between the same bodies have one redundant row. This row is omitted, and the other row
- * of the same pin has no partner. Both rows of a third pin are redundant. */
+ * of the same pin then forms a node alone. Both rows of a third pin are redundant. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;

@@ -98,7 +98,8 @@ static void a_chain_of_bodies_couples_neighbouring_joints(void **state)
   assert_int_equal(b->node_count, BODIES - 1);
   assert_int_equal(b->off_count, BODIES - 2);
   assert_int_equal(b->zero_count, 0);
-  /* every coupling has a pair of rows, because no joint is a pin */
+  /* No joint is a pin. Every coupling is therefore in the list of general pairs, and sets its own
+   * block. */
   assert_int_equal(b->first_count, BODIES - 2);
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
@@ -110,8 +111,8 @@ static void a_chain_of_bodies_couples_neighbouring_joints(void **state)
   free_net(&n);
 }
 
-/* Two joints between the same bodies are coupled by both bodies. Both couplings are added in one
- * block. */
+/* Two joints between the same bodies are coupled by both bodies. The two couplings are added up in
+ * one block. */
 static void two_joints_of_the_same_bodies_share_a_block(void **state)
 {
   (void)state;

@@ -90,8 +90,8 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* A Jacobian of the unit circle whose second entry is wrongly constant. This entry is right only in
- * the design configuration, where y = -0.8. */
+/* A Jacobian of the unit circle with a wrong second entry, -1.6 instead of 2 y. This entry is right
+ * only in the design configuration, where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -217,8 +217,8 @@ static void a_forgotten_gamma_is_found_at_another_time(void **state)
                  "joint 1 \"circle\": gamma()[0] is 0 but finite differences of %s give %.9g",
                  "phi", -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
-  /* Second differences have only seven correct digits here. The test therefore does not compare the
-   * last three digits of the message. */
+  /* The number in the message is a second difference, which has only seven correct digits. The test
+   * therefore does not compare the last three digits of this number. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_memory_equal(baum_message(), message, strlen(message) - 3);
   (void)snprintf(message, sizeof message,

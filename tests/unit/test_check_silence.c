@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The check of user derivatives must not report derivatives that are right, or that it cannot judge
- * because of rounding or a kink. */
+/* The check of user derivatives must not report a right derivative as wrong. It must also not
+ * report a derivative that it cannot judge because of rounding or a kink. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@ static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
   }
 }
 
-/* The first term changes its slope within 1e-6 of q0 = 0.6. Both coordinates have the scale 1,
- * which is a million times too large for q0. */
+/* The slope of the first term of Phi changes from -1 to 1 within 1e-6 of q0 = 0.6. Both coordinates
+ * have the scale 1, which is a million times too large for q0. */
 static int sharp_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -52,8 +52,8 @@ static void a_scale_that_is_wrong_by_a_million_raises_no_alarm(void **state)
   user_check_right(user_make_constraint(sharp_phi, sharp_jacobian, NULL, NULL, 1.0));
 }
 
-/* Sums near 1e12 are rounded to 1e-4. Differences therefore cannot determine the second entry of
- * the Jacobian, which is 1e-3 cos q1. */
+/* Terms of 1e12 are added to Phi and subtracted again, so that Phi is rounded to 1e-4. Differences
+ * therefore cannot determine the second entry of the Jacobian, which is 1e-3 cos q1. */
 static int faint_phi(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -104,8 +104,8 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
   return 0;
 }
 
-/* Projection leaves rounding errors of this size in the velocities of a mechanism at rest. They are
- * too small to change q, whatever the time step. */
+/* Projection leaves rounding errors of about 1e-16 in the velocities of a mechanism at rest. They
+ * are too small to change q, whatever the time step. */
 static void velocities_that_are_rounding_raise_no_alarm(void **state)
 {
   (void)state;

@@ -11,8 +11,8 @@
 #include "assert_near.h"
 #include "models.h"
 
-/* A pilot run makes 5 steps with 3 evaluations each. The evaluation at the initial state has
- * already been made. */
+/* A pilot run makes 5 steps with 3 evaluations each. The first of these evaluations, at the initial
+ * state, has already been made. */
 enum { PILOT_EVALUATIONS = 14 };
 
 static baum_simulation *start_run(const baum_mechanism *m, const baum_integrator *integrator,
@@ -46,8 +46,8 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
   return alpha;
 }
 
-/* Makes a pendulum from a particle of 1 kg on a rod of 1 m. It is at rest at `angle` from the
- * upward vertical. */
+/* Makes a pendulum from a particle of 1 kg on a rod of 1 m. The pendulum is at rest at `angle` from
+ * the upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
   baum_mechanism *m = NULL;
@@ -80,9 +80,10 @@ static void auto_uses_the_mean_rate_of_the_pilot_run(void **state)
   (void)state;
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
-  /* A torque of 0.033 N m accelerates the crank from rest. At the start, the rate max(|v|/L,
-   * sqrt(|a|/L)) is 119 1/s. Its mean over the first 3.75 rad of the exact motion is 336 1/s. The
-   * pilot run has five steps, which give this mean to within 20 %. */
+  /* A torque of 0.033 N m accelerates the crank from rest. The rate is max(|v|/L, sqrt(|a|/L)),
+   * where L is the characteristic length. It is 119 1/s at the start, and its mean over the first
+   * 3.75 rad of the exact motion is 336 1/s. The pilot run has five steps, which give this mean to
+   * within 20 %. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
@@ -232,10 +233,10 @@ static void counters_report_the_effective_damping(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- rows with gains of their own ---- */
+/* ---- factors on the gains of single rows ---- */
 
-/* Makes two particles at rest, at 1.1 m from the origin, on rods that are 1 m long. One rod is
- * along x and the other along y. There is no gravity. */
+/* Makes two particles at rest, one on the x axis and one on the y axis. Both are 1.1 m from the
+ * origin, but the rods that join them to the origin are 1 m long. There is no gravity. */
 static baum_mechanism *two_long_rods(void)
 {
   baum_mechanism *m = NULL;
@@ -289,8 +290,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
     /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. The second term adds the same
-     * velocity as in the first step. The test subtracts it, so that the velocity of the damping
-     * term remains. */
+     * velocity as in the first step. The test subtracts this velocity, so that the velocity that
+     * comes from the damping term remains. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests chord iterations. They correct q with J of another configuration, whose factorization is
- * used again. The tests cover every solver and the calls that fail. */
+/* Tests chord iterations. They correct q with a factorization that was made in another
+ * configuration, instead of factoring again. The tests cover every solver and the calls that
+ * fail. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,7 +47,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* The change must be -J^T Phi. Here J = (0.6, 0.8) belongs to the configuration `from`, and
+/* The change of q must be -J^T Phi. Here J = (0.6, 0.8) belongs to the configuration `from`, and
  * Phi = (|q|^2 - 1) / 2 = 0.15 belongs to q. */
 static void phi_is_corrected_with_the_jacobian_of_another_configuration(void **state)
 {
@@ -65,7 +66,7 @@ static void phi_is_corrected_with_the_jacobian_of_another_configuration(void **s
   }
 }
 
-/* With the gain 10 1/s, the acceleration along the rod is the velocity along it times -10 1/s. The
+/* The acceleration along the rod is the velocity along the rod, multiplied by minus the gain. The
  * acceleration across the rod comes from the weight alone. */
 static void velocities_along_the_rod_are_held_and_others_are_free(void **state)
 {
@@ -81,8 +82,8 @@ static void velocities_along_the_rod_are_held_and_others_are_free(void **state)
   }
 }
 
-/* If both rods are in line, constraint forces cannot move the bob across them. They thus cannot
- * correct Phi of a position beside the line. */
+/* If both rods are in line, constraint forces cannot move the bob across them. A position beside
+ * the line can therefore not be corrected. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;

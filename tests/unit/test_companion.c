@@ -45,7 +45,7 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
 }
 
 /* In a step of 0.1 s the pendulum moves by about half a radian. This is too long for methods of
- * order 1, but suitable for order 4 and higher. 0.4 s is too long for rk4. */
+ * order 1, but suitable for methods of order 4 and higher. A step of 0.4 s is too long for rk4. */
 static void the_longest_accurate_step_depends_on_the_order(void **state)
 {
   (void)state;
@@ -119,7 +119,7 @@ static void estimates_agree_with_the_error(void **state)
     o.step = steps[k];
     o.error_check = true;
     baum_counters c = run_pendulum(o, &error);
-    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* an estimate need not be better */
+    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* an estimate within 20 % suffices */
     assert_int_equal(c.doubts, c.error_estimate > 0.03);
   }
 }
@@ -202,8 +202,8 @@ static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
   assert_true(isnan(run_pendulum(o, &error).error_estimate));
 }
 
-/* The run reverses the direction of time inside a step. It restarts at this point, and so does its
- * companion. */
+/* The run reverses the direction of time inside a step. The run and its companion restart at this
+ * point. */
 static void estimates_continue_after_a_restart_inside_a_step(void **state)
 {
   (void)state;
@@ -235,8 +235,8 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
 /* ---- events between steps ---- */
 
 /* A light rod joins a bob to a slider on the x axis. When the rod becomes perpendicular to the
- * axis, it stops the bob in a time that is shorter than a step. With rk4 at 1 ms the final position
- * is wrong by 0.64 m, and the energy grows from 2.2 J by 2.9 J. */
+ * axis, the rod stops the bob in a time that is shorter than a step. With rk4 and steps of 1 ms,
+ * the final position is wrong by 0.64 m, and the energy grows from 2.2 J by 2.9 J. */
 static baum_mechanism *make_taut_rod(void)
 {
   const double mass = 0.0014776077955897843;
@@ -348,7 +348,7 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
 
 /* ---- runs that abandon their companion ---- */
 
-/* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force it to steps of
+/* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force rk8 to steps of
  * a microsecond. */
 static void stiff_runs_abandon_their_companion(void **state)
 {

@@ -40,7 +40,8 @@ static void assert_ascending(const baum_i_compressed *c)
   }
 }
 
-/* Checks that every listed entry is where its slot says, and that there are no other entries. */
+/* Checks that slot[k] is the place of entry k in the compressed matrix, and that this matrix has no
+ * other entries. */
 static void assert_same_places(size_t count, const int32_t *rows, const int32_t *columns,
                                const baum_i_compressed *c)
 {

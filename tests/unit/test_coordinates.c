@@ -21,7 +21,8 @@
 
 /* ---- the example ---- */
 
-/* What the functions of the example return, and an error that is added to their results. */
+/* Tells the functions of the example which value they return, and which error they add to their
+ * results. */
 typedef struct arm {
   int answer;
   double spoil; /* is added to mass()[0][1] and to force()[1] */
@@ -111,7 +112,8 @@ static baum_mechanism *empty(void)
   return mechanism;
 }
 
-/* Adds the body of the example after another body, so that its columns do not start at 0. */
+/* Adds the body of the example after another body, so that the columns of the example do not start
+ * at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};

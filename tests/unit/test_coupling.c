@@ -27,7 +27,7 @@ static int cam(double x, double f[3], void *user)
   return 0;
 }
 
-/* An error that is added to one entry of the law, or a return value other than 0. */
+/* What is wrong with a law: an error that is added to one entry, or a return value other than 0. */
 typedef struct fault {
   int entry;
   double error;
@@ -127,7 +127,7 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
 }
 
 /* Adds a pin as joint 1 and a slot as joint 2, both between link and crank. Returns a definition
- * that couples them. */
+ * that couples these two joints. */
 static baum_coupling_def good(planar_scene *scene)
 {
   baum_coupling_def def = baum_coupling_def_default();
@@ -165,7 +165,8 @@ static void reactions_balance(void **state)
   for_each_planar_pair(add_on_a_chain, false, check_rows_balance);
 }
 
-/* Checks that no column occurs twice in a joint. The sparse matrices rely on this. */
+/* Checks that no column of J occurs twice in the rows of a joint. The sparse matrices rely on
+ * this. */
 static void check_columns(test_point *p)
 {
   for (int k = 0; k < p->mechanism->joint_count; k++) {

@@ -25,7 +25,7 @@ static void draw_points(int32_t count, uint64_t *seed, double *times, double *va
   }
 }
 
-/* Compares both splines over the whole range, and at the given points. */
+/* Compares the spline with GSL's spline, over the whole range and at the given points. */
 static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *want)
 {
   double length = spline->times[spline->count - 1] - spline->times[0];
@@ -40,7 +40,8 @@ static void assert_agrees(const baum_i_cubic_spline *spline, const gsl_interp *w
     assert_int_equal(gsl_interp_eval_e(want, x, y, t, NULL, &s_want[0]), 0);
     assert_int_equal(gsl_interp_eval_deriv_e(want, x, y, t, NULL, &s_want[1]), 0);
     assert_int_equal(gsl_interp_eval_deriv2_e(want, x, y, t, NULL, &s_want[2]), 0);
-    /* Divisions of slopes of up to about 100 by intervals of 0.01 amplify rounding errors. */
+    /* Slopes of up to about 100 are divided by intervals of 0.01, which amplifies rounding
+     * errors. */
     ASSERT_NEAR(s[0], s_want[0], 0.0, 1e-13);
     ASSERT_NEAR(s[1], s_want[1], 0.0, 1e-11);
     ASSERT_NEAR(s[2], s_want[2], 0.0, 1e-9);

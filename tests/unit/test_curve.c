@@ -35,7 +35,8 @@ static int bent(const double xy[2], double out[6], void *user)
   return 0;
 }
 
-/* An error that is added to one entry of the curve function, or a return value other than 0. */
+/* What is wrong with a curve function: an error that is added to one entry, or a return value other
+ * than 0. */
 typedef struct fault {
   int entry;
   double error;
@@ -170,8 +171,8 @@ static void a_circular_curve_is_equivalent_to_a_rod(void **state)
   for (int i = 0; i < 5; i++) {
     ASSERT_NEAR(blocks[i], blocks[5 + i], 0.0, 1e-15);
   }
-  /* On the circle, Phi = (r^2 - 1) / 2 of the rod has the same J as Phi = r - 1 of the curve. Their
-   * gamma differ by r'^2. */
+  /* The rod has Phi = (r^2 - 1) / 2, and the curve has Phi = r - 1. On the circle, both have the
+   * same J, but their values of gamma differ by r'^2. */
   assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
   double rate = 0.0;
   const baum_i_span *span = &p.mechanism->joints[0]->span;

@@ -95,8 +95,8 @@ static void bdf_needs_few_steps_for_stiff_forces(void **state)
   if (!(bdf < 1000 && adams > 10 * bdf)) {
     fail_msg("evaluations: %ld and %ld", (long)adams, (long)bdf);
   }
-  /* At rtol 1e-6 the errors of BDF add up to 1e-4 in one second. The short steps of Adams have much
-   * smaller errors. */
+  /* At rtol 1e-6 the errors of BDF add up to 1e-4 in one second. The short steps of the Adams
+   * method have much smaller errors. */
   ASSERT_NEAR(bdf_q[0], adams_q[0], 0.0, 1e-3);
   ASSERT_NEAR(bdf_q[1], adams_q[1], 0.0, 1e-3);
   baum_mechanism_destroy(mechanism);
@@ -118,10 +118,10 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
 }
 
 /* The gains are 1000 1/s, for a pendulum that swings at 0.4 Hz. With fixed-point iteration, steps
- * could not be longer than 1 / gain, which would take 34000 evaluations. Newton's iteration uses
- * the derivatives of the terms with gains, and takes about 5000 evaluations. With small gains, even
- * fewer evaluations are needed. Large gains need more, because they amplify rounding errors so that
- * steps fail the error test. */
+ * could not be longer than 1 / gain, and the run would take 34000 evaluations. Newton's iteration
+ * uses the derivatives of the terms with gains, and takes about 5000 evaluations. With small gains,
+ * even fewer evaluations are needed. Large gains need more evaluations, because they amplify
+ * rounding errors, so that steps fail the error test. */
 static void high_gains_do_not_limit_the_steps(void **state)
 {
   (void)state;
@@ -141,8 +141,8 @@ static void high_gains_do_not_limit_the_steps(void **state)
 /* ---- projection ---- */
 
 typedef struct projected {
-  double phi;      /* [m] largest at the end of a step */
-  double phi_rate; /* [m/s] largest at the end of a step */
+  double phi;      /* [m] largest |Phi| at the ends of steps */
+  double phi_rate; /* [m/s] largest |Phi'| at the ends of steps */
 } projected;
 
 static projected swing(baum_mechanism *mechanism, baum_formulation formulation, double direction)
@@ -163,8 +163,8 @@ static projected swing(baum_mechanism *mechanism, baum_formulation formulation, 
   return out;
 }
 
-/* Every step ends on the constraints. |Phi| is at most 1e-13 of the length, and |Phi'| is at most
- * 1e-13 of |J| |v|, where |v| <= 4.43 m/s. */
+/* Every step ends on the constraints. |Phi| is at most 1e-13 of the length of the rod, and |Phi'|
+ * is at most 1e-13 of |J| |v|, where |v| <= 4.43 m/s. */
 static void projected_steps_end_on_the_constraints(void **state)
 {
   (void)state;
@@ -222,8 +222,8 @@ static void projection_is_as_good_as_gains(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The constraint is x = 0 at first. From 0.5 s on it is e^x = 0, which is differentiable but has no
- * solution. */
+/* The constraint is x = 0 at first. From 0.5 s on, the constraint is e^x = 0, which is
+ * differentiable but has no solution. */
 static int vanish(double t, const double *q, double *out, void *user)
 {
   (void)user;

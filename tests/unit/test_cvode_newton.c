@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the linear systems of CVODE BDF. They are (I - gamma df/dy) x = r with f = (v, a). Each
- * test solves the system for a random right-hand side r with the sparse matrix. It then inserts the
- * solution x into the system, and computes (df/dy) x by central differences of f. */
+/* Tests the linear systems of CVODE BDF. They are (I - gamma df/dy) x = r with y = (q, v) and f =
+ * (v, a). Each test solves the system for a random right-hand side r with the sparse matrix. It
+ * then inserts the solution x into the system, and computes (df/dy) x by central differences of
+ * f. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +24,7 @@
 
 enum { SIZE = 200, STATES = 5, MECHANISMS = 40 };
 
-/* A problem that the tests use only for its linear systems. */
+/* The linear solver of CVODE BDF and the data that it needs, but without CVODE. */
 typedef struct solver {
   baum_workspace *workspace;
   baum_i_problem problem;
@@ -117,8 +118,8 @@ static double size_of(const solver *s, const double *x)
   return largest;
 }
 
-/* Computes (df/dy) x by a central difference of order 4, with an error of about 1e-12 of f. Returns
- * false if one of the configurations is nearly singular. */
+/* Computes (df/dy) x by a central difference of order 4, with an error of about 1e-12 of the size
+ * of f. Returns false if one of the configurations is nearly singular. */
 static bool differentiate(const solver *s, double t, const double *y, const double *x, double *out)
 {
   static const double places[4] = {-2.0, -1.0, 1.0, 2.0};

@@ -40,13 +40,15 @@ typedef struct point {
   double dy[SIZE_MAX_DAE];
   double scale[SIZE_MAX_DAE]; /* scales of the columns */
   int size;                   /* number of columns */
-  int shift;                  /* nq - nv; for an unknown after q, its index in y minus its column */
+  int shift;                  /* nq - nv: v and the multipliers in column j are y[j + shift] */
 } point;
 
 /* Sets the scales of the columns. With these scales, the results of the tests do not depend on
  * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
- * divided by one second. The scale of a lambda is the largest m scale^2 / s^2 of all coordinates,
- * divided by the displacement of its row. The scale of a mu is the same times one second. */
+ * divided by one second. The scale of a lambda is E / d. Here E is the largest m scale^2 / s^2 of
+ * all coordinates, and d is the norm of the row of J that belongs to the lambda, with columns
+ * multiplied by the scales of the coordinates. The scale of a mu is the scale of the lambda of the
+ * same row, multiplied by one second. */
 static void set_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
@@ -158,8 +160,8 @@ static void write_dense(const baum_i_residual_matrix *matrix, const double *valu
   }
 }
 
-/* Returns the largest difference of two scaled entries, as a fraction of the largest entry in their
- * row. */
+/* Returns the largest difference between corresponding scaled entries, as a fraction of the largest
+ * entry in their row. */
 static double largest_difference(const square *got, const square *want, const point *p)
 {
   double worst = 0.0;
@@ -202,7 +204,7 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
 
 /* Central differences with a step of 1e-5 of the scale have a truncation error of 1e-10 and also
  * rounding errors. If a user function gives no Jacobian, the matrix itself also contains
- * differences. A wrong term causes 1e-3 or more. */
+ * differences. A wrong term causes a deviation of 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
   for (int f = 0; f < FORM_COUNT; f++) {
@@ -262,7 +264,8 @@ static void the_jacobian_agrees_with_differences_for_redundant_rows(void **state
               model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m), &m);
 }
 
-/* One body has no mass. Its entry in the metric W of GGL is therefore the lower bound. */
+/* The entries of the metric W of GGL are masses, but not less than a lower bound. In this test one
+ * body has no mass, so its entry is the lower bound. */
 static void the_jacobian_agrees_with_differences_for_a_body_without_mass(void **state)
 {
   (void)state;
@@ -335,7 +338,7 @@ static void check_index_1_at_the_solution(const double *row_gains)
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < 2 * nv + nc; i++) {
-    /* The tolerance is the rounding error of sums whose terms have this size. */
+    /* The tolerance is the rounding error of sums whose terms are as large as `size`. */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   baum_workspace_destroy(w);
@@ -380,7 +383,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
     size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
   }
   for (int i = 0; i < p.size; i++) {
-    /* The tolerance is the rounding error of sums whose terms have this size. */
+    /* The tolerance is the rounding error of sums whose terms are as large as `size`. */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
   }
   p.y[2 * nv + nc] = 0.5;
@@ -388,7 +391,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   assert_int_equal(baum_workspace_jacobian(w, 0.0, p.y, jacobian), BAUM_OK);
   assert_int_equal(baum_workspace_mass(w, 0.0, p.y, mass), BAUM_OK);
   for (int i = 0; i < nv; i++) {
-    /* Here W is the diagonal of M, because no entry is at the lower bound. */
+    /* In this mechanism W is the diagonal of M, because no entry is at the lower bound. */
     ASSERT_NEAR(residual[i], 0.5 * jacobian[i] / mass[i * nv + i], 1e-13, 1e-13 * size);
   }
   baum_workspace_destroy(w);

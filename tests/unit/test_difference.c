@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares differences with known derivatives. Errors are relative to the change of the function
- * over one scale of the coordinate. In most tests this change is about 1. */
+/* Compares finite differences with known derivatives. Errors are relative to the change of the
+ * function over one scale of the coordinate. In most tests this change is about 1. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -205,9 +205,9 @@ static void a_line_in_any_direction_stays_accurate_after_ten_thousand_revolution
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* q is rounded to 7e-12, so the direction of a step is wrong by 7e-12 / (v / 64), which is about
-   * 1e-9. If steps were not chosen so that they can be represented exactly, the error would be
-   * 1e-7. */
+  /* q is rounded to 7e-12, and steps are v / 64 long. The direction of a step is therefore wrong by
+   * about 1e-9. The steps are chosen so that they can be represented exactly. Otherwise the error
+   * would be 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }

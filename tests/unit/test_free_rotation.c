@@ -18,8 +18,9 @@
 static const double TILT[4] = {0.7, -0.1, 0.5, 0.5};
 static const double MOMENTUM[3] = {0.9, -0.4, 0.6};
 
-/* Principal moments of all kinds, in any order. There are general, slender and flat bodies, a
- * sphere, and symmetric bodies whose third moment is larger or smaller than the other two. */
+/* Principal moments of inertia of all kinds, in any order. There are general, slender and flat
+ * bodies, a sphere, and symmetric bodies whose third moment is larger or smaller than the other
+ * two. */
 static const double MOMENTS[][3] = {{1.0, 2.0, 2.7},   {2.0, 0.2, 2.1}, {2.9, 1.4, 1.5},
                                     {2.0, 2.0, 0.5},   {1.0, 1.6, 1.0}, {2.0, 1e-3, 2.0},
                                     {1.0, 2.0, 2.999}, {1.5, 1.5, 1.5}};

@@ -366,7 +366,7 @@ static void the_longest_step_keeps_the_gains_stable(void **state)
     double alpha = pairs[k][0];
     double beta = pairs[k][1];
     double h = chosen(baum_gains_fixed(alpha, beta), rk4).max_step;
-    /* h is 0.9 of the stability limit. It is therefore stable, and h / 0.89 is not. */
+    /* The step h is 0.9 of the stability limit. It is therefore stable, but h / 0.89 is not. */
     double in = amplification_at(RK4, alpha * h, beta * h * beta * h).spectral_radius;
     double out =
       amplification_at(RK4, alpha * h / 0.89, beta * h * beta * h / (0.89 * 0.89)).spectral_radius;

@@ -92,7 +92,7 @@ static void a_planetary_gear_follows_willis(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* the sum of terms of about 50 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-13); /* rounding error of a sum of terms of about 50 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-13);
   double sun = 11.0;
   double arm_angle = sun / (1.0 + 90.0 / 20.0);
@@ -102,7 +102,7 @@ static void a_planetary_gear_follows_willis(void **state)
     arm_angle - 20.0 / 35.0 * (sun - arm_angle);
   test_point_update(&p);
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-12); /* the sum of terms of about 500 */
+  ASSERT_NEAR(phi[0], 0.0, 0.0, 1e-12); /* rounding error of a sum of terms of about 500 */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-12);
   test_point_close(&p);
 }

@@ -248,7 +248,7 @@ static void a_start_off_the_constraints_is_projected(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Samples at one third and at two thirds of every step do not change the motion. They are as
+/* Samples at one third and at two thirds of every step do not change the motion. The samples are as
  * accurate as the results at grid points. */
 static void samples_between_grid_points_change_nothing(void **state)
 {
@@ -345,8 +345,8 @@ static void only_index_3_without_gains_is_offered(void **state)
 
 /* ---- a small and stiff coordinate that measures a large one ---- */
 
-/* The coordinate u = x - 0.4 of unit mass measures the position x of a link. A spring of stiffness
- * k acts on u. */
+/* The coordinate u has unit mass, and a spring of stiffness k acts on it. A constraint sets u to x
+ * - 0.4, where x is the position of a link. */
 static int unit(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -410,8 +410,8 @@ static baum_mechanism *link_with_gauge(double *k)
   return m;
 }
 
-/* The scale of u is 1e-5. The rounding error of x is therefore 1e-11 of this scale, whatever the
- * step. The iteration must accept this error. */
+/* The scale of u is 1e-5. The rounding error of x is about 1e-16, which is 1e-11 of the scale of u,
+ * whatever the step. The iteration must accept this error. */
 static void the_iteration_accepts_rounding_errors_of_a_small_coordinate(void **state)
 {
   (void)state;

@@ -221,11 +221,11 @@ static double multiplier_error(const model *scene, baum_formulation formulation,
   return worst;
 }
 
-/* Checks that the errors are at most 0.1. The error test excludes multipliers, so that only
- * Newton's iteration controls them. The tolerance of this iteration is 1e-2 of the largest
- * multiplier. The iteration weights each multiplier by the size of its row, and these sizes differ
- * by less than a factor of 10. Without this control the errors would grow to 1e14 times the
- * multipliers. */
+/* Checks that the relative errors of the multipliers are at most 0.1. The error test excludes
+ * multipliers, so that only Newton's iteration controls them. The tolerance of this iteration is
+ * 1e-2 of the largest multiplier. The iteration weights each multiplier by the size of its row, and
+ * these sizes differ by less than a factor of 10. Without this control the errors would grow to
+ * 1e14 times the multipliers. */
 static void check_multipliers_of(baum_formulation formulation)
 {
   for (int k = 4; k <= 10; k++) {
@@ -480,9 +480,9 @@ static void few_of_the_first_steps_are_rejected(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line adds two redundant rows. They are replaced by the equations
- * lambda_i = 0 and mu_i = 0. The motions with one and with two guides differ by their global
- * errors, which are about 100 rtol after one revolution. */
+/* A second guide on the same line adds two redundant rows. IDA solves the equations lambda_i = 0
+ * and mu_i = 0 instead of these rows. The motions with one and with two guides differ by their
+ * global errors, which are about 100 rtol after one revolution. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;

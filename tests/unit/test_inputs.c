@@ -318,8 +318,8 @@ enum { CHANGES = 3 };
 
 static void check_run(step_mode mode)
 {
-  /* These times are grid points of fixed steps. Without the changes, one variable step would pass
-   * over several of them. */
+  /* These times are grid points of fixed steps. If the input did not change, one variable step
+   * would pass over several of these times. */
   static const double until[CHANGES + 1] = {0.25, 0.375, 0.75, 1.0};
   static const double inputs[CHANGES + 1] = {0.5, -3.0, 0.0, 1.25};
   scene s = pushed_scene();

@@ -171,9 +171,9 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The state violates Phi and Phi'. The acceleration along the rod therefore depends on the gains.
- * Only Baumgarte's formulation may use the gains. If the run goes backwards in time, the sign of
- * alpha is reversed. */
+/* The state violates Phi = 0 and Phi' = 0. The acceleration along the rod therefore depends on the
+ * gains. Only Baumgarte's formulation may use the gains. If the run goes backwards in time, the
+ * sign of alpha is reversed. */
 static void gains_follow_formulation_and_direction(void **state)
 {
   (void)state;
@@ -222,7 +222,7 @@ static void stability_is_reported_for_each_integrator(void **state)
   assert_true(isnan(out.spectral_radius));
   double limit = 0.0;
   assert_int_equal(baum_stability_limit(baum_rk4(), 1.0, &limit), BAUM_OK);
-  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* the limit on the real axis of mu */
+  ASSERT_NEAR(limit, 2.785293563405282, 1e-12, 0.0); /* for alpha = beta */
   double good[2];
   assert_int_equal(baum_stability_deadbeat(baum_semi_implicit_euler(), &good[0], &good[1]),
                    BAUM_OK);

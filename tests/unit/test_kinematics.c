@@ -104,7 +104,8 @@ static void follow(const slider_crank *data, double gap, tally *all)
 }
 
 /* At the same crank angle, the sliders of the two branches are at least 2 sqrt(l^2 - (r + e)^2)
- * apart. For the three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
+ * apart. Here l is the length of the rod, r the length of the crank, and e the offset. For the
+ * three rods, this distance is 0.11 m, 0.011 m and 0.0011 m. */
 static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
 {
   (void)state;
@@ -274,7 +275,7 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
     (void)swing(t, s, NULL);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* Errors grow by 1 / sin(angle), which is at most 3. */
+    /* Errors are amplified by 1 / sin(angle), which is at most 3. */
     ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
     ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);

@@ -281,7 +281,7 @@ static void a_right_hand_side_that_is_not_finite_changes_nothing(void **state)
 }
 
 /* Replaces every 6 x 6 block of M by the mass matrix of a slender rod along (1, 2, 2), and sorts
- * the columns of J. The gaps between the values of the blocks remain. */
+ * the columns of J. The array of the values of M keeps its gaps between the blocks. */
 static void make_rods(saddle *system)
 {
   static const double axis[3] = {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0};

@@ -55,7 +55,7 @@ static saddle make_four_bars(int loops, double angle)
 }
 
 /* Solves a system in metres and in another unit, and compares the accelerations in metres. Returns
- * the worse of the two qualities. */
+ * the worse of the two qualities that the solver reports. */
 static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
 {
   baum_i_kkt_quality worst = BAUM_I_KKT_GOOD;
@@ -398,7 +398,7 @@ static void repeated_rows_that_agree_are_solved(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    /* A contradiction is tolerated if it is below 1e-8 of r. */
+    /* The solver tolerates a contradiction if it is less than 1e-8 of the right-hand sides r. */
     saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10);
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);

@@ -98,7 +98,7 @@ static double power_at(double t, int power, double *rate)
   return pow(x, power);
 }
 
-/* Interpolates a single coordinate, whose value is from + (t - 10.2)^power. The second element of
+/* Interpolates a single coordinate, whose value is `from` + (t - 10.2)^power. The second element of
  * each result must not change. */
 static void assert_power(int count, int power, double from, double t)
 {
@@ -116,8 +116,8 @@ static void assert_power(int count, int power, double from, double t)
   double want_rate;
   double want = from + power_at(t, power, &want_rate);
   baum_i_hermite(&line, knots, count, t, got, rate, work);
-  /* The rounding error of q is 1e-16 times `from`. It is amplified by the sum of the absolute
-   * weights, which at 10.4 s is 340 for q and 12500 for q'. */
+  /* The rounding error of q is 1e-16 times `from`. The interpolation amplifies this error by the
+   * sum of the absolute values of its weights, which at 10.4 s is 340 for q and 12500 for q'. */
   ASSERT_NEAR(got[0], want, 0.0, 1e-13 + 3.4e-14 * from);
   ASSERT_NEAR(rate[0], want_rate, 0.0, 1e-12 + 1.25e-12 * from);
   assert_true(got[1] == -1.0 && rate[1] == -1.0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests positions on a manifold (nq > nv): the functions move, rate and difference, derivatives
- * along the manifold, and the checks of definitions. */
+/* Tests positions on a manifold (nq > nv): the functions move(), rate() and difference(),
+ * derivatives along the manifold, and the checks of definitions. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -20,11 +20,11 @@
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
 
-/* Sizes of the largest tested mechanism, which has every element. WIDE includes the multipliers
- * lambda and mu of GGL. */
+/* Sizes of the largest tested mechanism, which has every kind of element. WIDE includes the
+ * multipliers lambda and mu of GGL. */
 enum { SIZE = EVERY_NQ, WIDE = EVERY_NQ + EVERY_NV + 2 * EVERY_NC };
 
-/* ---- a scene at some state ---- */
+/* ---- scenes and their states ---- */
 
 typedef struct stage {
   baum_mechanism *mechanism;
@@ -81,8 +81,9 @@ static void set_axis(const stage *s, int j, double *x)
 
 /* ---- the functions ---- */
 
-/* Checks N v by a central difference of move. The central difference has an error of 1e-8. Also
- * checks that N^+ N v = v, and that difference is the inverse of move. */
+/* Checks N v by a central difference of the function move(). The central difference has an error of
+ * 1e-8. Also checks that N^+ N v = v, and that the function difference() is the inverse of
+ * move(). */
 static void check_functions(stage *s, const manifold_scene *scene)
 {
   static const double H = 1e-4;
@@ -164,8 +165,8 @@ static void columns_of_positions_and_velocities_may_differ(void **state)
 
 /* ---- assembly ---- */
 
-/* Assembly must minimize the displacements (nv), not the changes of q (nq). The twin mechanism must
- * then be assembled into the same configuration. */
+/* Assembly must minimize the displacements (nv), not the changes of q (nq). The twin is the same
+ * mechanism with nq = nv. Its assembly must give the same configuration. */
 static void assembly_moves_along_the_manifold(void **state)
 {
   (void)state;
@@ -434,7 +435,8 @@ static void wrong_rate(const double *q, const double *v, double *dq, void *user)
   dq[1] = q[0] * v[0];
 }
 
-/* This move is correct only to first order. It changes the angle by h v + (h v)^2 / 2. */
+/* A wrong move(). It changes the angle by h v + (h v)^2 / 2, which is correct only to first
+ * order. */
 static void wrong_move(double h, const double *v, double *q, void *user)
 {
   (void)user;
@@ -446,10 +448,11 @@ static void wrong_move(double h, const double *v, double *q, void *user)
 static void wrong_difference(const double *from, const double *to, double *dx, void *user)
 {
   (void)user;
-  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* this is the chord and not the signed angle */
+  dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* the chord, not the signed angle */
 }
 
-/* This function makes the cosine positive. If it was negative, the angle changes by pi. */
+/* A wrong normalize(). It makes the cosine positive. If the cosine was negative, the angle changes
+ * by pi. */
 static void wrong_normalize(double *q, void *user)
 {
   (void)user;

@@ -74,8 +74,9 @@ static void numbers_that_are_not_finite_are_found_everywhere(void **state)
 }
 
 /* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0. If
- * v at the end of the step then changes by e, the error of v changes by e. The error of q changes
- * by h e / 2 if dq is given. If dq is computed from the samples, two terms of this error cancel. */
+ * v at the end of the step then changes by e, the estimated error dv of the velocities changes by
+ * e. The estimated error of the positions is dq + h dv / 2. If dq is given, this sum changes by h e
+ * / 2. If dq is computed from the samples, dq changes by -h e / 2, so the sum stays 0. */
 static void polynomials_have_no_local_error(void **state)
 {
   (void)state;
@@ -103,11 +104,11 @@ static void polynomials_have_no_local_error(void **state)
     s.a[k] = numbers[k][2];
   }
   for (int k = 0; k < 2; k++) {
-    /* The error of the Hermite rule is h^5 / 720 q^(5) = 0. Rounding errors of terms below 6
-     * remain. */
+    /* The error of the Hermite rule is h^5 / 720 times the fifth derivative of q, which is 0. Only
+     * the rounding errors of terms below 6 remain. */
     ASSERT_NEAR(kernel_of(k)->local_error(MOST, &s), 0.0, 0.0, 1e-14);
   }
-  numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* dv = 0.5, dq = -h/2 0.5 + h/2 dv = 0 */
+  numbers[0][1][MOST - 1] += 0.5 * scale[MOST - 1]; /* e = 0.5 */
   s.dq = nothing;
   for (int k = 0; k < 2; k++) {
     double want = 0.5 * h * 0.5 + 2.0 * 0.5;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the amplification of Adams-Bashforth methods with the matrix of one step. */
+/* Compares the amplification of Adams-Bashforth methods with the matrix of one step. The roots z of
+ * a method depend on A = alpha h and B = (beta h)^2. The roots of mu^2 + 2 A mu + B = 0 are called
+ * mu. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -13,8 +15,8 @@
 
 enum { POINTS = 400, MOST = 8, SQUARINGS = 40 };
 
-/* The matrix of one step. It multiplies a vector of (x, v) and the derivatives (x', v') at earlier
- * steps. */
+/* The matrix of one step. It multiplies a vector that consists of (x, v) and of the derivatives
+ * (x', v') at earlier steps. */
 typedef struct matrix {
   int n;
   double a[MOST][MOST];
@@ -78,7 +80,8 @@ static double matrix_radius(matrix m)
   return exp(sum);
 }
 
-/* Chooses a random point (A, B), at 0.1 to 10 times the size of the stability region. */
+/* Chooses a random point (A, B) in a box that is 0.1 to 10 times as large as the stability
+ * region. */
 static void random_point(uint64_t *seed, int method, double point[2])
 {
   double limit = baum_i_stability_limit(&methods[method], 1.0);
@@ -127,8 +130,8 @@ static void within_agrees_with_the_radius(void **state)
   assert_true(within > POINTS); /* out of POINTS * METHOD_COUNT points */
 }
 
-/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu. Returns the smaller
- * |p|. */
+/* Evaluates p(z) = z^k - z^(k-1) - mu sum b_j z^(k-1-j) for both values of mu, and returns the
+ * smaller of the two values |p(z)|. */
 static double residual(int method, double A, double B, const double z[2])
 {
   double least = HUGE_VAL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of a vector x. The factors of the last
- * solution are used. Two properties define P: J P x = J x, and P x is M-orthogonal to every y with
- * J y = 0. A second function computes P x from J x instead of x. */
+/* Tests the normal part P x = M^-1 J^T (J M^-1 J^T)^-1 J x of a vector x. The library computes P x
+ * with the factors of its last solution. Two properties define P: J P x = J x, and P x is
+ * M-orthogonal to every y with J y = 0. A second function computes P x from J x instead of x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -17,8 +17,9 @@ enum { POINTS = 4000, COLUMNS = 120, ROWS = 160 };
 static double alpha_h[POINTS];
 static double beta2_h2[POINTS];
 
-/* A method with R(x) - 1 = x (x + 2) (x + 3) / 6. With critical damping, it is stable up to alpha
- * h = 2. It is stable again from alpha h = 3 to the point where R = -1. */
+/* A method with the stability polynomial R(x) = 1 + x (x + 2) (x + 3) / 6. With critical damping,
+ * alpha = beta and x = -alpha h. The method is then stable up to alpha h = 2, and again from alpha
+ * h = 3 to the point where R = -1. */
 static const baum_i_method island = {
   .kind = BAUM_I_METHOD_ONE_STEP, .degree = 3, .coefficients = {1.0, 1.0, 5.0 / 6.0, 1.0 / 6.0}};
 
@@ -70,7 +71,7 @@ static void outlines_have_the_given_radius(void **state)
         if (alpha_h[k] > 1e-12 && beta2_h2[k] > 1e-12) {
           double got = amplification_at(m, alpha_h[k], beta2_h2[k]).spectral_radius;
           /* The points are found by 42 bisections. The spectral radius of rk8 changes steeply,
-           * which amplifies their error. */
+           * which amplifies the errors of the points. */
           ASSERT_NEAR(got, radii[r], 0.0, 1e-9);
         }
       }
@@ -87,7 +88,8 @@ static double most(const double *values, int count)
   return out;
 }
 
-/* Computes the area of the region by counting the points of a fine grid that are inside. */
+/* Computes the area of the region by counting the points of a fine grid that are inside the
+ * region. */
 static double counted_area(int method, double radius, double A, double B)
 {
   int inside = 0;
@@ -173,7 +175,7 @@ static void islands_appear_as_parts_and_intervals_and_in_searches(void **state)
   ASSERT_NEAR(to[0], 2.0, 1e-9, 0.0);
   ASSERT_NEAR(from[1], 3.0, 1e-9, 0.0);
   double x = to[1];
-  ASSERT_NEAR(x * (x - 2.0) * (x - 3.0), 12.0, 1e-9, 0.0); /* R(-x) = -1 */
+  ASSERT_NEAR(x * (x - 2.0) * (x - 3.0), 12.0, 1e-9, 0.0); /* R(-x) = -1 at this end */
   ASSERT_NEAR(baum_i_stability_limit(&island, 1.0), 2.0, 1e-9, 0.0);
   /* The function writes only as many intervals as there is room for, but it counts all of them. */
   from[1] = 7.0;
@@ -243,10 +245,10 @@ static void no_grid_point_is_better_than_the_best(void **state)
   }
 }
 
-/* Each row gives A and the radius of a best point. At a best point, mu is real and the two largest
- * roots have the same modulus. For AB2, these roots are z = 1 / sqrt(3) and z = -1 / sqrt(3). Their
- * sum 1 - 3 A / 2 is therefore zero. The values for AB3 and AB4 were computed in Python. The roots
- * were found by the Durand-Kerner iteration, and mu by nested intervals. */
+/* Each row gives A = alpha h and the spectral radius of a best point. At a best point, alpha = beta
+ * and the two largest roots z have the same modulus. For AB2, these roots are z = 1 / sqrt(3) and z
+ * = -1 / sqrt(3). Their sum 1 - 3 A / 2 is therefore zero. The values for AB3 and AB4 were computed
+ * in Python. The roots were found by the Durand-Kerner iteration, and A by nested intervals. */
 static void best_points_of_adams_bashforth_are_the_known_ones(void **state)
 {
   (void)state;

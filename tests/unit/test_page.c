@@ -171,9 +171,9 @@ static void a_sample_shows_paths_and_reactions_in_the_view_of_the_motion(void **
     assert_int_equal(count_of(text[k], "<title>reaction of "), 1);
     /* The first line gives the size and the view, which must be equal in all pictures. */
     assert_int_equal(strncmp(text[k], text[0], strcspn(text[0], "\n")), 0);
-    /* The force and its scale have this colour. */
+    /* The arrow of the force and the scale of forces have this colour. */
     assert_int_equal(count_of(text[k], "#be123c"), k == 1 ? 2 : 1);
-    /* The arc and its tip have this colour. */
+    /* The arc that shows the moment and the tip of this arc have this colour. */
     assert_int_equal(count_of(text[k], "#8b5cf6"), k == 2 ? 2 : 0);
     const char *path = strstr(strstr(text[k], "<title>path of "), "<path d=\"M");
     int lines = 0;

@@ -39,7 +39,7 @@ static double pivot_of(const baum_mechanism *m)
 }
 
 /* The rods have inertias down to 1e-14 kg m^2. At 1e-12 kg m^2 and less, the block solver fails in
- * most directions of the rod. The solver of the whole system then replaces it. */
+ * most directions of the rod. The solver of the whole system then replaces the block solver. */
 static void the_pivot_of_a_pinned_rod_is_one_for_all_inertias_and_directions(void **state)
 {
   (void)state;

@@ -141,7 +141,7 @@ static void a_point_on_a_particle_must_be_at_the_particle(void **state)
                 "joint 1 \"B\": point_b is (0, -2) m, must be (0, 0) on the particle body 4 "
                 "\"bead\"");
 
-  /* Only freeze can compare the point with the design configuration. */
+  /* Only freeze() can compare the point with the design configuration. */
   def = pin(scene.crank, scene.ball);
   def.point[0] = -0.6;
   def.point[1] = 0.9;

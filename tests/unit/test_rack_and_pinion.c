@@ -76,7 +76,7 @@ static void a_wheel_on_the_floor_rolls_backward_if_its_angle_increases(void **st
   int crank = p.mechanism->bodies[scene.crank.index1]->q;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);
   /* The contact point is at (0, -radius) from the centre, and has no velocity. A rotation by 3 rad
-   * therefore moves the centre by -3 radius. */
+   * therefore moves the centre by -3 times the radius. */
   p.q[crank] -= radius * 3.0;
   p.q[crank + 2] += 3.0;
   ASSERT_NEAR(phi_of(&p), 0.0, 0.0, 1e-15);

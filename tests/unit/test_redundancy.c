@@ -107,7 +107,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   for (int i = 0; i < 3; i++) {
     ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
   }
-  for (int i = 0; i < 2; i++) { /* each pin carries half of the force if the norm is least */
+  for (int i = 0; i < 2; i++) { /* with the least norm, each pin carries half of the force */
     ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
     ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
   }

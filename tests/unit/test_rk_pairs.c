@@ -151,8 +151,8 @@ static void interpolants_of_successive_steps_join_smoothly(void **state)
   for_each(check_joined_steps);
 }
 
-/* Interpolation must not change any bit of the motion. It may only add the evaluations of the extra
- * stages, once per step. */
+/* Interpolation must not change any bit of the motion. Interpolation may only add the evaluations
+ * of the extra stages, once per step. */
 static void check_motion_with_interpolation(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();

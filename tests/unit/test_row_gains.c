@@ -144,7 +144,7 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
   return counters;
 }
 
-/* The gains reach 4e4 1/s. A plain fixed-point iteration converges only if 2 alpha h < 2, which
+/* The gains reach 4e4 1/s. A plain fixed-point iteration converges only if 2 alpha h < 2, so it
  * would require 2000 steps. CVODE Adams, CVODE BDF and IDA were measured to take 620, 440 and 580
  * steps. With equal gains of 1e4 1/s they take 340, 370 and 390 steps. */
 static void steps_do_not_become_much_shorter(void **state)

@@ -51,7 +51,7 @@ static void the_sign_of_the_margin_tells_whether_all_roots_are_inside(void **sta
     int degree = 1 + n % BAUM_I_SCHUR_COHN_DEGREE;
     double largest = from_roots(&seed, degree, 1.2, &p);
     double radius = uniform(&seed, 0.3, 1.5);
-    /* Rounding decides if the largest root is closer to the circle. */
+    /* If the largest root is within 1e-3 of the circle, rounding errors may decide the sign. */
     if (fabs(largest - radius) > 1e-3) {
       assert_int_equal(baum_i_schur_cohn_margin(&p, radius) > 0.0, largest < radius);
       inside += largest < radius;
@@ -91,9 +91,9 @@ static void multiple_roots_have_the_stated_accuracy(void **state)
 static void roots_on_the_circle_are_not_inside(void **state)
 {
   (void)state;
-  /* The polynomial z^2 - z. */
+  /* The polynomial z^2 - z, with the roots 0 and 1. */
   const baum_i_polynomial one = {2, {{0.0, 0.0}, {-1.0, 0.0}, {1.0, 0.0}}};
-  /* The polynomial z^2 + 1. */
+  /* The polynomial z^2 + 1, with the roots i and -i. */
   const baum_i_polynomial pair = {2, {{1.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}}};
   assert_true(baum_i_schur_cohn_margin(&one, 1.0) <= 0.0);
   assert_true(baum_i_schur_cohn_margin(&pair, 1.0) <= 0.0);

@@ -17,9 +17,10 @@
 
 static const double RATE = 2.0; /* [rad/s] angular velocity in the definition of the motor */
 
-/* Options of the user functions of a scene, and the number of calls of the law. */
+/* Tells which law the winch uses and whether the user force fails, and counts the calls of the
+ * law. */
 typedef struct faults {
-  bool along_spline; /* a spline is the law of the winch, not the user function */
+  bool along_spline; /* the law of the winch is a spline, not the user function */
   int law_calls;
   bool force_fails;
 } faults;

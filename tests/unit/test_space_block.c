@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the two versions of the solver of space: the plain one, and the one for this processor.
- * The functions are called in the order of an evaluation. Before each call, both versions receive
- * the same data. tests/physics/test_spatial_accuracy.c compares results with quadruple
- * precision. */
+/* Compares the two versions of the solver of mechanisms in space (linear/space_block.h): the plain
+ * one, and the one for this processor. The tests call the functions of the solver in the order of
+ * an evaluation. Before each call, both versions receive the same data.
+ * tests/physics/test_spatial_accuracy.c compares results with quadruple precision. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -38,7 +38,7 @@ static void use_plain(baum_i_block_path *path)
 }
 
 /* Evaluates both workspaces in the design configuration with random velocities. Returns false if
- * the mechanism does not use the solver of space. */
+ * the mechanism does not use the solver of mechanisms in space. */
 static bool make_pair(const baum_mechanism *m, pair *p)
 {
   static const baum_i_right_side right = {
@@ -214,15 +214,16 @@ static void compare_corrections(const pair *p)
     assert_true(kernel->read_motion(p->space[k], a[k]));
   }
   compare_nodes(p, 1e-11);
-  /* The largest change may be that of the island in which rounding errors grow most. */
+  /* The island in which rounding errors grow most may be the island with the largest change. */
   ASSERT_NEAR(change[1], change[0], fmax(1e-9, 1e-13 * amplification[0]), 0.0);
   ASSERT_NEAR(amplification[1], amplification[0], 1e-9, 0.0);
-  /* The amplification multiplies rounding errors. */
+  /* Rounding errors of accelerations are multiplied by the amplification. */
   assert_close(a[1], a[0], p->w[0]->mechanism->nv, fmax(1e-10, 1e-14 * amplification[0]), 0.0);
 }
 
-/* Returns false if the mechanism does not use the solver of space, or if the pivots are weak.
- * Rounding errors then grow, so that only a part is compared. */
+/* Returns false if the mechanism does not use the solver of mechanisms in space, or if the pivots
+ * are weak. If they are weak, rounding errors grow, so only the geometry and the couplings are
+ * compared. */
 static bool compare(const baum_mechanism *m)
 {
   pair p;

@@ -288,8 +288,8 @@ static void gyroscopic_moments_agree_with_differences(void **state)
   test_point_close(&p);
 }
 
-/* Checks N v by a central difference of move. Also checks that difference is the inverse of
- * move. */
+/* Checks N v by a central difference of the function move(). Also checks that the function
+ * difference() is the inverse of move(). */
 static void move_agrees_with_rate_and_difference(void **state)
 {
   (void)state;

@@ -189,8 +189,8 @@ static void a_periodic_spline_repeats_and_approximates_the_sine(void **state)
   test_point_close(&p);
 }
 
-/* Compares values 1e-12 s before and after each knot. At one of the knots, a periodic spline
- * repeats. */
+/* Compares values 1e-12 s before and after each knot. A periodic spline continues with the next
+ * period after its last knot. */
 static void second_derivatives_are_continuous(void **state)
 {
   (void)state;
@@ -342,7 +342,7 @@ static void wrong_curves_are_refused(void **state)
     def.joint = pin;
     check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
-  /* The two end values differ only by 1e-13. */
+  /* The first value and the last value differ by 1e-13. A periodic spline must accept this. */
   baum_spline_driver_def def = spline_def_of(times, values, 4, true);
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");
   def.joint = pin;

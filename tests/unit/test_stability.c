@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* Tests stability limits, dead-beat points and the nearest points with given damping. A point is a
+ * pair (A, B) with A = alpha h and B = (beta h)^2. The roots of a method are called z. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +20,8 @@ static void limits_are_the_known_ones(void **state)
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
-    /* This number and the next one were computed in Python, by bisection of |R| - 1. */
+    /* This number and the next one were computed in Python, by bisection of |R| - 1, where R is the
+     * stability polynomial. */
     [RK3] = 2.5127453266183286,
     [RK4] = 2.785293563405282,
   };
@@ -35,9 +38,9 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* The damping ratio is zeta = alpha / beta. For explicit Euler, the boundary of the region is B = 2
- * A if zeta < 1, and B = 4 A - 4 if zeta > 1. For semi-implicit Euler, it is B = 4 - 4 A. Together
- * with B = (A / zeta)^2, this gives the limits in closed form. */
+/* The damping ratio is zeta = alpha / beta. For explicit Euler, the boundary of the stability
+ * region is B = 2 A if zeta < 1, and B = 4 A - 4 if zeta > 1. For semi-implicit Euler, the boundary
+ * is B = 4 - 4 A. The limits are the points of these lines at which B = (A / zeta)^2. */
 static void limits_of_both_euler_methods_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;
@@ -99,8 +102,8 @@ static void deadbeat_points_are_the_known_ones(void **state)
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
-    /* This row and the next one follow from roots of R, found by the Durand-Kerner iteration in
-     * Python. */
+    /* This row and the next one follow from the roots of the stability polynomial, which were found
+     * by the Durand-Kerner iteration in Python. */
     [RK3] = {0.701964181008339, 3.7592297596248},
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
@@ -126,8 +129,8 @@ static void deadbeat_of_both_euler_methods_is_exact(void **state)
   }
 }
 
-/* Each row gives A and the radius of the best point with alpha = beta. The published values have
- * two digits. */
+/* Each row gives A and the spectral radius of the best point with alpha = beta. The published
+ * values have two digits. */
 static void least_radii_with_critical_damping_are_the_published_ones(void **state)
 {
   (void)state;
@@ -253,8 +256,8 @@ static void no_good_grid_point_is_much_nearer(void **state)
     point w = {size * most.A * uniform(&seed, -0.2, 1.5),
                size * most.B * uniform(&seed, -0.1, 1.5)};
     point got = nearest(m, w.A, w.B);
-    /* The search uses the test of Schur and Cohn. Its rounding errors differ from those of the
-     * radius. */
+    /* The search uses the test of Schur and Cohn, whose rounding errors differ from those of the
+     * spectral radius. */
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-10);
     /* At a sharp tip of the region of RK3, the point that the search finds may be 1 % farther away
      * than the point of the grid. */

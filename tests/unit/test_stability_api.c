@@ -29,7 +29,8 @@ static const fact FACTS[] = {
   {baum_euler, 2.0},
   {baum_semi_implicit_euler, 0.8284271247461903}, /* 2 sqrt 2 - 2 */
   {baum_rk2, 2.0},
-  /* This limit and the next one were computed in Python, by bisection of |R| - 1. */
+  /* This limit and the next one were computed in Python, by bisection of |R| - 1, where R is the
+   * stability polynomial. */
   {baum_rk3, 2.5127453266183286},
   {baum_rk4, 2.785293563405282},
   {baum_ab2, 1.0},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the matrix of the iteration in an implicit step. A displacement d changes the residual. The
  * test computes this change by differences, and uses it as the right side of a system with the
- * matrix. The solution must be d again. The mechanism contains every element. */
+ * matrix. The solution must be d again. The mechanism contains every kind of element. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -59,7 +59,7 @@ static void lines_that_no_study_writes_are_refused(void **state)
   (void)state;
   const baum_i_field fields[] = {
     {"steps", "", "", BAUM_I_COUNT, true, true, offsetof(baum_study_entry, steps)},
-    /* In this list, the state is marked as not contained in files. */
+    /* This list marks `state` as a field that files do not contain. */
     {"state", "", "", BAUM_I_STATE, true, false, offsetof(baum_study_entry, state)},
     {"repeats", "", "", BAUM_I_INDEX, true, true, offsetof(baum_study_entry, repeats)},
     {"cpu", "", "", BAUM_I_NUMBER, true, true, offsetof(baum_study_entry, cpu)},

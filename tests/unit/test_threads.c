@@ -85,8 +85,8 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Returns integrator number k (modulo their count) if it can run the mechanism in this build.
- * Otherwise returns rk4. */
+/* Returns integrator number k (modulo the number of integrators) if this integrator can run the
+ * mechanism in this build. Otherwise returns rk4. */
 static const baum_integrator *choose_integrator(int k)
 {
   int count = 0;
@@ -251,7 +251,7 @@ static void *fail_repeatedly(void *argument)
     baum_mechanism_destroy(mechanism);
     (void)snprintf(want, sizeof want, "mass is %g kg", j->mass);
     if (strstr(baum_message(), want) == NULL) {
-      j->status = BAUM_ERR_INTEGRATOR; /* the message is of another thread */
+      j->status = BAUM_ERR_INTEGRATOR; /* the message comes from another thread */
     }
   }
   return NULL;

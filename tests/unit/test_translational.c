@@ -115,7 +115,8 @@ static void with_body_points_the_axis_is_in_the_axes_of_body_a(void **state)
   /* In body axes the points are (0.3, -0.2) and (-0.45, 0.15). In the axes of the link, the centre
    * of the crank is at (5, 7). */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
-  /* The distance across the axis is measured along k x axis = (-1, 0). */
+  /* The distance across the axis is measured along k x axis = (-1, 0), where k is the unit normal
+   * of the plane. */
   ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0);
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);
   test_point_close(&p);

@@ -2,7 +2,7 @@
 /* Tests the derivatives of user constraints. The library uses the derivatives that the user gives,
  * and computes the others by differences.
  *
- * Tolerances are relative to the change of a quantity when the coordinates change by their scale.
+ * Tolerances are relative to the change of a quantity when the coordinates change by their scales.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -46,8 +46,9 @@ static void close_pair(pair *s)
   test_point_close(&s->want);
 }
 
-/* Chooses a random state for both copies. Positions are up to two times their scale. Velocities are
- * up to three times their scale times the rate. */
+/* Chooses a random state for both copies. Positions are at most twice as large as their scales.
+ * Velocities are at most three times as large as the scale of the coordinate times the rate of the
+ * model. */
 static void move_pair(pair *s, uint64_t *seed)
 {
   double size = s->kind->angles ? 1.0 : s->model.length;
@@ -110,7 +111,8 @@ static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
   compare(got, want, s->got.nc, gamma_tolerance * unit * rate * rate);
 }
 
-/* Compares all kinds of constraints, lengths and rates, at random states. */
+/* Calls check_pair() for every kind of constraint with every length and every rate, at random
+ * states. */
 static void for_each_pair(int given, double jacobian_tolerance, double nu_tolerance,
                           double gamma_tolerance)
 {
