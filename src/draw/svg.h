@@ -56,7 +56,8 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
                             double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
-/* Write the command `word` of an SVG path with a point, which is in the axes of the picture. */
+/* Write a command of an SVG path, such as "M", and its point, which is given in the axes of the
+ * picture. */
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
 /* Draw a filled area with a thin edge. */
 void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,

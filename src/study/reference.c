@@ -23,7 +23,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-/* No other attempt is made if the difference is at most this. */
+/* No other attempt is made if the runs of an attempt differ by at most this. */
 static const double CLOSE = 1e-9;
 static const double TRUSTED = 1e-3;   /* largest difference for which a reference is trusted */
 static const double ROUNDING = 1e-15; /* the uncertainty is at least this */

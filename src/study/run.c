@@ -26,8 +26,8 @@ typedef struct workers {
   baum_i_entry **order; /* (count) the entries to be measured */
   int count;
   int next;
-  /* Progress. Each entry counts 1 when it is measured, and 1 more when it is timed or needs no
-   * timing. */
+  /* Progress of the study: the number of entries that are measured, plus the number of entries that
+   * are timed or need no timing. */
   int done;
   baum_status status;
   baum_i_kept_message message; /* the message that belongs to `status` */

@@ -82,7 +82,7 @@ typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
   baum_i_samples samples;          /* `values` is NULL if there is no reference */
-  baum_simulation_options options; /* of the run; `integrator` is NULL if there is no run */
+  baum_simulation_options options; /* of its run; `integrator` is NULL if there was none */
   bool known;                      /* whether the uncertainties are known */
 
   double *given[3]; /* the given samples of q, v and lambda; each may be NULL */
@@ -180,8 +180,8 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels);
  * Returns BAUM_OK, BAUM_ERR_MEMORY, or the status of a failed evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
-/* Compares `values`, the samples of a run, with the samples of a known motion. Differences are
- * weighted as for the reference. */
+/* Compares `values`, the samples of a run, with the samples of a known motion. The differences have
+ * the same weights as differences from the reference. */
 baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
                                         const double *values);
 
@@ -210,7 +210,7 @@ typedef struct baum_i_task {
   const baum_study *study;
   const baum_simulation_options *options;
   const baum_i_samples *samples;
-  bool with_account; /* whether the run keeps an energy account, if the study requests it */
+  bool with_account; /* if false, no energy account is kept, even if the study requests one */
 } baum_i_task;
 
 /* Makes one run and writes its samples to values (n x width). A run from the design configuration
@@ -230,9 +230,9 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 
 /* ---- reference.c ---- */
 
-/* Computes the reference of a study. Returns BAUM_OK even if the reference is not trusted or no run
- * of it succeeded. Returns BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED, or the status of a given solution
- * or an evaluation that failed. */
+/* Computes the reference of a study. Returns BAUM_OK even if the reference is not trusted or if all
+ * its runs failed. Otherwise returns BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED, BAUM_ERR_CALLBACK if the
+ * user's solution failed, or the status of a failed evaluation. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
 
 /* Sets the times of the samples from the options, unless the samples of the reference are given. */

@@ -28,9 +28,9 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies of one entry ---- */
 
-/* An entry of the catalogue, and two studies of it. The samples of a study are always equally
- * spaced. Both studies therefore use only the first samples of the catalogue, up to the last one
- * that is equally spaced. */
+/* An entry of the catalogue, and two studies of it. The samples of a study must be equally spaced.
+ * Both studies therefore use only as many of the first samples of the catalogue as are equally
+ * spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* samples of the catalogue */

@@ -40,7 +40,7 @@ typedef struct integrator_run {
   double v[RUN_SIZE_MAX];
 } integrator_run;
 
-/* Opens a run. If the integrator cannot be created, returns the error. Then nothing has to be
+/* Opens a run. If the integrator cannot be created, returns the error, and the run need not be
  * closed. Any other error fails the test. */
 baum_status integrator_run_open(integrator_run *run, const integrator_setup *setup);
 void integrator_run_close(integrator_run *run);

@@ -19,14 +19,15 @@ typedef enum slender_verdict {
   SLENDER_VERDICTS
 } slender_verdict;
 
-/* The largest permitted error. Errors of each island are relative to the largest acceleration in
- * this island; those of spins about the axes of rods are also relative to the spin itself.
- * Accelerations of origins are divided by the length of the island. A thousand times the effect of
- * rounding is added to this limit. */
+/* The largest permitted error. Errors in an island are relative to the largest acceleration in this
+ * island. If the angular acceleration of a rod about its axis is larger, its error is relative to
+ * this angular acceleration instead. Accelerations of origins are divided by the length of the
+ * island. A thousand times the effect of rounding is added to this limit. */
 static const double SLENDER_ERROR = 1e-9;
 
-/* Mechanisms are counted in classes. A class contains those whose smallest ratio of moments is
- * within the same power of ten. */
+/* Mechanisms are counted in classes, by the smallest ratio of the axial to the transverse moment of
+ * inertia of their rods. Each class covers one decade of this ratio. The last class is for the
+ * ratio 0. */
 enum { SLENDER_CLASSES = 14 };
 
 typedef struct slender_tally {

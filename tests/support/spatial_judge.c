@@ -308,7 +308,7 @@ void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_ta
   random_spatial_destroy(room);
 }
 
-/* Configurations that cannot be judged are bad if they are more than one in a thousand. */
+/* Configurations that cannot be judged count as bad if they are more than one in a thousand. */
 long spatial_bad(const spatial_tally *tally)
 {
   long bad = 1000 * tally->unjudged > tally->configurations ? tally->unjudged : 0;
