@@ -24,7 +24,7 @@ typedef enum baum_i_form {
    * the connection to the left by its y coordinate [m]. */
   BAUM_I_BETWEEN,
   BAUM_I_ARROW, /* from a point on `body`, along a vector in the axes of `other` */
-  /* The next three forms connect a point on `body` with the nearest point of something on
+  /* The next three forms connect a point on `body` with the nearest point of one of these on
    * `other`: */
   BAUM_I_TO_LINE,  /* an open line, whose corners are the other points */
   BAUM_I_TO_PLANE, /* a plane, given by a point and a normal vector */
@@ -157,8 +157,8 @@ baum_i_spatial_frame baum_i_drawing_frame(const baum_i_body *body, const double 
 double baum_i_find_number(const baum_i_element *element, const char *name);
 bool baum_i_has_field(const baum_i_element *element, const char *name);
 
-/* Find the places of all joints and forces. The frames of the design configuration must have been
- * set. */
+/* Find the places of all joints and forces. The frames of the design configuration must be set
+ * before this call. */
 void baum_i_find_places(baum_i_drawing *drawing);
 
 /* Return the ends of places that are on a body. The ends of joints come first. *count is set to the

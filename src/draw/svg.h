@@ -41,7 +41,7 @@ typedef struct baum_i_picture {
 
 /* Set the direction of view, which depends only on the drawing. */
 void baum_i_picture_set_view(baum_i_picture *p);
-/* Extend a box [m] so that it includes the shapes at the present frames. */
+/* Extend a box [m] so that it includes all shapes, with the bodies in the poses p->frames. */
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
 /* Set the scale so that the picture shows the whole box, and write the beginning of the SVG text. A
  * strip of height `below` [px] at the bottom stays free for text. */

@@ -61,7 +61,7 @@ void baum_i_draw_wall(const baum_i_symbol *s);
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
 /* Find the direction from a planar guide on the ground to its free side. This is the upper side. If
- * the guide is vertical, the free side is the side of the mechanism. */
+ * the guide is vertical, the free side is the side on which the mechanism is. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */

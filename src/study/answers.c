@@ -249,8 +249,8 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns the margin at an entry, which is the factor by which MORE_WORK reduces the error there.
- * The margin is larger for methods of higher order. */
+/* Returns the margin at an entry, which is the factor by which the error decreases there when the
+ * work increases by the factor MORE_WORK. The margin is larger for methods of higher order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;

@@ -275,7 +275,7 @@ static void follow(probe *p, const baum_i_state *at)
 }
 
 /* Computes the energy and the user's channels of a sample from its q and v. Values that depend on
- * unknown numbers become NaN. */
+ * unknown elements of q or v become NaN. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, probe *p, double t,
                           double *sample)
 {

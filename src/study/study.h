@@ -81,9 +81,10 @@ typedef struct baum_i_study_method {
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
-  baum_i_samples samples;          /* `values` is NULL if there is no reference */
-  baum_simulation_options options; /* of its run; `integrator` is NULL if there was none */
-  bool known;                      /* whether the uncertainties are known */
+  baum_i_samples samples; /* `values` is NULL if there is no reference */
+  /* Options of the run that became the reference; `integrator` is NULL if there is none. */
+  baum_simulation_options options;
+  bool known; /* whether the uncertainties are known */
 
   double *given[3]; /* the given samples of q, v and lambda; each may be NULL */
   double digits;    /* the number of correct digits that the user has stated */
@@ -259,11 +260,11 @@ baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *e
 
 typedef struct baum_i_study_file baum_i_study_file;
 
-/* Opens the study file that the options name. Reads entries and the reference from it, and appends
- * the known results of entries that it lacks. *out is NULL if the options name no file. */
+/* Opens the study file that the options name. Reads entries and the reference from this file, and
+ * appends known results of entries that are not in it. *out is NULL if the options name no file. */
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
-/* Append the reference or an entry to the study file, and close the file. These functions return
- * BAUM_OK if `file` is NULL. */
+/* The first function appends the reference to the study file, the second one appends an entry, and
+ * the third one closes the file. They return BAUM_OK if `file` is NULL. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);

@@ -181,7 +181,7 @@ static bool is_consistent(const pair *p, const baum_study_entry *own,
   (void)baum_study_reference_read(p->own, &a, sizeof a);
   (void)baum_study_reference_read(p->stored, &b, sizeof b);
   double differ = fabs(stored->error_q - own->error_q);
-  /* The last term is for rounding. */
+  /* The last term allows for rounding errors. */
   double open = a.uncertainty_q + b.uncertainty_q + 1e-14 * own->error_q;
   return own->error_q == stored->error_q || differ <= open; /* both may be infinite */
 }

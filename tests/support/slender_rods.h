@@ -13,7 +13,7 @@ typedef enum slender_verdict {
   SLENDER_RIGHT,    /* the error is at most SLENDER_ERROR */
   SLENDER_ROUNDED,  /* rounding M, J, g and gamma explains the error */
   SLENDER_UNJUDGED, /* rounding explains the error, but changes accelerations by more than 1e-3 */
-  SLENDER_REFUSED,  /* refused, because rows are dependent or rounding changes everything */
+  SLENDER_REFUSED,  /* refused; rows are dependent, or rounding has the effect stated above */
   SLENDER_FALSE_REFUSAL,
   SLENDER_WRONG, /* wrong without a message */
   SLENDER_VERDICTS
