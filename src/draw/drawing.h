@@ -20,11 +20,11 @@ typedef enum baum_i_form {
   BAUM_I_BOX,      /* points: the centre; half the lengths of the edges */
   BAUM_I_CYLINDER, /* points: the centres of both ends */
   BAUM_I_MESH,     /* points: the vertices */
-  /* From a point on `body` to a point on `other`. If there is a third point, its y [m] is how far
-   * the connection is shifted to the left. */
+  /* A connection between a point on `body` and a point on `other`. An optional third point shifts
+   * the connection to the left by its y coordinate [m]. */
   BAUM_I_BETWEEN,
   BAUM_I_ARROW, /* from a point on `body`, along a vector in the axes of `other` */
-  /* The next three forms connect a point on `body` with the nearest point of something on
+  /* The next three forms connect a point on `body` with the nearest point of one of these on
    * `other`: */
   BAUM_I_TO_LINE,  /* an open line, whose corners are the other points */
   BAUM_I_TO_PLANE, /* a plane, given by a point and a normal vector */
@@ -70,7 +70,8 @@ typedef struct baum_i_shape {
   double radius;                 /* [m] of a disc, ball or cylinder; half the width of lines */
   int first, count;              /* where its points are in `points`; set by baum_i_draw() */
   const char *color;             /* "#rrggbb", or NULL for the colour of the style */
-  /* (triangle_count x 3) the corners of each triangle of a mesh, as indices of its points. */
+  /* (triangle_count x 3) the three corners of each triangle of a mesh, as indices of points of this
+   * shape. */
   const int32_t *triangles;
   int triangle_count;
 } baum_i_shape;
@@ -96,7 +97,7 @@ typedef struct baum_i_place {
   double axis[2][3]; /* unit vectors; (0, 0, 1) if the kind of element has no axis */
 } baum_i_place;
 
-/* One end of a place. */
+/* One of the two ends of a place: its point on the body number `side`, which is 0 or 1. */
 typedef struct baum_i_place_end {
   int place;
   int side;
@@ -111,7 +112,7 @@ typedef struct baum_i_samples {
 
 typedef struct baum_i_drawing {
   const baum_mechanism *mechanism;
-  baum_i_samples motion;        /* its samples determine the lengths of guides */
+  baum_i_samples motion;        /* samples that determine the lengths of guides */
   baum_i_spatial_frame *design; /* (body_count + 1) frames in the design configuration */
   baum_i_place *places;         /* (joint_count + force_count), with the joints first */
   int place_count;
@@ -120,7 +121,7 @@ typedef struct baum_i_drawing {
   int *first_end; /* (body_count + 2) */
   int *gears;     /* (gear_count) the numbers of the joints that are gears */
   int gear_count;
-  double unit; /* [m] unit of length of all symbols; half the width of a link */
+  double unit; /* [m] unit of length of all symbols; links are two units wide */
   bool spatial;
   baum_i_shape *shapes; /* (shape_count) */
   int shape_count;
@@ -156,11 +157,12 @@ baum_i_spatial_frame baum_i_drawing_frame(const baum_i_body *body, const double 
 double baum_i_find_number(const baum_i_element *element, const char *name);
 bool baum_i_has_field(const baum_i_element *element, const char *name);
 
-/* Find the places of all joints and forces. The frames of the design configuration must have been
- * set. */
+/* Find the places of all joints and forces. The frames of the design configuration must be set
+ * before this call. */
 void baum_i_find_places(baum_i_drawing *drawing);
 
-/* Return the ends of places that are on a body, joints first. *count is set to their number. */
+/* Return the ends of places that are on a body. The ends of joints come first. *count is set to the
+ * number of ends. */
 const baum_i_place_end *baum_i_ends_of(const baum_i_drawing *drawing, int body, int *count);
 
 /* Transform a point from the axes of a body to ground axes. */
@@ -223,12 +225,12 @@ baum_status baum_i_put_picture(const baum_i_drawing *drawing, const baum_i_spati
 
 /* ---- wheels.c ---- */
 
-/* Return the radius of a body's pitch circle in a gear, and its centre in the axes of the body.
- * Returns 0 if the body is not a wheel of this gear. */
+/* Return the radius of a body's pitch circle in a gear. `centre` is set to the centre of this
+ * circle, in the axes of the body. Returns 0 if the body is not a wheel of this gear. */
 double baum_i_gear_radius(const baum_i_drawing *drawing, const baum_i_joint *joint, int body,
                           double centre[3]);
-/* Return the radius of a wheel's outline, which is slightly larger than the pitch circle of its
- * gear or rack. Returns 0 if the body is not a wheel. */
+/* Return the radius of a wheel's outline, which is slightly larger than the pitch circle of the
+ * wheel. `centre` is set as in baum_i_gear_radius(). Returns 0 if the body is not a wheel. */
 double baum_i_wheel_radius(const baum_i_drawing *drawing, int body, double centre[3]);
 
 #endif

@@ -18,7 +18,7 @@ static const double REACH = 12.0;  /* length of the longest arrow, in units of t
 static const double NEAREST = 0.5; /* [px] smallest distance between points of a path */
 /* Arrows shorter than this fraction of the longest one are not drawn. */
 static const double SMALLEST = 0.01;
-static const double LINE = 22.0; /* [px] height of one scale */
+static const double LINE = 22.0; /* [px] height of a scale: an arrow and its value */
 
 /* The two kinds of reactions. Arrows of forces and arrows of moments have separate scales. */
 typedef enum effort { FORCE, MOMENT, EFFORTS } effort;

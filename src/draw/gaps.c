@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Red lines that show the constraint violation of a joint. They connect points that should
- * coincide, or a point with the line, plane or sphere on which it should be. They also connect the
- * tips of axes that should be parallel. Pictures omit lines that are too short to be seen. Joints
- * that relate coordinates (gears, racks, couplings and drivers) have no red lines.
+/* Draws gaps, which are red lines that show the constraint violation of a joint. They connect
+ * points that should coincide, or a point with the line, plane or sphere on which it should be.
+ * They also connect the tips of axes that should be parallel. Pictures omit lines that are too
+ * short to be seen. Joints that relate coordinates (gears, racks, couplings and drivers) have no
+ * red lines.
  */
 #include <string.h>
 
@@ -56,8 +57,8 @@ typedef struct gaps {
   int what;
 } gaps;
 
-/* Draws the gap at the joint. Its ends are shifted by on_a in the axes of body_a, and by on_b in
- * the axes of body_b. */
+/* Draws the gap at the joint. The ends of this line are shifted by on_a in the axes of body_a, and
+ * by on_b in the axes of body_b. */
 static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
 {
   const baum_i_place *place = g->place;
@@ -104,7 +105,8 @@ static void draw_angle(const gaps *g)
   draw_gap(&plane, zero, tip);
 }
 
-/* Draws gaps at both tips of two directions on body_b that are perpendicular to its axis. */
+/* Draws gaps for a body_b that slides on a plane of body_a. They connect this plane with the tips
+ * of two directions on body_b that should be parallel to the plane. */
 static void draw_tilt(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
@@ -114,7 +116,8 @@ static void draw_tilt(const gaps *g)
   draw_tips(g, zero, y);
 }
 
-/* Draws gaps for a direction that is normal to the axis. It should be the same on both bodies. */
+/* Chooses a direction on body_a that is normal to the axis, and the direction on body_b that should
+ * coincide with it. Draws gaps between the tips of these two directions. */
 static void draw_turn(const gaps *g)
 {
   double x[3], y[3], on_b[3];

@@ -61,7 +61,7 @@ void baum_i_draw_hatch(const baum_i_symbol *s, int side, double half, double bel
   baum_i_symbol_line(s, BAUM_I_GROUND, side, 0.0, count + 1, (const double(*)[2])xy, along, across);
 }
 
-/* Draws the edge of the ground, normal to a direction in the plane. */
+/* Draws the edge of the ground, normal to the direction `up` in the plane. */
 static void draw_edge(const baum_i_symbol *s, int side, double half, double below,
                       const double up[3])
 {
@@ -89,8 +89,8 @@ static void draw_plate(const baum_i_symbol *s, int side, const double up[3])
 void baum_i_draw_foot(const baum_i_symbol *s)
 {
   static const double foot[4][2] = {{0.0, 0.0}, {-1.5, -2.4}, {1.5, -2.4}, {0.0, 0.0}};
-  /* A body hangs from a joint if the cosine of the angle between gravity and its direction from the
-   * joint is at least this. */
+  /* A body hangs from a joint if the direction from the joint to the body is nearly that of
+   * gravity: the cosine of the angle between them must be at least HANGS. */
   static const double HANGS = 0.7;
   double up[3], link[3];
   for (int side = 0; side < 2; side++) {

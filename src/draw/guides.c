@@ -198,8 +198,8 @@ static bool find_on_curve(const baum_i_symbol *s, double at[3], double tangent[3
   return true;
 }
 
-/* Largest number of steps in one direction along a closed curve, and along an open curve. Each step
- * is one unit long. */
+/* Largest numbers of steps in one direction: CURVE_STEPS along a closed curve, and TRACK_STEPS
+ * along an open curve. Each step is one unit long. */
 enum { CURVE_STEPS = 240, TRACK_STEPS = 60 };
 
 typedef struct path {

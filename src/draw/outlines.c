@@ -12,8 +12,9 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* In units of the drawing: limits for the radius of discs that show inertia, and half the edges of
- * a slider's block. Half the edges of boxes that show inertia are limited to 2 MOST. */
+/* Lengths in units of the drawing. LEAST and MOST are the limits for the radius of discs that show
+ * inertia, and 2 MOST is the limit for half the edges of boxes that show inertia. BLOCK is half the
+ * edges of a slider's block. */
 static const double LEAST = 1.5, MOST = 8.0;
 static const double BLOCK[2] = {2.6, 1.5};
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Writes a run as one HTML page. The page consists of the template page.html and of the data that
- * the script in it draws.
+ * the script of this template draws.
  *
  * The data are in JSON. Their numbers are in a table of 16-bit integers, which is written column by
  * column in base64. In each column, 0 stands for the smallest value, 65534 for the largest value,

@@ -116,7 +116,7 @@ void baum_i_draw_clamp(const baum_i_symbol *s)
   baum_i_symbol_shape(s, BAUM_I_JOINT, BAUM_I_BOX, s->place->body[1], 0.0, 2, box);
 }
 
-/* Draws the largest circle of the disc, and its axis. */
+/* Draws the largest circle and the axis of the disc. */
 void baum_i_draw_rolling_disc(const baum_i_symbol *s)
 {
   const baum_spatial_rolling_disc_def *def = s->element->def;

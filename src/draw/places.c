@@ -68,8 +68,8 @@ static void normalize(double x[3])
 }
 
 /* Sets the axes of an element from its fields axis, axis_b and angle. If the definition gives
- * `point`, both axes are in ground axes. Otherwise `axis` is in the axes of body_a, and `axis_b` is
- * in the axes of body_b. */
+ * `point`, it gives both axes in ground axes. Otherwise `axis` is in the axes of body_a, and
+ * `axis_b` is in the axes of body_b. */
 static void set_axes(const baum_i_drawing *drawing, bool planar, bool in_ground,
                      baum_i_place *place)
 {
@@ -111,7 +111,7 @@ static bool is_particle(const baum_i_drawing *drawing, int body)
 }
 
 /* Sets the points of an element from its fields point, point_a and point_b. If one of the bodies is
- * a particle, `point` does not apply to this body: the point is the particle itself. */
+ * a particle, `point` is ignored for this body, because the point on it is the particle itself. */
 static void set_points(const baum_i_drawing *drawing, const double *point, size_t size,
                        baum_i_place *out)
 {

@@ -14,8 +14,8 @@ static const double MARGIN = 12.0;
 typedef baum_i_picture picture;
 typedef baum_i_look look;
 
-/* The look of each style. Bodies have colours of COLOUR instead of the fill and stroke in this
- * table. */
+/* The look of each style. Bodies take their colours from the table COLOUR instead of the fill and
+ * stroke in this table. */
 static const look LOOKS[BAUM_I_STYLE_COUNT] = {
   [BAUM_I_BASE] = {"", "", 1.3, NULL},
   [BAUM_I_GUIDE] = {"none", "#8a94a0", 1.5, NULL},
@@ -112,17 +112,17 @@ static bool connects(const baum_i_shape *shape)
   return shape->form == BAUM_I_ARROW || shape->form == BAUM_I_BETWEEN || shape->style == BAUM_I_GAP;
 }
 
-/* Tells whether all points of a shape are positions. In other forms, only the first point is a
- * position on the body. */
+/* Tells whether all points of a shape are positions on its body. If this is false, only the first
+ * point is a position on the body. */
 static bool has_places(const baum_i_shape *shape)
 {
   return shape->form == BAUM_I_LINE || shape->form == BAUM_I_AREA ||
          shape->form == BAUM_I_CYLINDER || shape->form == BAUM_I_MESH;
 }
 
-/* Returns the depth of a shape [m], which increases towards the eye. For a bar it is the depth of
- * the farther end, so that the joints at both ends cover the bar. For other shapes it is the mean
- * over their points. Joints are moved one unit towards the eye. */
+/* Returns the depth of a shape [m], which increases towards the eye. For a line that shows a body,
+ * it is the depth of the farther end, so that the joints at both ends cover this line. For other
+ * shapes it is the mean over their points. Joints are moved one unit towards the eye. */
 static double depth_of(const picture *p, const baum_i_shape *shape)
 {
   bool bar = shape->form == BAUM_I_LINE && shape->style == BAUM_I_BODY;

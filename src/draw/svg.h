@@ -41,7 +41,7 @@ typedef struct baum_i_picture {
 
 /* Set the direction of view, which depends only on the drawing. */
 void baum_i_picture_set_view(baum_i_picture *p);
-/* Extend a box [m] so that it includes the shapes at the present frames. */
+/* Extend a box [m] so that it includes all shapes, with the bodies in the poses p->frames. */
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);
 /* Set the scale so that the picture shows the whole box, and write the beginning of the SVG text. A
  * strip of height `below` [px] at the bottom stays free for text. */
@@ -56,7 +56,8 @@ void baum_i_picture_project(const baum_i_picture *p, int body, const double poin
                             double out[3]);
 
 baum_i_look baum_i_picture_look(const baum_i_shape *shape);
-/* Write the command `word` of an SVG path with a point, which is in the axes of the picture. */
+/* Write a command of an SVG path, such as "M", and its point, which is given in the axes of the
+ * picture. */
 void baum_i_picture_put_point(const baum_i_picture *p, const char *word, const double at[3]);
 /* Draw a filled area with a thin edge. */
 void baum_i_picture_put_area(const baum_i_picture *p, const baum_i_look *l, int count,

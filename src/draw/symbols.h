@@ -19,13 +19,13 @@ typedef struct baum_i_symbol {
 void baum_i_symbol_shape(const baum_i_symbol *s, baum_i_style style, baum_i_form form, int body,
                          double radius, int count, const double (*points)[3]);
 
-/* Connect the point of the place `from` on its body `side` with the point of the place `to` on
- * body_b. Springs and dampers are shifted to the left by `shift`. */
+/* Connect the point of the place `from` on its body number `side` (0 or 1) with the point of the
+ * place `to` on body_b. Springs and dampers are shifted to the left by `shift`. */
 void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const baum_i_place *from,
                            int side, const baum_i_place *to, double radius, double shift);
 
-/* Draw a line or an area. Its points are given by coordinates x and y, in units, in the directions
- * `along` and `across` from the point of the place. */
+/* Draw a line or an area. Each row of xy gives a corner: its distances from the point of the place
+ * in the directions `along` and `across`, in units of the drawing. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);
@@ -61,7 +61,7 @@ void baum_i_draw_wall(const baum_i_symbol *s);
 void baum_i_draw_anchor(const baum_i_symbol *s, int side);
 
 /* Find the direction from a planar guide on the ground to its free side. This is the upper side. If
- * the guide is vertical, the free side is the side of the mechanism. */
+ * the guide is vertical, the free side is the side on which the mechanism is. */
 void baum_i_find_free_side(const baum_i_symbol *s, double up[3]);
 
 /* ---- one function for each kind: pins.c, guides.c, loads.c ---- */

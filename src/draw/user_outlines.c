@@ -226,7 +226,7 @@ baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism, baum_bod
 
 /* ---- shapes ---- */
 
-/* The form of the shape that draws each form of outline. */
+/* For each form of an outline, the form of the shape that draws it. */
 static const baum_i_form FORMS[] = {
   [BAUM_OUTLINE_POLYGON] = BAUM_I_AREA, [BAUM_OUTLINE_CIRCLE] = BAUM_I_DISC,
   [BAUM_OUTLINE_BOX] = BAUM_I_BOX,      [BAUM_OUTLINE_CYLINDER] = BAUM_I_CYLINDER,

@@ -9,8 +9,8 @@
  *
  * both for an entry and for the next finer entry. An entry whose error is small only by accident is
  * thus not sufficient. The margin is the factor by which the error of the method decreases when its
- * work increases by the factor MORE_WORK, but it is limited to MARGINS. If no entry satisfies this
- * condition, only error <= E is required of both entries. */
+ * work increases by the factor MORE_WORK, but it is limited to the range MARGINS. If no entry
+ * satisfies this condition, only error <= E is required of both entries. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +21,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-/* The increase of work from which margins are computed. */
+/* A margin is the factor by which the error decreases when the work increases by this factor. */
 static const double MORE_WORK = 1.15;
 static const double MARGINS[2] = {2.0, 4.0}; /* the smallest and the largest margin */
 static const double SPEED_MARGIN = 1.25;     /* margin on CPU times, which vary between runs */
@@ -33,8 +33,9 @@ static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
   return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Tells whether another entry dominates this entry: its error and its cost are not larger, and one
- * of them is smaller. Of two equal entries, the first dominates the second. */
+/* Tells whether another entry dominates this entry: neither its error nor its cost is larger, and
+ * at least one of the two is smaller. If two entries have the same error and the same cost, the
+ * first dominates the second. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
   const baum_i_entry *entry = study->entries[k];
@@ -143,8 +144,8 @@ static double share_at(double coarse, double fine, double wanted)
 /* ---- cost at an error ---- */
 
 /* Finds the setting of a method at which the error has the given value, by linear interpolation of
- * logarithms. Extrapolates beyond the first and the last entry by at most the distance between two
- * entries. */
+ * logarithms. Extrapolates beyond the first entry by at most the distance between the first two
+ * entries, and beyond the last entry likewise. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {
@@ -233,9 +234,9 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 /* ---- recommendation ---- */
 
 /* Returns the error that is expected of an entry. Without margin, this is the measured error. With
- * margin, it is the largest error over twice the span and for perturbed starts. If this error is
- * not known, it is estimated from the ratio of both errors of `beside`, a neighbouring entry of the
- * method. */
+ * margin, it is the largest error over twice the span and for perturbed starts. If the latter is
+ * not known, it is estimated as the measured error times the ratio of these two errors for
+ * `beside`, a neighbouring entry of the method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -248,8 +249,8 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns the margin at an entry, which is the factor by which MORE_WORK reduces the error there.
- * The margin is larger for methods of higher order. */
+/* Returns the margin at an entry, which is the factor by which the error decreases there when the
+ * work increases by the factor MORE_WORK. The margin is larger for methods of higher order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
@@ -384,8 +385,8 @@ static void add_margin(const baum_study *study, const setting *p, const question
   add_rival(study, p, *q, why, size);
 }
 
-/* Warns if the recommended formulation has no stabilization. It may be the cheapest one within the
- * span, but its constraint violation grows. */
+/* Warns if the recommended formulation has no stabilization. This formulation may be the cheapest
+ * one within the span of the study, but its constraint violation grows with time. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {

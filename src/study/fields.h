@@ -31,7 +31,7 @@ typedef struct baum_i_field {
 
 /* An entry of a study with the data that a report adds to it. */
 typedef struct baum_i_report_entry {
-  baum_study_entry entry; /* first member, so that both structs have the same offsets */
+  baum_study_entry entry; /* first: its members have the same offsets in this struct */
   const char *gains;      /* name of the rule for gains; NULL if there is none */
   double gain[2];         /* the parameters of this rule; NaN if it has none */
   bool front[2];          /* whether the entry is on the Pareto front, for each baum_study_cost */

@@ -23,7 +23,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-/* No other attempt is made if the difference is at most this. */
+/* No other attempt is made if the runs of an attempt differ by at most this. */
 static const double CLOSE = 1e-9;
 static const double TRUSTED = 1e-3;   /* largest difference for which a reference is trusted */
 static const double ROUNDING = 1e-15; /* the uncertainty is at least this */
@@ -275,7 +275,7 @@ static void follow(probe *p, const baum_i_state *at)
 }
 
 /* Computes the energy and the user's channels of a sample from its q and v. Values that depend on
- * unknown numbers become NaN. */
+ * unknown elements of q or v become NaN. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, probe *p, double t,
                           double *sample)
 {

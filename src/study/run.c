@@ -26,8 +26,8 @@ typedef struct workers {
   baum_i_entry **order; /* (count) the entries to be measured */
   int count;
   int next;
-  /* Progress. Each entry counts 1 when it is measured, and 1 more when it is timed or needs no
-   * timing. */
+  /* Progress of the study: the number of entries that are measured, plus the number of entries that
+   * are timed or need no timing. */
   int done;
   baum_status status;
   baum_i_kept_message message; /* the message that belongs to `status` */
@@ -46,8 +46,8 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Sets two errors from two differences. An error is NaN if the difference is unknown, and never
- * below the uncertainty of the reference. */
+/* Sets two errors from two differences. An error is NaN if its difference is unknown. Otherwise it
+ * is the difference or the uncertainty of the reference, whichever is larger. */
 static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
   *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);

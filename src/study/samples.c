@@ -2,9 +2,9 @@
 /* Computes the differences between the samples of a run and the reference. A sample has several
  * parts with these errors:
  *
- *   q       |dq_i| / s_i             s: characteristic length for lengths, and 1 for angles
+ *   q       |dq_i| / s_i             s_i: characteristic length for lengths, and 1 for angles
  *   v       |dv_i| / (s_i V)         V: largest |v_j| / s_j over all samples of the reference [1/s]
- *   lambda  |dlambda_i| n_i / E      n_i: displacement of row i for changes of q by s
+ *   lambda  |dlambda_i| n_i / E      n_i: norm of row i of J with each column j multiplied by s_j
  *                                   E: largest |lambda_j| n_j over all samples [J]
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit            the error of q if the user gives no channels
@@ -60,7 +60,7 @@ void baum_i_study_clear_samples(baum_i_samples *samples)
 
 /* ---- weights ---- */
 
-/* Computes the displacements n_i of all rows, at the first sample. */
+/* Computes n_i for all rows, at the first sample of the reference. */
 static baum_status measure_rows(const baum_study *study, double *rows)
 {
   baum_workspace *w = NULL;

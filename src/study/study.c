@@ -70,7 +70,8 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-/* Removes the last entries and methods, so that `entries` and `methods` of them remain. */
+/* Removes the last entries and methods, so that only the first `entries` entries and the first
+ * `methods` methods remain. */
 static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {

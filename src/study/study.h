@@ -81,9 +81,10 @@ typedef struct baum_i_study_method {
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
-  baum_i_samples samples;          /* `values` is NULL if there is no reference */
-  baum_simulation_options options; /* of the run; `integrator` is NULL if there is no run */
-  bool known;                      /* whether the uncertainties are known */
+  baum_i_samples samples; /* `values` is NULL if there is no reference */
+  /* Options of the run that became the reference; `integrator` is NULL if there is none. */
+  baum_simulation_options options;
+  bool known; /* whether the uncertainties are known */
 
   double *given[3]; /* the given samples of q, v and lambda; each may be NULL */
   double digits;    /* the number of correct digits that the user has stated */
@@ -180,8 +181,8 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels);
  * Returns BAUM_OK, BAUM_ERR_MEMORY, or the status of a failed evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
-/* Compares `values`, the samples of a run, with the samples of a known motion. Differences are
- * weighted as for the reference. */
+/* Compares `values`, the samples of a run, with the samples of a known motion. The differences have
+ * the same weights as differences from the reference. */
 baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
                                         const double *values);
 
@@ -210,7 +211,7 @@ typedef struct baum_i_task {
   const baum_study *study;
   const baum_simulation_options *options;
   const baum_i_samples *samples;
-  bool with_account; /* whether the run keeps an energy account, if the study requests it */
+  bool with_account; /* if false, no energy account is kept, even if the study requests one */
 } baum_i_task;
 
 /* Makes one run and writes its samples to values (n x width). A run from the design configuration
@@ -230,9 +231,9 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 
 /* ---- reference.c ---- */
 
-/* Computes the reference of a study. Returns BAUM_OK even if the reference is not trusted or no run
- * of it succeeded. Returns BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED, or the status of a given solution
- * or an evaluation that failed. */
+/* Computes the reference of a study. Returns BAUM_OK even if the reference is not trusted or if all
+ * its runs failed. Otherwise returns BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED, BAUM_ERR_CALLBACK if the
+ * user's solution failed, or the status of a failed evaluation. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
 
 /* Sets the times of the samples from the options, unless the samples of the reference are given. */
@@ -259,11 +260,11 @@ baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *e
 
 typedef struct baum_i_study_file baum_i_study_file;
 
-/* Opens the study file that the options name. Reads entries and the reference from it, and appends
- * the known results of entries that it lacks. *out is NULL if the options name no file. */
+/* Opens the study file that the options name. Reads entries and the reference from this file, and
+ * appends known results of entries that are not in it. *out is NULL if the options name no file. */
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
-/* Append the reference or an entry to the study file, and close the file. These functions return
- * BAUM_OK if `file` is NULL. */
+/* The first function appends the reference to the study file, the second one appends an entry, and
+ * the third one closes the file. They return BAUM_OK if `file` is NULL. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);

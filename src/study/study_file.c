@@ -252,8 +252,8 @@ static bool is_begun_head(const baum_i_study_file *file, const baum_study *study
          ftell(file->stream) == (long)size;
 }
 
-/* Reads all lines. Sets *is_new if there is no complete first line, and *whole if the last line is
- * complete. */
+/* Reads all lines. *is_new is set to true if the first line is missing or incomplete, and *whole is
+ * set to true if the last line is complete. */
 static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is_new, bool *whole)
 {
   char *line = baum_i_alloc(LINE, 1);

@@ -107,8 +107,8 @@ baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *de
 
 /* ---- an entry ---- */
 
-/* Tells whether an entry is near the Pareto front. It is not if another entry that may be
- * recommended is at least as accurate and has less than 1 / NEAR of its work. */
+/* Tells whether an entry is near the Pareto front. It is not near the front if another entry that
+ * may be recommended is at least as accurate with less than 1 / NEAR of the work. */
 static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 {
   for (int k = 0; k < study->entry_count; k++) {

@@ -105,7 +105,7 @@ BOXES = """(selector => Array.from(document.querySelectorAll('svg.chart, svg.map
     return [at.left, at.top, at.right, at.bottom]; })))"""
 
 # Returns the width of the picture, the number of its visible shapes, and the number of text lines
-# of the header that it covers.
+# of the header that the picture covers.
 PICTURE = """(() => {
   const at = document.querySelector('#picture svg').getBoundingClientRect();
   const texts = document.createRange();
@@ -225,7 +225,7 @@ def check_maps(browser, study, checks):
 
 
 def check_parts(browser, study, checks):
-    """Check the numbers of elements of other kinds."""
+    """Check how many elements of other kinds the page has."""
     wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#environment dd": 6,
               "#methods tbody tr": len(study.methods), "#methods svg": 8}
     for selector, number in wanted.items():

@@ -159,7 +159,8 @@ def page_image(browser, folder, name, m, wrong):
 
 
 def draw_all(browser, folder, wrong):
-    """Return the SVG texts and the pictures of all sheets. Both map the names of scenes."""
+    """Return the SVG texts and the pictures of all sheets, as two dictionaries of dictionaries. The
+    names of scenes are the inner keys."""
     svgs, images = {}, {}
     for group, kinds in SCENES.items():
         mechanisms = {name: scenes.build(kinds, name) for name in kinds}

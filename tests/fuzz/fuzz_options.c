@@ -141,7 +141,8 @@ static void get_channels(const scene *s)
   }
 }
 
-/* Saves a run and restores it. The restored run must be at the time at which it was saved. */
+/* Saves a run and restores it. The time of the restored run must be the time at which the run was
+ * saved. */
 static void save_and_restore(const scene *s)
 {
   enum { BYTES = 1 << 20 };

@@ -2,8 +2,9 @@
 /* Continues studies from files. Some files consist of arbitrary bytes. Others are study files with
  * changed bits or lines, or with lines of another study. In further files, fields are changed and
  * the digests of their lines are corrected. If the library refuses a file, the file must be
- * unchanged. If it accepts a file, the study must have exactly the entries of a study without a
- * file, unless a digest was corrected. Running a completed study again must compute nothing. */
+ * unchanged. If it accepts a file, the entries of the study must be exactly those of a study
+ * without a file, unless a digest was corrected. Running a completed study again must compute
+ * nothing. */
 #define _GNU_SOURCE /* for mkstemp */
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,7 +51,7 @@ static size_t read_file(char text[TEXT])
 
 /* ---- studies ---- */
 
-/* Makes study 0, or study 1 with another end time. */
+/* Makes study 0 or study 1. They differ only in their end times. */
 static baum_study *make_study(int which)
 {
   static model pendulum;
@@ -141,7 +142,7 @@ static const truth *true_ones(void)
 typedef struct document {
   char line[LINES][BAUM_I_STUDY_LINE];
   int count;
-  bool sealed; /* whether a line that no study has written has a correct digest */
+  bool sealed; /* whether some line that no study has written has a correct digest */
 } document;
 
 static void add_line(document *d, const char *line)

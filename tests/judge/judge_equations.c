@@ -57,7 +57,7 @@ static double cross(const double a[2], const double b[2])
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/* Adds `sign` times the derivative of direction . p' with respect to the velocities to a row. */
+/* Adds to a row `sign` times the derivative of (direction . p') with respect to the velocities. */
 static void add_point(double *row, const marker *m, const double direction[2], double sign)
 {
   if (m->first >= 0) {

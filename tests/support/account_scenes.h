@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms for tests of the energy account. Every kind of work that the account distinguishes is
- * done in one of them. */
+/* Mechanisms for tests of the energy account. Each kind of work that the account distinguishes
+ * occurs in at least one of them. */
 #ifndef BAUM_TEST_ACCOUNT_SCENES_H
 #define BAUM_TEST_ACCOUNT_SCENES_H
 

@@ -34,7 +34,7 @@ typedef enum asked_kind {
   ASKED_PROGRESS = ASKED_KINDS
 } asked_kind;
 
-/* The names of an element and of its function in messages. */
+/* The names with which messages identify an element and its user function. */
 typedef struct asked_name {
   const char *element;
   const char *function;

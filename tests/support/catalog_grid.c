@@ -28,9 +28,9 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies of one entry ---- */
 
-/* An entry of the catalogue, and two studies of it. The samples of a study are always equally
- * spaced. Both studies therefore use only the first samples of the catalogue, up to the last one
- * that is equally spaced. */
+/* An entry of the catalogue, and two studies of it. The samples of a study must be equally spaced.
+ * Both studies therefore use only as many of the first samples of the catalogue as are equally
+ * spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* samples of the catalogue */
@@ -181,7 +181,7 @@ static bool is_consistent(const pair *p, const baum_study_entry *own,
   (void)baum_study_reference_read(p->own, &a, sizeof a);
   (void)baum_study_reference_read(p->stored, &b, sizeof b);
   double differ = fabs(stored->error_q - own->error_q);
-  /* The last term is for rounding. */
+  /* The last term allows for rounding errors. */
   double open = a.uncertainty_q + b.uncertainty_q + 1e-14 * own->error_q;
   return own->error_q == stored->error_q || differ <= open; /* both may be infinite */
 }

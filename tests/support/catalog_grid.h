@@ -7,7 +7,7 @@
 #include <baum/catalog.h>
 #include <baum/study.h>
 
-/* Numbers of entries of different kinds. */
+/* Counts of entries that have certain properties. */
 typedef struct catalog_tally {
   int entries;
   int state[BAUM_STUDY_TIMED_OUT + 1]; /* number of entries in each state */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IDA with a dense Jacobian, which IDA computes by differences. Tests compare runs with this
+/* IDA with a dense Jacobian, which IDA computes by finite differences. Tests compare runs with this
  * Jacobian and runs with the exact one. This file has code only in builds with SUNDIALS. */
 #ifndef DENSE_IDA_H
 #define DENSE_IDA_H

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares the derivatives of a mechanism's elements with differences, at the present state. */
+/* Compares the derivatives of a mechanism's elements with finite differences, at the present
+ * state. */
 #ifndef BAUM_TEST_DERIVATIVES_H
 #define BAUM_TEST_DERIVATIVES_H
 

@@ -35,9 +35,9 @@ void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
 /* Computes x of the slider, its velocity and its acceleration, at a crank angle. The angular
  * velocity of the crank is the constant data->drive.rate. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
-/* At some crank angles the rod may be perpendicular to the guide. If the rod is too short, the
- * crank locks there. Returns the smallest difference between `angle`, which is a crank angle, and
- * one of these angles. Returns INFINITY if there are none. */
+/* If the rod is too short for a full revolution of the crank, the crank locks at the angles at
+ * which the rod is perpendicular to the guide. Returns the smallest difference between the crank
+ * angle `angle` and one of these angles, or INFINITY if the crank never locks. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----

@@ -503,8 +503,9 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
-/* Indices of kinds that need additional bodies: the first joint of the train, the spline driver,
- * the first kind in space, the knife edge, the rolling disc, the screw, and the curve in space. */
+/* Indices of kinds that need additional bodies: the first joint of the train (see add_train()), the
+ * spline driver, the first kind in space, the knife edge, the rolling disc, the screw, and the
+ * curve in space. */
 enum {
   EVERY_WITHOUT_TRAIN = 13,
   EVERY_WITHOUT_WHEEL = 18,

@@ -40,7 +40,7 @@ typedef struct integrator_run {
   double v[RUN_SIZE_MAX];
 } integrator_run;
 
-/* Opens a run. If the integrator cannot be created, returns the error. Then nothing has to be
+/* Opens a run. If the integrator cannot be created, returns the error, and the run need not be
  * closed. Any other error fails the test. */
 baum_status integrator_run_open(integrator_run *run, const integrator_setup *setup);
 void integrator_run_close(integrator_run *run);
@@ -60,9 +60,9 @@ baum_status integrator_run_restart(integrator_run *run, double t, const double *
 /* Computes q and v (2) of a known motion at t. */
 typedef void motion_fn(double t, double q[2], double v[2]);
 
-/* Returns the factor by which the largest error up to t decreases when rtol decreases by a factor
- * of 10. The factor is computed from the slope of log error over log rtol, with seven tolerances
- * from 1e-4 to 1e-10. */
+/* Returns the factor by which the largest motion_error() up to t decreases when rtol decreases by a
+ * factor of 10. The factor is computed from the slope of log error over log rtol, with seven
+ * tolerances from 1e-4 to 1e-10. */
 double tolerance_factor(const integrator_setup *setup, double t, motion_fn *motion, double rate);
 
 /* ---- mechanisms, which the caller destroys ---- */

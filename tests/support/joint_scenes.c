@@ -18,8 +18,8 @@ static void need(baum_status status)
   }
 }
 
-/* The pose of a body in the design, and its initial angular velocity, which is NaN if it is not
- * given. */
+/* The pose of a body in the design configuration, and its initial angular velocity. This velocity
+ * is NaN if it is not given. */
 typedef struct placed {
   double x, y, angle, w;
 } placed;

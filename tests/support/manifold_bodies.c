@@ -71,7 +71,8 @@ static int angle_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The moment of the weight of a pendulum, which points in the direction q = (cos, sin). */
+/* Computes the moment of the weight of a pendulum. The pendulum points in the direction q = (cos,
+ * sin). */
 static int angle_force(double t, const double *q, const double *v, const double *inputs,
                        double *out, void *user)
 {

@@ -15,7 +15,7 @@ typedef struct manifold_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism);
   /* The first function builds the twin. The second one converts positions q of the twin to
-   * positions q of the scene. NULL if there is no twin. */
+   * positions q of the scene. Both are NULL if there is no twin. */
   void (*build_twin)(baum_mechanism *mechanism);
   void (*translate)(const double *twin_q, double *q);
   /* Computes the exact positions q at a time. NULL if there is a twin. */

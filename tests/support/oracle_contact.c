@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluates rows of velocity level, and points on curves. Rows of velocity level state that
- * material points of two bodies, which are at the same place P, have equal velocities in some
- * directions. The velocity of the material point of a body at P is r' + W x (P - r). Its derivative
- * follows from the motion of P. */
+/* Evaluates rows of velocity level, and points on curves. Rows of velocity level state that the
+ * material points of two bodies at the same place P have equal velocities in some directions. The
+ * velocity of the material point of a body at P is r' + W x (P - r). Its derivative follows from
+ * the motion of P. */
 #include <math.h>
 #include <string.h>
 

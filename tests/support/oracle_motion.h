@@ -37,7 +37,8 @@ static inline void cross3(const wide a[3], const wide b[3], wide out[3])
   }
 }
 
-/* Returns which of the six velocities of a spatial body is the k-th velocity of this body. */
+/* Every body of the oracle has six velocities, as a spatial body has. Returns which of the six is
+ * the k-th velocity that the library gives this body. */
 int oracle_six_of(const oracle_body *body, int k);
 
 /* Returns the motion of a body at constant velocities. */
@@ -92,7 +93,8 @@ int oracle_members_of(const spatial_oracle *o, const oracle_joint *joint,
 /* Returns the joint itself. For a driver, returns the driven joint. */
 const oracle_joint *oracle_pair_of(const spatial_oracle *o, const oracle_joint *joint);
 
-/* Computes the vector from the origin of body_b to the point of its reaction. */
+/* Computes the vector from the origin of body_b to the point at which the reaction of the joint
+ * acts on body_b. */
 void oracle_reaction_arm(const oracle_joint *joint, const motion *bodies, wide arm[3]);
 
 /* These functions are in oracle_contact.c. The first four evaluate the rows of a rolling disc, of

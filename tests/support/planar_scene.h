@@ -28,8 +28,8 @@ typedef void planar_add_fn(planar_scene *scene, baum_body_id a, baum_body_id b);
 typedef void planar_check_fn(test_point *p);
 
 /* Calls `check` for every pair of bodies, at 20 random states. Ground is one of the bodies, and
- * particles are included if they are allowed. Each mechanism has the element twice: first between
- * the bodies of the pair, and then between crank and ground. */
+ * particles are included if `particles` is true. Each mechanism has the element twice: first
+ * between the bodies of the pair, and then between crank and ground. */
 void for_each_planar_pair(planar_add_fn *add, bool particles, planar_check_fn *check);
 
 /* Sets the two bodies and the two points of a definition. */

@@ -18,8 +18,8 @@ typedef struct quad_rows {
   /* Number of independent rows. In pivot order, the distance of each of them from the span of the
    * previous rows is at least QUAD_DEPENDENT. */
   int rank;
-  /* Smallest singular value of W. If rows are dependent, the distance of the first dependent row
-   * from the span of the independent rows. */
+  /* If all rows are independent, this is the smallest singular value of W. Otherwise it is the
+   * distance of the first dependent row from the span of the independent rows. */
   double distance;
   double kept; /* smallest singular value of the independent rows */
   /* Largest |W^T y - c| of the dependent rows, relative to |c|, |y| and |L^-1 g|. */
@@ -74,7 +74,8 @@ bool quad_rows_rank(baum_workspace *workspace, int nv, int nc, double t, const d
                     const bool *skipped, quad_rows *out);
 
 /* Computes the velocities nearest to v, in the metric of M, that satisfy constraints which do not
- * depend on time. They solve the same equations with gamma = 0 and the force M v. */
+ * depend on time. These velocities are the solution a of the equations above with gamma = 0 and the
+ * force g = M v. */
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out);
 

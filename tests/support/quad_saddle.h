@@ -16,8 +16,8 @@
 
 #include "dynamics/dynamics.h"
 
-/* Both functions round (a, lambda) to double. They return false if the matrix is singular, or if
- * there is not enough memory. */
+/* The functions below that compute accelerations round (a, lambda) to double. They return false if
+ * the matrix is singular, or if there is not enough memory. */
 
 /* Reads J and M from a workspace as dense matrices. This is suitable for up to several hundred
  * coordinates. The array `omitted` (nc), which may be NULL, marks rows that are omitted. Their
@@ -25,7 +25,8 @@
 bool quad_acceleration(baum_workspace *workspace, double t, const double *q, const double *v,
                        const unsigned char *omitted, double *a, double *lambda);
 
-/* Computes the same with r = gamma - 2 gain Phi' - gain^2 Phi in place of gamma; gain [1/s]. */
+/* Computes the same with gamma replaced by gamma - 2 gain Phi' - gain^2 Phi. The unit of `gain` is
+ * 1/s. */
 bool quad_acceleration_with_gain(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double gain, const unsigned char *omitted,
                                  double *a, double *lambda);

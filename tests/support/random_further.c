@@ -463,8 +463,9 @@ static void add_curve(random_spatial *r, int a, int b)
   check(baum_mechanism_add_spatial_curve(r->mechanism, &def, &joint->id));
 }
 
-/* Adds a body or a particle, which is often planar. Another body has a curve, on which a point of
- * the new body moves. If the new body has an orientation, it may instead have the curve. */
+/* Adds a body or a particle, which is often planar. A point of the new body moves on a curve that
+ * is fixed on another body. If the new body has an orientation, the curve may instead be fixed on
+ * the new body, and the point on the other. */
 static void add_bead(random_spatial *r)
 {
   chance *c = &r->chance;

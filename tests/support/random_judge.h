@@ -16,11 +16,11 @@ typedef enum random_verdict {
   RANDOM_VERDICTS
 } random_verdict;
 
-/* The largest permitted error. It is relative to the largest acceleration, either with or without
- * constraints. */
+/* The largest permitted error. It is relative to the largest acceleration with constraints or
+ * without them, whichever is larger. */
 static const double RANDOM_ERROR = 1e-9;
 
-/* Numbers of configurations tested so far. */
+/* Counts of the configurations tested so far. */
 typedef struct random_tally {
   long mechanisms;
   long poses;

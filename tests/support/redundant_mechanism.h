@@ -11,7 +11,7 @@
 
 /* Returns a frozen mechanism. The seed determines which kind of mechanism it is: doubled pins,
  * welds with pins, parallel cranks, stacked parallelograms, or closed chains. Masses are between
- * 1/ratio and 1 kg. *ratio is set. */
+ * 1/ratio and 1 kg. *ratio is set to the ratio that the seed determines. */
 baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio);
 
 /* Makes a bracket of 1/ratio kg that is both pinned and welded to ground. It carries a body of 1 kg
@@ -34,8 +34,8 @@ typedef struct redundant_state {
 /* Returns the largest residual of M a + J^T lambda = g over all bodies. Each residual is divided by
  * the largest term of its body, or by 1e-14 of the largest term of all bodies if that is larger.
  * The result is infinite if there is a NaN. Unless `rows` is NULL, *rows is set to the largest
- * residual of J a = gamma. It is relative to the largest term of J a, either for the actual
- * accelerations or for those without constraints, whichever is larger. */
+ * residual of J a = gamma. This residual is relative to the largest term of J a, for the actual
+ * accelerations or for those without constraints, whichever term is larger. */
 double redundant_imbalance(const redundant_state *s, double *rows);
 
 typedef enum redundant_verdict {

@@ -55,7 +55,7 @@ typedef struct singular_setting {
 
 typedef struct singular_result {
   baum_status status; /* < 0: failed */
-  /* [rad or m] largest error at a sample; if the run failed, up to the failure. */
+  /* [rad or m] largest error at the samples that the run has reached. */
   double error;
   int64_t intervals;
   int64_t branch_warnings;

@@ -46,7 +46,7 @@ typedef struct rods {
   baum_mechanism *mechanism;
   int count;
   rod list[MOST];
-  double ratio; /* the smallest */
+  double ratio; /* smallest ratio of the axial to the transverse moment of inertia of a rod */
   double mass[ISLANDS];
   double length[ISLANDS];
   double acceleration[ISLANDS];
@@ -118,7 +118,8 @@ static void choose_point(rods *r, const rod *of, double point[3])
   }
 }
 
-/* Converts an axis of one body to the axes of another. */
+/* Converts a direction from the axes of one body, with the quaternion `from`, to the axes of
+ * another. */
 static void axis_of(const double from[4], const double axis[3], const double to[4], double out[3])
 {
   const double back[4] = {to[0], -to[1], -to[2], -to[3]};
@@ -127,8 +128,8 @@ static void axis_of(const double from[4], const double axis[3], const double to[
   rotate(back, ground, out);
 }
 
-/* Defines the joint of a new body and moves the body there. If `before` is NULL, the joint is on
- * ground. */
+/* Defines the joint of a new body, and moves the body to this joint. If `before` is NULL, the joint
+ * connects the body with ground. */
 static void choose_place(rods *r, const rod *before, int kind, rod *of,
                          baum_spatial_revolute_def *def)
 {
@@ -331,8 +332,8 @@ static double noise(chance *c)
   return UNIT_ROUNDING * chance_number(c, -1.0, 1.0);
 }
 
-/* Adds rounding errors to the numbers of one body. Numbers that are 0 have none, unless they are
- * sums of larger terms. */
+/* Adds rounding errors to the numbers of one body. A number that is 0 stays 0, unless it is a sum
+ * of larger terms. */
 static void round_body(int body, const double *v, chance *c, const equations *e, quad_equations *s)
 {
   const double *mass = e->numbers;
@@ -385,7 +386,7 @@ static bool solve(const rods *r, const double *v, chance *c, equations *e, wide 
 /* ---- errors ---- */
 
 /* Returns the component of a vector along the axis of a rod. The function across() returns the
- * largest element of the remaining vector. */
+ * largest element of the vector without this component. */
 static double along(const rod *of, const double x[3])
 {
   return x[0] * of->axis[0] + x[1] * of->axis[1] + x[2] * of->axis[2];
@@ -400,8 +401,8 @@ static double across(const rod *of, const double x[3])
   return largest_of_three(rest);
 }
 
-/* Returns the largest acceleration of a body in 1/s^2. The spin of a slender rod about its axis is
- * not included. */
+/* Returns the largest acceleration of a body in 1/s^2. The angular acceleration of a slender rod
+ * about its axis is not included. */
 static double size_of(const rods *r, int body, const double x[6])
 {
   const rod *of = &r->list[body];

@@ -13,20 +13,21 @@ typedef enum slender_verdict {
   SLENDER_RIGHT,    /* the error is at most SLENDER_ERROR */
   SLENDER_ROUNDED,  /* rounding M, J, g and gamma explains the error */
   SLENDER_UNJUDGED, /* rounding explains the error, but changes accelerations by more than 1e-3 */
-  SLENDER_REFUSED,  /* refused, because rows are dependent or rounding changes everything */
+  SLENDER_REFUSED,  /* refused; rows are dependent, or rounding has the effect stated above */
   SLENDER_FALSE_REFUSAL,
   SLENDER_WRONG, /* wrong without a message */
   SLENDER_VERDICTS
 } slender_verdict;
 
-/* The largest permitted error. Errors of each island are relative to the largest acceleration in
- * this island; those of spins about the axes of rods are also relative to the spin itself.
- * Accelerations of origins are divided by the length of the island. A thousand times the effect of
- * rounding is added to this limit. */
+/* The largest permitted error. Errors in an island are relative to the largest acceleration in this
+ * island. If the angular acceleration of a rod about its axis is larger, its error is relative to
+ * this angular acceleration instead. Accelerations of origins are divided by the length of the
+ * island. A thousand times the effect of rounding is added to this limit. */
 static const double SLENDER_ERROR = 1e-9;
 
-/* Mechanisms are counted in classes. Each class is one decade of the smallest ratio of the moments
- * of inertia of a body in the mechanism. */
+/* Mechanisms are counted in classes, by the smallest ratio of the axial to the transverse moment of
+ * inertia of their rods. Each class covers one decade of this ratio. The last class is for the
+ * ratio 0. */
 enum { SLENDER_CLASSES = 14 };
 
 typedef struct slender_tally {

@@ -101,7 +101,7 @@ spatial_scene spatial_scene_make(bool spheres)
   }
 
 /* Phi of a screw jumps by the pitch. The pitch is so large that there is no jump between the points
- * of a difference. */
+ * of a finite difference. */
 static void add_screw(spatial_scene *s, int a, int b)
 {
   static const double axis[3] = {0.3, -1.0, 0.7};

@@ -19,7 +19,7 @@ static const double ON_CONSTRAINTS = 1e-9;
 static const double CLEAR = 1e-6;
 
 /* The largest effect of rounding that excuses an error. A larger effect would excuse errors above
- * 1e-6, and could hide faults of the solver. Configurations in which it is larger cannot be
+ * 1e-6, and could hide faults of the solver. Configurations in which the effect is larger cannot be
  * judged. */
 static const double MOST_ROUNDING = 1e-8;
 
@@ -308,7 +308,7 @@ void spatial_judge(random_spatial *room, uint64_t seed, bool further, spatial_ta
   random_spatial_destroy(room);
 }
 
-/* Configurations that cannot be judged are bad if they are more than one in a thousand. */
+/* Configurations that cannot be judged count as bad if they are more than one in a thousand. */
 long spatial_bad(const spatial_tally *tally)
 {
   long bad = 1000 * tally->unjudged > tally->configurations ? tally->unjudged : 0;

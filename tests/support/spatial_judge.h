@@ -21,13 +21,13 @@ typedef enum spatial_verdict {
   SPATIAL_VERDICTS
 } spatial_verdict;
 
-/* The largest permitted error. Errors of accelerations are relative to the largest acceleration,
- * either with or without constraints. Errors of reactions are relative to the largest element of
- * all reactions. Rounding of positions and inertias changes the results of the oracle. 100 times
- * this change is added to the limit. */
+/* The largest permitted error. Errors of accelerations are relative to the largest acceleration
+ * with constraints or without them, whichever is larger. Errors of reactions are relative to the
+ * largest element of all reactions. Rounding of positions and inertias changes the results of the
+ * oracle. 100 times this change is added to the limit. */
 static const double SPATIAL_ERROR = 1e-9;
 
-/* Numbers of configurations tested so far. */
+/* Counts of the configurations tested so far. */
 typedef struct spatial_tally {
   long mechanisms;
   long configurations;

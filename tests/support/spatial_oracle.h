@@ -170,7 +170,7 @@ typedef struct oracle_answer {
   bool unique[ORACLE_JOINTS];
   quad_rows rows;
   int velocity_rows;       /* number of rows of velocity level */
-  quad_rows position_rows; /* results without rows of velocity level; only rank and distances */
+  quad_rows position_rows; /* results without rows of velocity level: only rank and distances */
 } oracle_answer;
 
 /* Computes the points and axes of a joint in body axes. A point on each body and an axis are given

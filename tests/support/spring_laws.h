@@ -27,8 +27,8 @@ void spring_law_cubic_at(double length, double rate, double out[3]);
 /* Checks that force() and linearize() fail with this status and message. */
 void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *message);
 
-/* Checks what the check of derivatives reports: element `entry` of the law of force 1, or nothing
- * if `entry` is 0. The mechanism is destroyed. */
+/* Calls baum_mechanism_check_derivatives(). Checks that its message names element `entry` of the
+ * law of force 1, or, if `entry` is 0, that it reports no error. Destroys the mechanism. */
 void check_spring_law_verdict(baum_mechanism *mechanism, const char *name, int entry);
 
 #endif

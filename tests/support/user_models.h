@@ -2,7 +2,8 @@
 /* User constraints on user coordinates. All their derivatives are known in closed form.
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
- *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
+ *   loop    (b, th, ga)   the first loop of Andrews' squeezer; r, d, s, x_b and y_b are l times the
+ *                         constants LOOP_* of user_models.c:
  *                         Phi = (r cos b - d cos(b + th) - s sin ga - x_b, r sin b - d sin(b + th)
  *                         + s cos ga - y_b)
  *   swing   (x, y)        Phi = x sin(w t) + y^2 cos(w t) / l - l sin(w t) cos(w t)

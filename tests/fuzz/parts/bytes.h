@@ -8,8 +8,7 @@
 
 #include <baum/status.h>
 
-/* Each target defines this function. The fuzzer calls it, or replay.c in builds without the fuzzer.
- * It returns 0. */
+/* Each target defines this function. The fuzzer and replay.c call it. It returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* The unread bytes of an input. Reading continues with zeros after the last byte. */

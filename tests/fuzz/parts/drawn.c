@@ -216,8 +216,8 @@ static void add_one(design_mechanism *m, fuzz_bytes *b)
   m->ids[family][m->counts[family]++] = id;
 }
 
-/* Reads a definition back and sets it again. Then sets another definition. If the library refuses
- * it, the first definition must be unchanged. */
+/* Reads a definition back and sets it again. Then sets a second definition. If the library refuses
+ * the second one, the first one must be unchanged. */
 static void replace_one(design_mechanism *m, fuzz_bytes *b)
 {
   int family = fuzz_below(b, 3);

@@ -37,8 +37,9 @@ static void draw_integer(fuzz_bytes *b, const element_field *f, unsigned char *a
   }
 }
 
-/* Chooses the size of the options. Every size that the library may accept covers max_steps. Without
- * this field, as in older versions, a run could make a billion steps. */
+/* Chooses the size of the options. Every size that the library may accept includes max_steps. With
+ * the smaller struct of an older version, which lacks this field, a run could make a billion
+ * steps. */
 static size_t draw_size(fuzz_bytes *b)
 {
   const size_t least = offsetof(baum_simulation_options, max_steps) + sizeof(int64_t);
