@@ -39,8 +39,8 @@ static const double ANDREWS_C[2] = {.014, .072};
 #define ANDREWS_UA .01228
 #define ANDREWS_UB .00449
 
-#define ANDREWS_SOURCE                                                                            \
-  "Bari test set, andrews.f (as kept in cran/deTestSet); E. Hairer, G. Wanner, Solving ODEs II, " \
+#define ANDREWS_SOURCE                                                                         \
+  "Bari test set, andrews.f (copy in cran/deTestSet); E. Hairer, G. Wanner, Solving ODEs II, " \
   "p. 530 ff"
 #define ANDREWS_PROVENANCE                                                                      \
   "extrapolation in 160-bit arithmetic; two tolerances agree to 16.5 digits; another model in " \

@@ -122,9 +122,9 @@ static void build_driven(baum_i_parts *parts, const double *p)
 
 /* ---- entries ---- */
 
-#define FLORES                                                                             \
-  "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, table 1, as " \
-  "kept in siconos/siconos, without clearance"
+#define FLORES                                                                               \
+  "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, table 1 (copy " \
+  "in siconos/siconos); this model has no clearance"
 
 #define FREE \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_free, baum_i_slider_crank_state, "mmr", 3), .end = 0.2

@@ -143,6 +143,6 @@ def check_turned(
     if not np.allclose(before[0].T @ before[1], after[0].T @ after[1], rtol=0.0, atol=1e-9):
         raise ValueError(
             f'{element.family} "{element.name}" keeps the relative orientation of the design '
-            "configuration, which these changes alter; change both of its bodies, or give the "
-            f"{element.family} its points again"
+            "configuration, which these changes alter; rotate both of its bodies, or also change "
+            f"the points of the {element.family}"
         )
