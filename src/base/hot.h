@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
- * functions, named by BAUM_I_HOT(). The creation of a mechanism selects one of the two tables for
- * its workspaces and runs. The results of the two tables differ in the last digits.
+ * functions, named by BAUM_I_HOT(). When a mechanism is created, one of the two tables is selected
+ * for all its workspaces and runs. The results of the two tables differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H
@@ -32,7 +32,7 @@
  * take 100 us, because virtual machines emulate CPUID. Mechanisms therefore store the answer. */
 bool baum_i_hot_is_wide(void);
 
-/* Return the table for wide vectors or the plain one. */
+/* The table of functions: for wide vectors if `wide` is true, otherwise the plain table. */
 #ifdef BAUM_I_HAS_WIDE
 #define BAUM_I_HOT_TABLE(wide, name) ((wide) ? &name##_wide : &name##_plain)
 #else

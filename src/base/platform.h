@@ -36,8 +36,9 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 /* What exists at a path. */
 typedef enum baum_i_path_kind {
   BAUM_I_PATH_FREE, /* nothing */
-  /* A regular file that belongs to this user and has no other name. Other files are not replaced:
-   * the new file would belong to this user, and the old one would remain under its other names. */
+  /* A regular file that belongs to this user and has only one name. Files of other users are not
+   * replaced, because the new file would belong to this user. Files with several names are not
+   * replaced, because the old file would remain under its other names. */
   BAUM_I_PATH_REPLACEABLE,
   BAUM_I_PATH_OTHER /* for example a device, a pipe or a link */
 } baum_i_path_kind;

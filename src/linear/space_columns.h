@@ -186,8 +186,8 @@ BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
 }
 
-/* u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in space_block.h)
- * contributes u (u . y) to the residual of the equations of motion. */
+/* Returns u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in
+ * space_block.h) contributes u (u . y) to the residual of the equations of motion. */
 BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const double *motion)
 {
   const double *u = b->lack + (ptrdiff_t)4 * body;
