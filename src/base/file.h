@@ -9,7 +9,7 @@
 
 #include "base/buffer.h"
 
-/* Writes the whole file or nothing, see baum_study_write(). */
+/* Writes the whole file or nothing, as baum_study_write() describes. */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
 
 /* Appends the whole file to a zeroed buffer, which stays empty on failure. Messages about wrong

@@ -207,7 +207,7 @@ BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
 #endif
 }
 
-/* sum + x s */
+/* Return sum + x s. */
 BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
 {
   return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));

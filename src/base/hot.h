@@ -15,7 +15,8 @@
 #define BAUM_I_HOT(name) name##_plain
 #endif
 
-/* Always inline, so that the compiler can use the values of constant arguments. */
+/* Functions with this specifier are always inlined, so that the compiler can use the values of
+ * constant arguments. */
 #define BAUM_I_INLINE static inline __attribute__((always_inline))
 
 /* Unrolls the next loop, so that its local arrays can stay in registers. */
@@ -28,8 +29,9 @@
 #define BAUM_I_UNROLL(times)
 #endif
 
-/* Tell whether this build has the tables for wide vectors and this processor can run them. This may
- * take 100 us, because virtual machines emulate CPUID. Mechanisms therefore store the answer. */
+/* Tell whether this build has the tables for wide vectors and this processor can run them. The test
+ * may take 100 us, because virtual machines emulate CPUID. Mechanisms therefore store the
+ * answer. */
 bool baum_i_hot_is_wide(void);
 
 /* The table of functions: for wide vectors if `wide` is true, otherwise the plain table. */

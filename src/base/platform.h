@@ -14,7 +14,8 @@
 
 /* ---- clocks ---- */
 
-/* Return the time of a monotonic clock, in ns and in s. */
+/* The first function returns the time of a monotonic clock in ns, and the second returns it in
+ * s. */
 int64_t baum_i_wall_nanoseconds(void);
 double baum_i_wall_seconds(void);
 
@@ -43,8 +44,8 @@ typedef enum baum_i_path_kind {
   BAUM_I_PATH_OTHER /* for example a device, a pipe or a link */
 } baum_i_path_kind;
 
-/* Find out what exists at a path. If it is a replaceable file, `permissions` is set to the
- * permissions of this file. */
+/* Find out what exists at a path. If a replaceable file exists there, `permissions` is set to its
+ * permissions. */
 baum_i_path_kind baum_i_path_read(const char *path, unsigned *permissions);
 
 /* Tells whether the path is something other than a regular file, such as a pipe. Returns false if

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Block solver: memory, masses and forces. block_structure.c finds the structure, block_hot.c
- * factors and solves. */
+/* Block solver: memory and masses. block_structure.c finds the structure, and block_hot.c factors
+ * and solves. */
 #include "linear/block.h"
 
 #include <math.h>

@@ -232,7 +232,7 @@ typedef struct baum_i_block_rows {
   double *phi_rate; /* (nc) only rows of general nodes are set */
 } baum_i_block_rows;
 
-/* Hot functions for right-hand sides and general nodes. */
+/* Functions of hot files (base/hot.h) for right-hand sides and general nodes. */
 typedef struct baum_i_block_sides_kernel {
   /* Sets f and a0 = W f. */
   void (*set_force)(baum_i_block *block, const double *force);
@@ -245,7 +245,7 @@ typedef struct baum_i_block_sides_kernel {
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_plain;
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_wide;
 
-/* Hot functions for the solution. */
+/* Functions of hot files (base/hot.h) for the solution. */
 typedef struct baum_i_block_kernel {
   /* Sets the off-diagonal blocks. */
   void (*couple)(baum_i_block *block);

@@ -147,7 +147,7 @@ typedef struct pivot_step {
   baum_i_pair right[2];
 } pivot_step;
 
-/* X adj(D) */
+/* Returns x adj(D). */
 static inline baum_i_square times_adjugate(baum_i_square x, const pivot_step *t)
 {
   return (baum_i_square){
@@ -440,8 +440,8 @@ static void gather(const baum_i_block *b)
   }
 }
 
-/* lambda of all nodes is the computed change. Adds the previous values `before` to it. Returns the
- * largest change divided by the largest multiplier. */
+/* The nodes contain the computed change of lambda. Adds the previous lambda, `before`, to it.
+ * Returns the largest change divided by the largest multiplier. */
 static double add_change(const baum_i_block *b, const double *before)
 {
   double change = 0.0;

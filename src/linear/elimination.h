@@ -22,8 +22,9 @@ typedef struct baum_i_elimination {
   int32_t *node;  /* (count) node at each place */
   int32_t *place; /* (count) place of each node */
   int32_t *start; /* (count + 1) */
-  int32_t *later; /* (start[count]) later places coupled with a place at its elimination,
-                     ascending */
+  /* (start[count]) for each place: the later places that are coupled with it when it is
+   * eliminated, ascending */
+  int32_t *later;
 } baum_i_elimination;
 
 /* Finds a minimum-degree order in rounds. A round eliminates all nodes that cause no fill. If there

@@ -265,8 +265,8 @@ bool baum_i_space_has_slender(const baum_i_space *space)
   return found;
 }
 
-/* Replaces I by I + w e e^T, where e is the axis. Sets u = w^(1/2) L^-1 e, where L is the factor of
- * the new tensor. */
+/* Replaces I by I + w e e^T, where e is the axis and w is the added moment of inertia. Sets u =
+ * w^(1/2) L^-1 e, where L is the factor of the new tensor. */
 static void raise_moment(baum_i_space_body *body, double u[4])
 {
   double weight = raised * trace_of(body);

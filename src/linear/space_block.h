@@ -41,9 +41,9 @@ typedef enum baum_i_space_kind {
 typedef struct baum_i_space_layout {
   const baum_i_kkt_structure *structure;
   const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
-  /* (row_block_count) If the first three rows, or the two rows of a planar pin, make points
-   * coincide and all other rows compare directions: the number of the body whose E is -I (0:
-   * ground). Otherwise -1. */
+  /* (row_block_count) number of the body whose E is -I (0: ground), if the first three rows, or the
+   * two rows of a planar pin, make two points coincide and all other rows compare directions;
+   * otherwise -1 */
   const int *pinned;
   /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
    * that the node has as many rows as the joint */
@@ -235,7 +235,8 @@ void baum_i_space_pull(baum_i_space *space, const double *x);
  * this one. */
 void baum_i_space_undivided(const baum_i_space *space, int node, double det[2]);
 
-/* Hot functions for right-hand sides and for nodes whose sides come from J. */
+/* Functions of hot files (base/hot.h) for right-hand sides and for nodes whose sides come from
+ * J. */
 typedef struct baum_i_space_sides_kernel {
   /* Sets f and a0 = W f. */
   void (*set_force)(baum_i_space *space, const double *force);
@@ -246,7 +247,7 @@ typedef struct baum_i_space_sides_kernel {
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
 
-/* Hot functions for the factorization, like those of baum_i_block_kernel. */
+/* Functions of hot files (base/hot.h) for the factorization, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_factor_kernel {
   void (*couple)(baum_i_space *space);
   baum_i_pivots (*eliminate)(baum_i_space *space);
@@ -263,7 +264,7 @@ typedef struct baum_i_space_residual_kernel {
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_plain;
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
-/* Hot functions for the solution, like those of baum_i_block_kernel. */
+/* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
   /* Returns the largest acceleration of a body that the multipliers of one node cause, divided by

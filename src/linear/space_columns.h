@@ -9,7 +9,7 @@
 #include "base/four.h"
 #include "linear/space_block.h"
 
-/* (x_0, x_1, 0, 0) */
+/* Returns (x_0, x_1, 0, 0). */
 BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 {
 #ifdef BAUM_I_WIDE
@@ -103,7 +103,7 @@ BAUM_I_INLINE double baum_i_four_sum(baum_i_four x)
   return halves[0] + halves[1];
 }
 
-/* (x_1, x_2, x_0, x_3) */
+/* Returns (x_1, x_2, x_0, x_3). */
 BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
 {
 #ifdef BAUM_I_WIDE

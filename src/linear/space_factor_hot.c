@@ -141,7 +141,7 @@ BAUM_I_INLINE double invert(int n, double s[6])
   return det;
 }
 
-/* Entry (i, j) of a lower triangle. */
+/* Returns entry (i, j) of a lower triangle. */
 BAUM_I_INLINE double of_triangle(const double s[6], int i, int j)
 {
   return i >= j ? s[i * (i + 1) / 2 + j] : s[j * (j + 1) / 2 + i];

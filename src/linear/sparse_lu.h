@@ -40,7 +40,7 @@ baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double
 /* Returns the ratio of the smallest to the largest pivot, or 0 after a failure. */
 double baum_i_sparse_lu_rcond(const baum_i_sparse_lu *lu);
 
-/* Declares that values are scaled, so that rows are not divided by their largest entry. */
+/* Declares that all values are already scaled. Rows are then not divided by their largest entry. */
 void baum_i_sparse_lu_take_scaled(baum_i_sparse_lu *lu);
 
 /* Makes the next factorization choose new pivots, so that results do not depend on earlier

@@ -362,8 +362,8 @@ static double *row_of(const front *f, int32_t i)
   return f->value + (ptrdiff_t)i * f->columns;
 }
 
-/* Tells whether column j has a reflection. The row of R or r that belongs to it is row done[j] -
- * 1. */
+/* Tells whether column j has a reflection. The row of R or r (see above) that belongs to column j
+ * is row done[j] - 1. */
 static bool is_reduced(const front *f, int32_t j)
 {
   return f->done[j] > (j > 0 ? f->done[j - 1] : 0);
