@@ -27,8 +27,8 @@ void *baum_i_grow(void *old, size_t count, size_t size)
 
 void *baum_i_grow_by_one(void *old, size_t count, size_t size)
 {
-  /* `is_full` is true if count - 1, the old count, is a power of two: the array then uses its whole
-   * capacity. */
+  /* `is_full` is true if count - 1, the old count, is 0 or a power of two: the array then uses its
+   * whole capacity. */
   bool is_full = count <= 2 || ((count - 1) & (count - 2)) == 0;
   return old && !is_full ? old : baum_i_grow(old, count, size);
 }

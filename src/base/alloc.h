@@ -28,8 +28,8 @@ char *baum_i_copy_text(const char *text);
  * a const pointer. */
 void baum_i_free(const void *memory);
 
-/* Return the pointer without const. The library uses it where an object changes, is freed or is
- * passed on although its owner holds it through a const pointer. */
+/* Return the same pointer without const. The library uses this function to change, free or pass on
+ * an object whose owner holds it through a const pointer. */
 static inline void *baum_i_mutable(const void *memory)
 {
   union {

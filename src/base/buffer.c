@@ -72,7 +72,8 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width)
 
 /* ---- texts of users ---- */
 
-/* Returns the number of bytes of the character at s, or 0 if it is not UTF-8 (RFC 3629). */
+/* Returns the number of bytes of the character at s, or 0 if the bytes at s are not UTF-8 (RFC
+ * 3629). */
 static size_t character(const unsigned char *s)
 {
   if (s[0] < 0x80) {

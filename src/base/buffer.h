@@ -8,10 +8,10 @@
 
 #include "base/message.h"
 
-/* A text that grows. A zeroed buffer is empty. If memory runs out, functions that append to the
- * buffer do nothing from then on. */
+/* A text that grows. A zeroed buffer is empty. Once memory has run out, functions that append to
+ * the buffer do nothing. */
 typedef struct baum_i_buffer {
-  char *text; /* (used), zero-terminated; NULL while empty */
+  char *text; /* (used) followed by a zero byte; NULL while empty */
   size_t used;
   size_t room;
   bool failed;
@@ -29,21 +29,22 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV, BAUM_I_XML } baum_i_quoting;
 void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
-/* A number as text. The text of a number that a function returns, such as baum_i_short(x, 3).text,
- * is valid until the end of the full expression that contains the call. */
+/* A number as text. Functions return it by value: baum_i_short(x, 3).text, for example, is valid
+ * until the end of the full expression that contains the call. */
 typedef struct baum_i_number {
   char text[40];
 } baum_i_number;
 
-/* Converts a number to text with `digits` significant digits. Magnitudes from 1e3 to 1e7 are
- * rounded to whole numbers. NaN becomes "-". */
+/* Converts a number to text with `digits` significant digits. Numbers whose magnitude is from 1e3
+ * to 1e7 are rounded to whole numbers. NaN becomes "-", and infinities become "infinite" and
+ * "-infinite". */
 baum_i_number baum_i_short(double x, int digits);
-/* Converts a number to text with the fewest digits, from 15 to 17, from which the same number is
- * read again. NaN and infinities are converted to the text `otherwise`.
+/* Converts a number to text with 15, 16 or 17 digits. It uses as few digits as are needed to get
+ * the same number when the text is read. NaN and infinities are converted to the text `otherwise`.
  */
 baum_i_number baum_i_exact(double x, const char *otherwise);
-/* Reads a number that baum_i_exact() has written. The number ends at a blank. Returns the end of
- * the number, or NULL if there is none. */
+/* Reads a number that baum_i_exact() has written. The number ends at the next blank or at the end
+ * of the text. Returns the end of the number, or NULL if there is no number. */
 const char *baum_i_read_number(const char *text, double *out);
 
 /* Tells whether a text is UTF-8. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic splines. With d = t - t_i, the spline s on the interval of length h_i from t_i to t_i+1 is
+/* Cubic splines. Let y_i be the given value at the time t_i, and d = t - t_i. On the interval of
+ * length h_i from t_i to t_i+1, the spline s is
  *
  *   s = y_i + b_i d + c_i d^2 + (c_i+1 - c_i) / (3 h_i) d^3
  *   b_i = (y_i+1 - y_i) / h_i - h_i (2 c_i + c_i+1) / 3
@@ -31,8 +32,8 @@ static double slope_after(const baum_i_cubic_spline *spline, int32_t i)
   return (spline->values[i + 1] - spline->values[i]) / length_after(spline, i);
 }
 
-/* Find the coefficients c of the natural spline, and z (count). `upper` (count) is zeroed scratch
- * memory. */
+/* Find the coefficients c of the natural spline, and the solution z (count) of the homogeneous
+ * equations. `upper` (count) is zeroed scratch memory. */
 static void solve_natural(const baum_i_cubic_spline *spline, double *upper, double *z)
 {
   double *c = spline->bends;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Hash of a sequence of bytes. For each group of eight bytes, read as a number w:
+/* Hash of a sequence of bytes. Each group of eight bytes is read as a number w and changes the hash
+ * h in two steps:
  *
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Four numbers in two halves. They are one vector if the processor has vectors of this size, and
- * otherwise two pairs. Moving numbers between the halves is slow, so only the functions that join
- * or split halves do so.
+/* Four numbers in two halves. They are one vector in code for processors with vectors of this size,
+ * and otherwise two pairs. Moving numbers between the halves is slow, so only the functions that
+ * join or split halves do so.
  */
 #ifndef BAUM_I_BASE_FOUR_H
 #define BAUM_I_BASE_FOUR_H
@@ -15,7 +15,7 @@
 
 typedef __m256d baum_i_four;
 
-/* Load the pair at each of two addresses. */
+/* Load one pair from each of the two addresses. */
 BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *high)
 {
   return _mm256_loadu2_m128d(high, low);
@@ -76,8 +76,8 @@ BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
   return product;
 }
 
-/* Return (x_0 - y_0, x_1 + y_1) for each half. If y = baum_i_four_exchanged(z), the result is the
- * sum of x and of z rotated by +90 degrees. */
+/* Return (x_0 - y_0, x_1 + y_1) for each half. If y = baum_i_four_exchanged(z), each half of z is
+ * thus rotated by +90 degrees and added to x. */
 BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
 {
   return _mm256_addsub_pd(x, y);
@@ -95,7 +95,8 @@ BAUM_I_INLINE baum_i_four baum_i_four_magnitude(baum_i_four x)
   return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x);
 }
 
-/* Return the larger numbers of x and y. Where x is NaN, return the numbers of y. */
+/* Return the larger number of x and y at each index. Where either number is NaN, return the number
+ * of y. */
 BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
 {
   return _mm256_max_pd(x, y);
@@ -206,7 +207,7 @@ BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
 #endif
 }
 
-/* sum + x s */
+/* Return sum + x s. */
 BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
 {
   return baum_i_four_plus(sum, baum_i_four_times(x, baum_i_four_all(s)));

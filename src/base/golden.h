@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* The k-th quasi-random number in [-1, 1). The numbers are multiples of the golden ratio modulo 1,
- * scaled to this interval, which they fill evenly. */
+/* Return the k-th quasi-random number in [-1, 1). The numbers are multiples of the golden ratio
+ * modulo 1, scaled to this interval, and fill it evenly. */
 static inline double baum_i_golden(int k)
 {
   double turns = 0.6180339887498949 * k;

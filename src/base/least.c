@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds the minimum of a function of one variable by Brent's method. A step goes to the vertex of
  * the parabola through the three lowest points found so far. If this step is longer than half of
- * the step before the last one, the search divides the larger side by the golden section instead.
+ * the step before the last one, the search instead divides the larger of the two intervals between
+ * the lowest point and the ends by the golden section.
  *
  * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. If the function
  * resembles a parabola near its minimum, about eight evaluations locate the minimum to a millionth
- * of the interval; golden sections alone take thirty.
+ * of the interval; golden sections alone need thirty.
  */
 #include "base/least.h"
 
@@ -38,7 +39,8 @@ static double to_vertex(const place p[3])
   return -0.5 * (w * q - u * r) / (q - r);
 }
 
-/* Return whether t is far enough from both ends for its value to give new information. */
+/* Return whether t is so far from both ends that the value of the function at t gives new
+ * information. */
 static bool is_inside(const search *s, double t)
 {
   return t - s->ends[0] >= 2.0 * s->tolerance && s->ends[1] - t >= 2.0 * s->tolerance;

@@ -13,7 +13,7 @@ typedef struct baum_i_step_samples {
   const double *v[2];
   /* accelerations at the end of the step, at its start, and at the three times before */
   const double *a[5];
-  const double *dq; /* NULL if q' = v; otherwise dq without its last term */
+  const double *dq; /* NULL if q' = v; otherwise dq of local_error.c without its last term */
   const double *scale;
   double h;
   double period; /* [s] factor by which errors of v are multiplied */

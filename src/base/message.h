@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message that explains a status. Each thread has one fixed buffer, which is the only mutable
- * data of the library outside objects. */
+/* The message that explains a status. Each thread has one fixed buffer for its message. These
+ * buffers are the only mutable data of the library outside its objects. */
 #ifndef BAUM_I_BASE_MESSAGE_H
 #define BAUM_I_BASE_MESSAGE_H
 
@@ -12,14 +12,14 @@
 #define BAUM_I_PRINTF(text, first)
 #endif
 
-/* Size of the buffer; longer messages are cut. The terminating zero is included. */
+/* Size of the buffer, including the terminating zero. Longer messages are cut. */
 enum { BAUM_I_MESSAGE_SIZE = 1024 };
 
 /* Set this thread's message and return the status, as in `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Return from the calling function if a call fails. The macro may be used only where the calling
- * function owns nothing that it must free. */
+/* If a call fails, return its status from the function that contains the macro. The macro may be
+ * used only where this function owns nothing that it must free. */
 #define BAUM_I_TRY(call)                     \
   do {                                       \
     const baum_status baum_i_tried = (call); \

@@ -5,9 +5,9 @@
  *
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *
- * A name that contains a given name of at least SHORTEST_PART characters has the distance 1. Names
- * are similar if the distance is at most a third of the length of the given name, rounded, and
- * neither has more than LONGEST characters. */
+ * A name that contains the whole given name has the distance 1 from it if the given name has at
+ * least SHORTEST_PART characters. Names are similar if their distance is at most a third of the
+ * length of the given name, rounded, and neither name has more than LONGEST characters. */
 #include "base/nearest.h"
 
 #include <stdbool.h>
@@ -22,7 +22,7 @@ static int smaller(int a, int b)
 
 static int distance_between(const char *a, const char *b)
 {
-  int row[LONGEST + 1]; /* D(i, .) before the present column, and D(i-1, .) from it on */
+  int row[LONGEST + 1]; /* row[j] is D(i, j) in columns already computed, otherwise D(i-1, j) */
   const int columns = (int)strlen(b);
   for (int j = 0; j <= columns; j++) {
     row[j] = j;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the known name that is most similar to a misspelt one, for messages. */
+/* Finds, for messages, the known name that is most similar to a misspelt name. */
 #ifndef BAUM_I_BASE_NEAREST_H
 #define BAUM_I_BASE_NEAREST_H
 

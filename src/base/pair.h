@@ -43,7 +43,8 @@ static inline baum_i_pair baum_i_magnitude(baum_i_pair x)
   return (baum_i_pair){__builtin_fabs(x[0]), __builtin_fabs(x[1])};
 }
 
-/* Return the larger numbers of x and y. Where x is NaN, return the numbers of y. */
+/* Return the larger number of x and y at each index. Where either number is NaN, return the number
+ * of y. */
 static inline baum_i_pair baum_i_larger(baum_i_pair x, baum_i_pair y)
 {
   return (baum_i_pair){x[0] > y[0] ? x[0] : y[0], x[1] > y[1] ? x[1] : y[1]};

@@ -14,7 +14,8 @@
 
 /* ---- clocks ---- */
 
-/* Return the time of a monotonic clock, in ns and in s. */
+/* The first function returns the time of a monotonic clock in ns, and the second returns it in
+ * s. */
 int64_t baum_i_wall_nanoseconds(void);
 double baum_i_wall_seconds(void);
 
@@ -36,14 +37,15 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
 /* What exists at a path. */
 typedef enum baum_i_path_kind {
   BAUM_I_PATH_FREE, /* nothing */
-  /* A regular file that belongs to this user and has no other name. Other files are not replaced:
-   * the new file would belong to this user, and the old one would remain under its other names. */
+  /* A regular file that belongs to this user and has only one name. Files of other users are not
+   * replaced, because the new file would belong to this user. Files with several names are not
+   * replaced, because the old file would remain under its other names. */
   BAUM_I_PATH_REPLACEABLE,
   BAUM_I_PATH_OTHER /* for example a device, a pipe or a link */
 } baum_i_path_kind;
 
-/* Find out what exists at a path. If it is a replaceable file, `permissions` is set to the
- * permissions of this file. */
+/* Find out what exists at a path. If a replaceable file exists there, `permissions` is set to its
+ * permissions. */
 baum_i_path_kind baum_i_path_read(const char *path, unsigned *permissions);
 
 /* Tells whether the path is something other than a regular file, such as a pipe. Returns false if

@@ -62,7 +62,8 @@ static inline double baum_i_cosine_kernel(double r, double y)
 static inline void baum_i_sincos(double x, double *sine, double *cosine)
 {
   static const double two_over_pi = 0x1.45f306dc9c883p-1;
-  /* After this constant is added, the last bits contain the rounded integer. */
+  /* After this constant is added to a number, the last bits of the sum contain the number rounded
+   * to an integer. */
   static const double to_integer = 0x1.8p52;
   static const double part1 = 1.57079632673412561417e+00;
   static const double part2 = 6.07710050630396597660e-11;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public structs begin with the member `size_t struct_size`. A caller built with older headers has
- * a shorter struct. The library fills only the fields that fit into the caller's struct, and
- * struct_size tells how many bytes these are. */
+ * a shorter struct. The library fills only the fields that fit into the caller's struct, and sets
+ * its struct_size to the number of bytes that it has filled. */
 #ifndef BAUM_I_BASE_SIZED_H
 #define BAUM_I_BASE_SIZED_H
 
@@ -35,8 +35,9 @@ baum_status baum_i_check_struct_size(size_t size, size_t present, const char *ca
 baum_status baum_i_take_sized(void *to, size_t size, const void *from, const char *call,
                               const char *of, const char *start);
 
-/* Copy as many bytes of a whole struct as fit into the caller's struct, and set its struct_size.
- * Does nothing if the caller's struct is NULL or too small to hold struct_size. */
+/* Copy as many bytes of the struct `whole` as fit into the caller's struct, and set the caller's
+ * struct_size to their number. Does nothing if the caller's struct is NULL or too small to hold
+ * struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

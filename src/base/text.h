@@ -17,11 +17,13 @@ typedef struct baum_i_text {
 /* Format a short text. What does not fit is cut. */
 baum_i_text baum_i_text_of(const char *format, ...) BAUM_I_PRINTF(1, 2);
 
-/* Refuse names that would make messages unreadable: empty names and names with control characters.
- * NULL is allowed and stands for the default name. */
+/* Fail with BAUM_ERR_ARGUMENT if a name is empty or has control characters, which would make
+ * messages unreadable. The message names the object by its family and number. `name` may be NULL,
+ * which stands for the default name. */
 baum_status baum_i_check_name(const char *family, int number, const char *name);
 
-/* Append to the zero-terminated text in a buffer of `size` characters. What does not fit is cut. */
+/* Append a formatted text to the zero-terminated text in a buffer of `size` characters. What does
+ * not fit is cut. */
 void baum_i_append(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
 #endif

@@ -19,21 +19,21 @@ typedef struct baum_i_kkt_ops {
   const char *name;
   bool keeps_pivots; /* supports BAUM_I_EFFORT_KEEP */
 
-  /* BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. The structure outlives the backend. */
+  /* Returns BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. `structure` outlives the backend. */
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
   /* Factor the matrix, whose values must be finite. `values` and `scale` (see scale.h) do not
-   * change until the last solve. KEEP requires that an earlier factorization succeeded. BAUM_OK,
-   * BAUM_ERR_SINGULAR (no solve may follow) or BAUM_ERR_MEMORY. */
+   * change until the last solve. BAUM_I_EFFORT_KEEP requires that an earlier factorization
+   * succeeded. Returns BAUM_OK, BAUM_ERR_SINGULAR (no solve may follow) or BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);
 
-  /* Replaces the right-hand side (f, r) in x (nv + nc) by the solution (a, lambda). BAUM_OK or
-   * BAUM_ERR_MEMORY. */
+  /* Replaces the right-hand side (f, r) in x (nv + nc) by the solution (a, lambda). Returns BAUM_OK
+   * or BAUM_ERR_MEMORY. */
   baum_status (*solve)(void *self, double *x);
 
-  /* Return a cheap estimate of the reciprocal condition number of the scaled matrix; 0 if its rank
-   * is not full. */
+  /* Return a cheap estimate of the reciprocal condition number of the scaled matrix, or 0 if the
+   * rank of the matrix is not full. */
   double (*rcond)(const void *self);
 
   void (*destroy)(void *self); /* NULL does nothing */

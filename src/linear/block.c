@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Block solver: memory, masses and forces. block_structure.c finds the structure, block_hot.c
- * factors and solves. */
+/* Block solver: memory and masses. block_structure.c finds the structure, and block_hot.c factors
+ * and solves. */
 #include "linear/block.h"
 
 #include <math.h>
@@ -154,7 +154,7 @@ static bool factor_one(const double *m, int n, double *l)
         sum -= l[i * n + k] * l[j * n + k];
       }
       if (i == j) {
-        /* After strong cancellation the diagonal entry is only a rounding error. */
+        /* A smaller sum is only a rounding error left by cancellation. */
         positive = positive && sum > 1e-14 * m[i * n + i];
         l[i * n + i] = sqrt(sum);
       } else {

@@ -7,11 +7,12 @@
  * diagonal entry 1 and multiplier 0. The columns of J are grouped into *body blocks* of three. A
  * planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has
  * as many body blocks as it needs; its unknowns are y = L^T a, for which W is the identity. Body
- * block 0 is the ground, with W = 0. Arrays such as motion[] have three numbers for each body
- * block: first those in v, then those of the ground, then y of the dense bodies. A particle has
- * only two numbers. The third number of its body block is the first number of the next body block.
- * The particle does not change that number, because the third diagonal entry of its W is 0. A
- * *side* of a node is its 2 x 3 block of J on one body block. The sides of a pin are
+ * block 0 is the ground, with W = 0. Arrays such as motion[] begin with the nv numbers of v. Three
+ * numbers of the ground follow, and then y of the dense bodies. Each body block uses three
+ * consecutive numbers. A particle has only two numbers. The third number of its body block is the
+ * first number of the next body block. The particle does not change that number, because the third
+ * diagonal entry of its W is 0. A *side* of a node is the 2 x 3 block of J in the rows of the node
+ * and the columns of one body block. The sides of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -35,7 +36,7 @@ typedef struct baum_i_block_pin {
   int body_b;
 } baum_i_block_pin;
 
-/* The system. The structure must outlive the solver. */
+/* The system to be solved. `structure` must outlive the solver. */
 typedef struct baum_i_block_layout {
   const baum_i_kkt_structure *structure;
   const baum_i_block_pin *pins;  /* (row_block_count) */
@@ -75,7 +76,7 @@ typedef struct baum_i_side_entry {
 } baum_i_side_entry;
 
 /* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm`
- * contains the numbers of the two arms on this body: first the arm of the node that is eliminated
+ * contains the indices of the two arms on this body: first the arm of the node that is eliminated
  * later, then the arm of the other node. */
 typedef struct baum_i_pin_pair {
   int32_t off;
@@ -84,16 +85,16 @@ typedef struct baum_i_pin_pair {
 } baum_i_pin_pair;
 
 /* Two nodes that are coupled through one body block. At least one of them is general, or both are
- * pins whose block another pair sets. `side` contains the numbers of their sides on this body
- * block: first the side of the node that is eliminated later, then the side of the other node.
- * side[i] >= 0 is the number of a general side, and side[i] < 0 means the arm ~side[i] of a pin. */
+ * pins whose block another pair sets. `side` identifies their sides on this body block: first the
+ * side of the node that is eliminated later, then the side of the other node. side[i] >= 0 is the
+ * index of a general side, and side[i] < 0 means the side with the arm ~side[i] of a pin. */
 typedef struct baum_i_full_pair {
   int32_t off;
   int32_t side[2];
   int32_t body_block;
 } baum_i_full_pair;
 
-/* A body whose M is not diagonal or not constant. */
+/* A body whose M is not diagonal, or is diagonal but not constant. */
 typedef struct baum_i_dense_body {
   int mass_block;
   int32_t body_block; /* first body block of this body */
@@ -145,8 +146,8 @@ typedef struct baum_i_block {
   baum_i_pin_node *pins;    /* (even pin_count) */
   baum_i_full_node *fulls;  /* (full_count) */
   int32_t *side_body_block; /* (side_count) */
-  /* (side_count x 2) indices in the values of J at which both rows of a side begin; the second is
-   * -1 if the node has one row, and both are -1 if entries[] define the side */
+  /* (side_count x 2) indices in the values of J at which the two rows of a side begin; the second
+   * index is -1 if the node has one row, and both are -1 if entries[] define the side */
   int32_t *side_from;
   baum_i_side_entry *entries;    /* (entry_count) */
   baum_i_pin_pair *alike;        /* (alike_count) pairs that set their block of off[] */
@@ -155,7 +156,7 @@ typedef struct baum_i_block {
   baum_i_full_pair *full_pairs;  /* (full_pair_count) pairs that add to their block */
   int32_t *zeros;                /* (zero_count) blocks that no pair sets, to be cleared first */
   int32_t *target;               /* blocks that receive products of couplings, node after node */
-  int32_t *place; /* (body_block_count) index of its first number in free[], motion[], ... */
+  int32_t *place; /* (body_block_count) first index of the block in free[], motion[], ... */
   baum_i_dense_body *dense;       /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
 
@@ -169,7 +170,7 @@ typedef struct baum_i_block {
   double *pin_weight; /* (even pin_count x 4) copies of the weights of both body blocks */
   double *side;       /* (side_count x 6) column by column */
   double *right;      /* (node_count x 2) r */
-  double *off;        /* (off_count x 4) S below the diagonal, then L^T, column by column */
+  double *off;        /* (off_count x 4) S below the diagonal, later L^T, column by column */
   double *factor;     /* L of the dense bodies */
 
   /* For refinement. */
@@ -178,16 +179,16 @@ typedef struct baum_i_block {
   double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
   double *pull_low; /* (motion_size) rounding errors of pull[] */
   double *rest;     /* (node_count x 2) r - J a */
-  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in correct(), the last lambda */
+  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in correct(): lambda before it */
 
   double *nothing;    /* (motion_size) zeros */
   const double *from; /* a0 of the present right-hand side: free or nothing */
   const double *load; /* f of the present right-hand side: force or nothing */
 } baum_i_block;
 
-/* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR if another solver is faster, because a body has
- * too many joints or there is too much fill. *hub receives the mass block of a body with too many
- * joints, or -1. hub may be NULL. */
+/* Returns BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR if another solver is faster, because a
+ * body has too many joints or there is too much fill. *hub receives the mass block of a body with
+ * too many joints, or -1. hub may be NULL. */
 baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out);
 void baum_i_block_destroy(baum_i_block *block); /* NULL is allowed */
 
@@ -231,12 +232,12 @@ typedef struct baum_i_block_rows {
   double *phi_rate; /* (nc) only rows of general nodes are set */
 } baum_i_block_rows;
 
-/* Hot functions for right-hand sides and general nodes. */
+/* Functions of hot files (base/hot.h) for right-hand sides and general nodes. */
 typedef struct baum_i_block_sides_kernel {
   /* Sets f and a0 = W f. */
   void (*set_force)(baum_i_block *block, const double *force);
-  /* Sets sides, Phi' = J v - nu, r, pivots and J a0 - r of the general nodes. The caller sets those
-   * of the pins.
+  /* Sets sides, Phi' = J v - nu, r, pivots and J a0 - r of the general nodes. The caller sets the
+   * same quantities of the pins.
    */
   void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
 } baum_i_block_sides_kernel;
@@ -244,7 +245,7 @@ typedef struct baum_i_block_sides_kernel {
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_plain;
 extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_wide;
 
-/* Hot functions for the solution. */
+/* Functions of hot files (base/hot.h) for the solution. */
 typedef struct baum_i_block_kernel {
   /* Sets the off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
@@ -254,8 +255,8 @@ typedef struct baum_i_block_kernel {
    * rows. */
   void (*substitute)(baum_i_block *block, double *lambda);
   /* Tells whether every row of r - J a is at rounding level. This level is proportional to the
-   * magnitudes of r and of the terms of J a. Unless `beside` (motion_size) is NULL, the terms of J
-   * beside are added. */
+   * magnitudes of r and of the terms of J a. If `beside` (motion_size) is not NULL, the magnitudes
+   * of the terms of the product of J and `beside` are added. */
   bool (*check)(const baum_i_block *block, const double *beside);
   /* Corrects a and lambda once by the residual in pull[] and rest[]. Returns the largest change of
    * a multiplier, divided by the largest multiplier. */

@@ -16,7 +16,7 @@ typedef struct baum_i_raw_node {
 } baum_i_raw_node;
 
 /* A side before the place of its node is known. `number` means the same as side[i] in
- * baum_i_full_pair, but numbers arms in the order of rows instead of places. */
+ * baum_i_full_pair, but the arms are counted in the order of rows instead of places. */
 typedef struct baum_i_raw_side {
   int32_t node;
   int32_t body_block;
@@ -35,7 +35,7 @@ typedef struct baum_i_block_builder {
   baum_i_vector entries;     /* baum_i_side_entry */
   baum_i_vector dense_sides; /* baum_i_dense_side */
   int raw_pins;
-  int32_t *sorted_start;    /* (body_block_count + 1) start of its sides in sorted[] */
+  int32_t *sorted_start;    /* (body_block_count + 1) start of the sides in sorted[] */
   int32_t *sorted;          /* (sides.count) */
   int32_t *graph_start;     /* (nodes.count + 1) */
   baum_i_vector neighbours; /* int32_t */
@@ -44,7 +44,7 @@ typedef struct baum_i_block_builder {
   baum_i_vector alike, opposite, first_pairs, full_pairs, zeros, targets;
 } baum_i_block_builder;
 
-/* Tells whether W of a body block is 0, so that it couples no nodes. */
+/* Tells whether W of a body block is 0. Such a body block couples no nodes. */
 static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body_block)
 {
   const unsigned char *fixed = u->block->fixed;
@@ -53,11 +53,11 @@ static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body
 }
 
 /* Lists the pairs of nodes that share a body block, and the blocks of off[] that no pair sets,
- * which must be cleared. BAUM_OK or BAUM_ERR_MEMORY. */
+ * which must be cleared. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 
 /* Lists the blocks that receive the products of a node's couplings. The f-th coupling is multiplied
- * with all couplings before it. BAUM_OK or BAUM_ERR_MEMORY. */
+ * with all couplings before it. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
 /* Sets all members of an empty solver except the arrays of numbers. Returns the same statuses as

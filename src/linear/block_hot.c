@@ -4,9 +4,10 @@
  *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_1 c_n c_k^T
  *
  * where G_n is the side of node n on the body block, and W = diag(w_0, w_0, w_1). The factorization
- * S = L D L^T is right-looking. With U = S_ik adj(D), every update by a pivot is a product with U,
- * times 1 / det D. The processor can therefore divide and multiply at the same time. The right-hand
- * side is eliminated together with the matrix.
+ * S = L D L^T is right-looking. Let U = S_ik adj(D), where D is the pivot of node k, and node i is
+ * eliminated later. Every update by this pivot is a product with U, times 1 / det D. The processor
+ * can therefore divide and multiply at the same time. The right-hand side is eliminated together
+ * with the matrix.
  *
  * Refinement corrects both equations, with a as an independent unknown (J. Demmel, 1997, 2.5). This
  * restores the digits that are lost when J W J^T is computed. With t = W (f - M a - J^T lambda) and
@@ -42,7 +43,7 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
 }
 
 /* Subtracts W G^T lambda of all sides G of general nodes from the motion. Also stores lambda of
- * their rows unless `rows` is NULL. */
+ * these nodes in `rows`, unless `rows` is NULL. */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;
@@ -146,7 +147,7 @@ typedef struct pivot_step {
   baum_i_pair right[2];
 } pivot_step;
 
-/* X adj(D) */
+/* Returns x adj(D). */
 static inline baum_i_square times_adjugate(baum_i_square x, const pivot_step *t)
 {
   return (baum_i_square){
@@ -179,8 +180,8 @@ static inline baum_i_square eliminate_one(const pivot_step *t, double *x, baum_i
   return s;
 }
 
-/* Eliminates the `count` couplings of a node, starting at x. `target` lists the blocks that receive
- * the product of each coupling with all couplings before it. */
+/* Eliminates the `count` couplings of a node, starting at x. For each coupling, `target` lists the
+ * blocks that receive its products with the couplings before it. */
 static inline void eliminate_many(const pivot_step *t, double *x, const int32_t *later,
                                   ptrdiff_t count, const int32_t *target, baum_i_node *nodes,
                                   double *off)
@@ -250,7 +251,7 @@ static baum_i_pivots eliminate(baum_i_block *b)
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* The couplings during backward substitution, from the last to the first. */
+/* State of the backward substitution, which uses the couplings from the last to the first. */
 typedef struct couplings {
   const int32_t *start; /* index in later[] and off[] of each node's first coupling */
   const int32_t *later;
@@ -333,8 +334,8 @@ static void substitute(baum_i_block *b, double *lambda)
 
 /* ---- residual and refinement ---- */
 
-/* The terms of J x at two pins for a motion x. `second` is the index of the second pin relative to
- * the first, or 0 if there is only one pin. */
+/* The terms of J x at two pins for a motion x. In the functions below, `second` is the index of the
+ * second pin relative to the first, or 0 if there is only one pin. */
 typedef struct terms {
   baum_i_four term[4];
 } terms;
@@ -439,8 +440,8 @@ static void gather(const baum_i_block *b)
   }
 }
 
-/* Adds the previous lambda of all nodes to the computed change. Returns the largest change divided
- * by the largest multiplier. */
+/* The nodes contain the computed change of lambda. Adds the previous lambda, `before`, to it.
+ * Returns the largest change divided by the largest multiplier. */
 static double add_change(const baum_i_block *b, const double *before)
 {
   double change = 0.0;

@@ -3,9 +3,9 @@
  *
  *   W (f - M a - J^T lambda)  and  r - J a
  *
- * Close to a singular configuration both are tiny differences of large numbers, and the multipliers
- * depend on all digits of these differences. The rounding errors of sums and products are therefore
- * computed and added to the result (T. Ogita, S. M. Rump, S. Oishi, 2005, Dot2). */
+ * Close to a singular configuration both residuals are tiny differences of large numbers, and the
+ * multipliers depend on all digits of these differences. The rounding errors of sums and products
+ * are therefore computed and added to the result (T. Ogita, S. M. Rump, S. Oishi, 2005, Dot2). */
 #include <string.h>
 
 #include "linear/block.h"

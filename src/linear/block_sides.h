@@ -18,8 +18,8 @@ static inline baum_i_columns baum_i_load_full(const double *side)
 }
 
 /* Loads a side by its number, which may denote an arm (see baum_i_full_pair). The columns of I are
- * read from memory, because the instructions that construct them (vmovq between registers as 66 0F
- * D6) may be unknown to valgrind 3.19. */
+ * read from memory, because the instructions that construct them (vmovq between registers, encoded
+ * as 66 0F D6) may be unknown to valgrind 3.19. */
 static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t number)
 {
   static const double AXES[2][4] = {{1.0, 0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0, -1.0}};
@@ -32,7 +32,8 @@ static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t num
     {baum_i_load(axes), baum_i_load(axes + 2), baum_i_load(b->arm + 2 * (size_t)arm)}};
 }
 
-/* w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
+/* Returns w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T, where n_i and k_i are columns of two
+ * sides. */
 static inline baum_i_square baum_i_couple_sides(const baum_i_columns *n, const double *w,
                                                 const baum_i_columns *k)
 {

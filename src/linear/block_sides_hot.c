@@ -59,8 +59,9 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* Returns the velocities of all body blocks. The result is v itself if no body block has numbers
- * outside v. Otherwise it is a copy in pull[], with L^T v for each dense body. */
+/* Returns the velocities of all body blocks. The result is zeros if v is NULL, and v itself if no
+ * body block has numbers outside v. Otherwise it is a copy in pull[], with L^T v for each dense
+ * body. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -86,7 +87,8 @@ static const double *gather_velocities(const baum_i_block *b, const double *v)
   return b->pull;
 }
 
-/* Computes one row of a node from rate = J v: sets Phi' = rate - nu and returns r. */
+/* Sets Phi' = rate - nu of row r, where rate = J v. Returns the right-hand side of this row, or 0
+ * if r is negative. */
 static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
 {
   if (r < 0) {

@@ -12,8 +12,8 @@
 #include "linear/block_builder.h"
 
 /* A body with more sides than MOST_SIDES couples too many nodes with each other. More couplings
- * than MOST_COUPLINGS times (number of nodes + SMALL) mean too much fill. Sparse elimination of the
- * whole system is then faster, because it may eliminate bodies or joints first. */
+ * than MOST_COUPLINGS times (number of nodes + SMALL) mean too much fill. In both cases, sparse
+ * elimination of the whole system is faster, because it may eliminate bodies or joints first. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */
@@ -304,7 +304,7 @@ static baum_status sort_sides(baum_i_block_builder *u)
     return BAUM_ERR_MEMORY;
   }
   const baum_i_raw_side *sides = u->sides.items;
-  /* shifted by one entry, because filling the list advances each start to the next one */
+  /* shifted by one entry, because filling the list moves each start to the next one */
   int32_t *place = u->sorted_start + 1;
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].body_block + 1]++;

@@ -21,8 +21,8 @@ void baum_i_places_add(baum_i_places *places, int32_t row, int32_t column)
   }
 }
 
-/* Converts counts to starts. On entry start[j + 1] is the number of items of j < n; on return
- * start[j] is the index of the first item of j. */
+/* Converts counts to starts. On entry start[j + 1] is the number of places in row or column j < n.
+ * On return start[j] is the index of the first of them. */
 static void accumulate(int32_t n, int32_t *start)
 {
   for (int32_t j = 0; j < n; j++) {

@@ -29,8 +29,8 @@ typedef struct baum_i_compressed {
   int32_t *slot;  /* index of each listed place among the distinct ones */
 } baum_i_compressed;
 
-/* Compresses a list, which is empty afterwards. BAUM_OK, or BAUM_ERR_MEMORY without a message; then
- * *out is empty. */
+/* Compresses a list, which is empty afterwards. Returns BAUM_OK, or BAUM_ERR_MEMORY without a
+ * message and with an empty *out. */
 baum_status baum_i_compress(baum_i_places *places, int32_t n, baum_i_compressed *out);
 void baum_i_compressed_clear(baum_i_compressed *compressed); /* a zeroed pattern is allowed */
 

@@ -17,9 +17,9 @@
 #include "base/message.h"
 #include "linear/vector.h"
 
-/* State of the search. Nodes that are not yet eliminated are in buckets: nodes that cause no fill
- * in the first, the others by degree. If a neighbour of a node has been eliminated in this round,
- * the node is in `waiting` until the next round. */
+/* State of the search. Nodes that are not yet eliminated are in buckets. Bucket 0 contains nodes
+ * that cause no fill; the bucket number of any other node is its degree. If a neighbour of a node
+ * has been eliminated in this round, the node is in `waiting` until the next round. */
 typedef struct search {
   int count;
   baum_i_vector *coupled; /* (count) neighbours of each node */
@@ -228,8 +228,8 @@ static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t
 }
 
 /* Reorders the nodes so that each comes shortly before the nodes that its elimination changes. The
- * changed numbers are then still in the cache. The fill stays the same, and nodes of the same depth
- * are independent of each other. */
+ * changed numbers are then still in the cache when they are needed. The fill stays the same, and
+ * nodes of the same depth are independent of each other. */
 static baum_status order_by_depth(search *s)
 {
   baum_i_elimination *out = s->out;

@@ -22,16 +22,17 @@ typedef struct baum_i_elimination {
   int32_t *node;  /* (count) node at each place */
   int32_t *place; /* (count) place of each node */
   int32_t *start; /* (count + 1) */
-  int32_t *later; /* (start[count]) later places coupled with a place at its elimination,
-                     ascending */
+  /* (start[count]) for each place: the later places that are coupled with it when it is
+   * eliminated, ascending */
+  int32_t *later;
 } baum_i_elimination;
 
 /* Finds a minimum-degree order in rounds. A round eliminates all nodes that cause no fill. If there
  * are none, it eliminates nodes of the smallest degree that are not neighbours of each other. A
  * chain is thus eliminated from both ends. The nodes are then sorted by their distance from the
  * root of the elimination tree: a node comes shortly before the nodes that its elimination changes,
- * and independent nodes are adjacent in the order. BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR
- * if there would be more than `most` couplings. On failure *out is empty. */
+ * and independent nodes are adjacent in the order. Returns BAUM_OK, BAUM_ERR_MEMORY, or
+ * BAUM_ERR_SINGULAR if there would be more than `most` couplings. On failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
 /* Finds the index in later[] of the coupling of two places. */
 int32_t baum_i_elimination_find(const baum_i_elimination *elimination, int32_t earlier,

@@ -60,7 +60,7 @@ struct baum_i_kkt {
   ladder_rung top_rung;
   baum_i_kkt_quality quality;
   baum_i_kkt_counters counters;
-  baum_i_kkt_values values;    /* whitened if bodies are slender */
+  baum_i_kkt_values values;    /* changed by `whitening` if bodies are slender */
   baum_i_whitening *whitening; /* NULL if there are no bodies in space */
   baum_i_residual_islands islands;
   double *memory; /* memory of the five arrays below */
@@ -170,7 +170,7 @@ static double present_rcond(const baum_i_kkt *kkt)
   return kkt->present->ops->rcond(kkt->present->self);
 }
 
-/* The effort of each rung. The solver of RUNG_LAST has only one. */
+/* The effort of each rung. The solver of RUNG_LAST has only one way to choose pivots. */
 static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
                                            [RUNG_CHOOSE] = BAUM_I_EFFORT_CHOOSE,
                                            [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
@@ -250,7 +250,7 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
 
 /* ---- solve ---- */
 
-/* The arrays may be NULL if count is 0. */
+/* Both arrays may be NULL if count is 0. */
 static void copy(const double *from, int count, double *to)
 {
   for (int i = 0; i < count; i++) {
@@ -293,8 +293,8 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, &kkt->islands, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Tells whether all rows with a large residual are negligible. False at lower rungs, where climbing
- * may help.
+/* Tells whether all rows with a large residual are negligible. Returns false below RUNG_CAREFUL if
+ * there is a higher rung, because climbing may then help.
  */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {

@@ -69,36 +69,37 @@ typedef enum baum_i_kkt_choice { BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR 
 
 typedef struct baum_i_kkt baum_i_kkt;
 
-/* The structure's arrays must outlive the solver. baum_i_kkt_prepare() or the first factorization
- * analyses the structure, which costs more than a factorization. */
+/* `structure` and its arrays must outlive the solver. baum_i_kkt_prepare() or the first
+ * factorization analyses the structure. This analysis costs more than a factorization. */
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out);
-/* Analyse the structure, unless this has already been done, so that only new pivots allocate memory
- * from here on. BAUM_OK or BAUM_ERR_MEMORY. */
+/* Analyses the structure, unless this has already been done. After this call, memory is allocated
+ * only when new pivots are chosen. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
 /* Factors the matrix of new values. The values must not change until the last solve, because
- * residuals are computed from them. Keeps the pivots, and then allocates nothing, unless they are
- * no longer good enough. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE. Sets a message only if out of memory, because only the caller knows the time
- * and the names for other messages. */
+ * residuals are computed from them. As long as the present pivots are good enough, keeps them and
+ * allocates nothing. Returns BAUM_OK (baum_i_kkt_get_quality() then tells how good the
+ * factorization is), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. Sets a message only
+ * if out of memory, because only the caller knows the time and the names for other messages. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
 /* Solves, and refines a and lambda until the residuals of both equations are at rounding level. (a,
- * lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (no factorization, a residual that stays
- * large, or contradictory rows), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May choose new pivots or use
- * QR.
+ * lambda) may not alias f or r. To reach this level, the function may choose new pivots or use QR.
+ * Returns BAUM_OK, BAUM_ERR_SINGULAR (no factorization, a residual that stays large, or
+ * contradictory rows), BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE.
  */
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
-/* Factors and solves. Use this if there is only one right-hand side for these values. */
+/* Factors and solves. Use this function if there is only one right-hand side for these values. */
 baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
                                         const double *f, const double *r, double *a,
                                         double *lambda);
 
-/* Makes the next factorization choose new pivots, so that results do not depend on earlier ones. */
+/* Makes the next factorization choose new pivots, so that results do not depend on earlier
+ * factorizations. */
 void baum_i_kkt_forget(baum_i_kkt *kkt);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
@@ -126,10 +127,10 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 /* Finds the rank of J by rank-revealing sparse QR of its transpose. Column j is first multiplied by
  * column_scale[j]; then every non-zero row is scaled to unit length. A row counts as dependent if
  * its length is at most `tolerance` after orthogonalization against the independent rows before it.
- * independent (nc) receives 1 for the rows of one largest set of independent rows, and 0 for all
+ * independent (nc) receives 1 for the rows of a largest set of independent rows, and 0 for all
  * other rows. Rows with independent[i] != 0 on entry are preferred, then rows with a lower number,
- * but any row is preferred to the structure's last_rows. BAUM_OK, BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE. Allocates. */
+ * but any row is preferred to the structure's last_rows. Allocates memory. Returns BAUM_OK,
+ * BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The saddle-point matrix in compressed columns. The pattern is found once; filling allocates
+/* The saddle-point matrix K in compressed columns. The pattern is found once; filling allocates
  * nothing.
  *
  * The pattern contains all entries that can be non-zero, and the whole diagonal. Rows ascend within
@@ -25,7 +25,7 @@ typedef struct baum_i_pattern {
   double *matrix; /* (columns.start[n]) D K D */
 } baum_i_pattern;
 
-/* BAUM_OK, or BAUM_ERR_MEMORY; the pattern is then empty. */
+/* Returns BAUM_OK, or BAUM_ERR_MEMORY with an empty pattern. */
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
 void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed pattern is allowed */
 

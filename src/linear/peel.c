@@ -2,9 +2,9 @@
 /* A velocity that occurs in only one block of rows is free for that block. If the rows of a block,
  * scaled to unit length, are clearly independent in the columns of its free velocities, no
  * combination of other rows can cancel them. The rows of the block are then independent of the
- * other rows, and vice versa. The block is removed, and its other velocities may then be free for a
- * neighbour. In this way an open chain is removed from its tip to its root, including its motors,
- * and closed loops remain. */
+ * other rows, and vice versa. The block is removed, and its other velocities may then be free for
+ * another block. In this way an open chain is removed from its tip to its root, including its
+ * motors, and closed loops remain. */
 #include "linear/peel.h"
 
 #include <math.h>

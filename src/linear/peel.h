@@ -9,7 +9,7 @@
  * rank of J is the rank of the remaining rows plus the number of removed rows. peeled (nc) must be
  * zero on entry and receives 1 for each removed row. Values are scaled as in
  * baum_i_jacobian_rank(). Rows with numbers that are not finite are not removed. Every row may
- * belong to at most one block. BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+ * belong to at most one block. Returns BAUM_OK or BAUM_ERR_MEMORY, without a message. */
 baum_status baum_i_peel(const baum_i_kkt_structure *structure, const double *jacobian,
                         const double *column_scale, unsigned char *peeled);
 

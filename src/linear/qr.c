@@ -6,12 +6,12 @@
  *   K_w = [ w M   J^T ]
  *         [ J    -S/w ]
  *
- * If the smallest singular value of the scaled J is sigma > w, the smallest singular value is about
- * sigma for K_w, but sigma^2 for K_1. Columns whose remaining norm is at most 1e-13 count as
- * dependent. Of all vectors that minimize the scaled residual, solve() returns the vector of least
- * norm. K_w is symmetric, so its range is its row space, and the projection of the basic solution
- * onto the range has the least norm. Accelerations are unique if M is positive definite on ker J;
- * multipliers have the least norm in scaled rows. */
+ * If the smallest singular value of the scaled J is sigma > w, the smallest singular value of K_w
+ * is about sigma as well. The smallest singular value of K_1 would be about sigma^2. Columns whose
+ * remaining norm is at most 1e-13 count as dependent. Of all vectors that minimize the scaled
+ * residual, solve() returns the vector of least norm. K_w is symmetric, so its range is its row
+ * space, and the projection of the basic solution onto the range has the least norm. Accelerations
+ * are unique if M is positive definite on ker J; multipliers have the least norm in scaled rows. */
 #include <colamd.h>
 #include <math.h>
 #include <string.h>
@@ -102,8 +102,9 @@ static void project_part(qr_backend *qr, int from, int to, double *x)
 }
 
 /* x <- K_w^+ x. Because M and S are positive semidefinite, the null space is spanned by vectors
- * that contain only velocities and vectors that contain only multipliers. Both parts are projected
- * separately, so that the rounding errors of one part, which w enlarges, do not enter the other. */
+ * that contain only velocities and vectors that contain only multipliers. The velocities and the
+ * multipliers in x are therefore projected separately. The rounding errors of one part, which w
+ * enlarges, then do not enter the other part. */
 static void solve_scaled(qr_backend *qr, double *x)
 {
   baum_i_sparse_qr_solve(qr->factors, x);

@@ -52,7 +52,8 @@ static void make_unit(double *x, int count)
   }
 }
 
-/* Returns false if a number is not finite. Rows with such numbers are never peeled. */
+/* Lists the scaled entries of all rows that are not peeled. Returns false if one is not finite;
+ * rows with such entries are never peeled. */
 static bool list_entries(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *column_scale, const transposed *columns)
 {
@@ -75,8 +76,8 @@ static bool list_entries(const baum_i_kkt_structure *structure, const double *ja
   return true;
 }
 
-/* Lists the structure's last_rows after all other rows. Within both groups, marked rows come
- * first. */
+/* Lists the structure's last_rows after all other rows. Within each of the two groups, marked rows
+ * come first. */
 static void order_rows(const baum_i_kkt_structure *structure, const unsigned char *marked,
                        int32_t *order)
 {

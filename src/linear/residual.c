@@ -10,13 +10,13 @@
  * different size do not matter. A row whose denominator consists only of rounding errors of other
  * rows might never pass. After scaling, it is therefore compared with the largest row (M. Arioli,
  * J. Demmel, I. Duff 1989). baum_i_residual_is_rounding() does so for rows of relative size eps^2,
- * which remain after one refinement. baum_i_residual_is_noise() does so for rows of relative size
- * eps. A residual below eps^2 of the largest row always passes, because some rows differ from zero
- * only by rounding and cannot be solved more accurately. The rows of a guide along an axis of the
- * ground are an example. In baum_i_residual_is_noise(), this limit is eps^2 / rcond. Refinement by
- * QR gets no further, because the backward error of QR is relative to the largest row (N. J.
- * Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2). "The largest row" always
- * means the largest row of the same island.
+ * because one refinement reduces such rounding errors to this size. baum_i_residual_is_noise() does
+ * so for rows of relative size eps. A residual below eps^2 of the largest row always passes,
+ * because some rows differ from zero only by rounding and cannot be solved more accurately. The
+ * rows of a guide along an axis of the ground are an example. In baum_i_residual_is_noise(), this
+ * limit is eps^2 / rcond. Refinement by QR cannot reduce the residual further, because the backward
+ * error of QR is relative to the largest row (N. J. Higham, Accuracy and Stability of Numerical
+ * Algorithms, 2002, 12.2). "The largest row" always means the largest row of the same island.
  */
 #include "linear/residual.h"
 
@@ -93,7 +93,8 @@ static void subtract_mass(const baum_i_kkt_structure *structure, const double *m
   }
 }
 
-/* Subtracts the terms of one row of a block of J from both equations. x = (a, lambda). */
+/* Subtracts the terms of one row of a block of J from the residuals of both equations. x = (a,
+ * lambda). */
 static void subtract_row(const baum_i_row_block *block, const double *value, int row,
                          const double *x, double *residual, double *size)
 {
@@ -171,8 +172,9 @@ void baum_i_residual_largest(int n, const baum_i_residual_islands *islands, cons
   }
 }
 
-/* Tests the residual. Rows of scaled size up to `negligible` times the largest of their island are
- * compared with the largest. A residual of at most `least` times the largest row always passes. */
+/* Tests the residual. Rows of scaled size up to `negligible` times the size of the largest row of
+ * their island are compared with this row. A residual of at most `least` times the largest row
+ * always passes. */
 static bool is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
                         const double *residual, const double *size, double negligible, double least)
 {

@@ -6,30 +6,32 @@
 
 #include "linear/kkt.h"
 
-/* residual = b - K x and size = |b| + |K| |x|, all of length nv + nc; zero in omitted rows. */
+/* Computes residual = b - K x and size = |b| + |K| |x|. All vectors have the length nv + nc. In
+ * omitted rows the results are 0. */
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 
-/* The islands of the system: no block of M or J couples two of them. Rows are compared only with
- * rows of the same island, because other islands may be larger by many orders of magnitude. */
+/* Islands are parts of the system that no block of M or J couples with each other. Rows are
+ * compared only with rows of the same island, because the numbers of other islands may be larger by
+ * many orders of magnitude. */
 typedef struct baum_i_residual_islands {
   int count;
   int *of;         /* (n) island of each row */
   double *largest; /* (count) used by the functions below */
 } baum_i_residual_islands;
 
-/* BAUM_OK or BAUM_ERR_MEMORY, without a message. */
+/* Returns BAUM_OK or BAUM_ERR_MEMORY, without a message. */
 baum_status baum_i_residual_islands_find(const baum_i_kkt_structure *structure,
                                          baum_i_residual_islands *out);
 void baum_i_residual_islands_clear(const baum_i_residual_islands *islands);
 
 /* Tells whether each |residual_i| is at rounding level relative to size_i. Tiny rows are compared
- * with the largest row of their island (see residual.c). False for NaN. */
+ * with the largest row of their island (see residual.c). Returns false if a residual is NaN. */
 bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
                                  const double *residual, const double *size);
 
-/* The same, but "tiny" includes all rows whose scaled size is at rounding level of the largest row
- * of their island. rcond: reciprocal condition number of the scaled matrix. */
+/* The same test, but "tiny" includes all rows whose scaled size is at rounding level of the largest
+ * row of their island. rcond: reciprocal condition number of the scaled matrix. */
 bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
                               const double *residual, const double *size, double rcond);
 

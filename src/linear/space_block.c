@@ -22,8 +22,8 @@ static const double many_nodes = 128.0;
 static const double thin = 2e-5;
 
 /* A body is slender if its smallest moment of inertia is below `slender` times the trace of I. The
- * pivots of its joints may then be as small as this fraction. Raising the moment by `raised` times
- * the trace avoids this, and each refinement gains about four digits. */
+ * pivots of its joints may then be as small as this fraction. Raising the moment of inertia by
+ * `raised` times the trace avoids this, and each refinement then gains about four digits. */
 static const double slender = 1e-8;
 static const double raised = 1e-4;
 
@@ -134,7 +134,7 @@ static bool factor_tensor(const double tensor[12], double l[9])
       for (int k = 0; k < j; k++) {
         sum -= l[3 * i + k] * l[3 * j + k];
       }
-      /* After strong cancellation the diagonal entry is only a rounding error. */
+      /* a smaller sum is only a rounding error left by cancellation */
       if (i == j && !(sum > 1e-14 * tensor[5 * i])) {
         return false;
       }
@@ -151,7 +151,7 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
   if (!factor_tensor(tensor, l)) {
     return false;
   }
-  for (int c = 0; c < 3; c++) { /* L^T x = e_c */
+  for (int c = 0; c < 3; c++) { /* solves L^T x = e_c */
     for (int i = 2; i >= 0; i--) {
       double sum = i == c ? 1.0 : 0.0;
       for (int k = i + 1; k < 3; k++) {
@@ -265,8 +265,8 @@ bool baum_i_space_has_slender(const baum_i_space *space)
   return found;
 }
 
-/* Replaces I by I + w e e^T, where e is the axis. Sets u = w^(1/2) L^-1 e, where L is the factor of
- * the new tensor. */
+/* Replaces I by I + w e e^T, where e is the axis and w is the added moment of inertia. Sets u =
+ * w^(1/2) L^-1 e, where L is the factor of the new tensor. */
 static void raise_moment(baum_i_space_body *body, double u[4])
 {
   double weight = raised * trace_of(body);

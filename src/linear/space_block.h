@@ -5,18 +5,18 @@
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
  * A *node* is one joint, or up to six of its rows. Omitted rows belong to a node only if the layout
- * marks their row block as `whole`. Rotations are *whitened*: with the tensor I = L L^T, the
- * unknowns of a body are the acceleration x of its origin, for which W is 1 / m, and y = L^T w',
- * for which W is 1. Here w' is the angular acceleration. The entries of J for one node and one body
- * form a *side* [E | R] of two n x 3 blocks: E multiplies x, and R = (columns for w') L^-T
+ * marks their row block as `whole`. Rotations are *whitened*: with the inertia tensor I = L L^T,
+ * the unknowns of a body are the acceleration x of its origin, for which W is 1 / m, and y = L^T
+ * w', for which W is 1. Here w' is the angular acceleration. The entries of J for one node and one
+ * body form a *side* [E | R] of two n x 3 blocks: E multiplies x, and R = (columns for w') L^-T
  * multiplies y. Then
  *
  *   S_nk = +- sum over shared bodies of E_n E_k^T / m + R_n R_k^T
  *
- * The first three rows of many joints make two points coincide. Their E is +I or -I, and E of the
- * rows that compare directions is 0. A side with this E is *lean*: only R is stored. For a planar
- * body, W is 0 for the third entry of x and for the first two entries of y. Body 0 is the ground,
- * with W = 0.
+ * The first three rows of many joints make two points coincide. In these rows, E is plus or minus
+ * the identity (written +I or -I). In rows that compare directions, E is 0. A side with this E is
+ * *lean*: only R is stored. For a planar body, W is 0 for the third entry of x and for the first
+ * two entries of y. Body 0 is the ground, with W = 0.
  *
  * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
  * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
@@ -37,13 +37,13 @@ typedef enum baum_i_space_kind {
   BAUM_I_SPACE_PLANAR_PARTICLE
 } baum_i_space_kind;
 
-/* The system. The structure must outlive the solver. */
+/* The system to be solved. `structure` must outlive the solver. */
 typedef struct baum_i_space_layout {
   const baum_i_kkt_structure *structure;
   const unsigned char *kinds; /* (mass_block_count) baum_i_space_kind */
-  /* (row_block_count) If the first three rows, or the two rows of a planar pin, make points
-   * coincide and all other rows compare directions: the number of the body whose E is -I (0:
-   * ground). Otherwise -1. */
+  /* (row_block_count) number of the body whose E is -I (0: ground), if the first three rows, or the
+   * two rows of a planar pin, make two points coincide and all other rows compare directions;
+   * otherwise -1 */
   const int *pinned;
   /* (row_block_count) non-zero: omitted rows stay in the node as rows of zeros with the pivot 1, so
    * that the node has as many rows as the joint */
@@ -73,7 +73,7 @@ typedef struct baum_i_space_side {
   int32_t body;
   int32_t move; /* start of E in sides[] */
   int32_t turn; /* start of R */
-  int32_t sign; /* lean: E = +I or -I; 0: E is stored */
+  int32_t sign; /* +1 or -1: lean, with E = +I or -I; 0: E is stored */
   /* column in the row block of each of the six columns of [E | R]; -1: none */
   int32_t from[BAUM_I_SPACE_ROWS];
 } baum_i_space_side;
@@ -81,7 +81,7 @@ typedef struct baum_i_space_side {
 /* Two nodes that share a body. The node that is eliminated later comes first. */
 typedef struct baum_i_space_pair {
   int32_t to;   /* start of their block in off[] */
-  int32_t adds; /* 0: the first pair of this block, which sets it */
+  int32_t adds; /* 0: the pair sets the block; otherwise it adds to the block */
   int32_t body;
   int32_t sign; /* both sides are lean: product of their signs; otherwise 0 */
   int32_t rows[2];
@@ -96,28 +96,28 @@ typedef struct baum_i_space_coupling {
 } baum_i_space_coupling;
 
 /* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.
- * `det` contains the determinant of the first block, and the determinant of the second block after
- * the elimination of the first. */
+ * `det` contains the determinant of the first block, and the determinant that the second block has
+ * after the first block has been eliminated. */
 typedef struct baum_i_space_measure {
   double det[2];
-  double size[2]; /* products of the diagonal entries of S */
+  double size[2]; /* products of the diagonal entries of S in the rows of each block */
 } baum_i_space_measure;
 
 /* Constants of a body. */
 typedef struct baum_i_space_body {
-  double weight[4];   /* 1 / m, three times (planar: twice), and 0 */
+  double weight[4];   /* W of x: 1 / m three times (planar: twice), then 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
-  double inertia[12]; /* I, stored likewise */
+  double inertia[12]; /* I, stored like `whiten` */
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of a thin body, otherwise 0 */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
   double mass;        /* 0: W = 0 */
-  double heft;        /* its mass, even if it is fixed */
+  double heft;        /* mass of the body, even if the body is fixed */
   bool fixed;         /* W = 0 */
   bool thin;          /* the moment of inertia about `axis` is small */
-  int32_t first;      /* its first column */
+  int32_t first;      /* first column of the body in J */
   int32_t size;
-  const int32_t *slots; /* (size) column of [E | R] for each of its columns */
+  const int32_t *slots; /* (size) column of [E | R] for each column of the body */
 } baum_i_space_body;
 
 typedef struct baum_i_space {
@@ -132,30 +132,29 @@ typedef struct baum_i_space {
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
   int hub;       /* mass block with too many sides; -1: none */
   double length; /* [m] see the layout */
-  /* pivots are weak if a determinant of a node is below this fraction of the product of the
-   * diagonal entries of S */
+  /* pivots are weak if the ratio det[k] / size[k] of a node (baum_i_space_measure) is below this */
   double weak_pivot;
-  double weakest; /* the smallest of these fractions, or weak_pivot if all are larger */
+  double weakest; /* the smallest of these ratios, or weak_pivot if all are larger */
 
   baum_i_space_body *bodies;        /* (body_count) */
   baum_i_space_node *list;          /* (node_count) in the order of elimination */
   baum_i_space_side *side_list;     /* (side_count) */
   baum_i_space_pair *pairs;         /* (pair_count) ascending in `to` */
   baum_i_space_coupling *couplings; /* (coupling_count) */
-  /* The bodies of island i are island_bodies[k], body_start[i] <= k < body_start[i + 1]; likewise
-   * its nodes. Island 0 consists of ground and fixed bodies, and has no nodes. */
+  /* The bodies of island i are island_bodies[k] for body_start[i] <= k < body_start[i + 1]. Its
+   * nodes are found in the same way with island_nodes[] and node_start[]. Island 0 consists of
+   * ground and fixed bodies, and has no nodes. */
   int island_count;
   int32_t *island_bodies; /* (body_count) */
   int32_t *body_start;
   int32_t *island_nodes; /* (node_count) in the order of elimination */
   int32_t *node_start;
-  int32_t *zeros;   /* (zero_count x 2) start and length of blocks in off[] that no
-                                     * pair sets */
+  int32_t *zeros;   /* (zero_count x 2) start and length of blocks in off[] that no pair sets */
   int32_t *targets; /* starts in off[] of blocks that receive products of couplings */
 
   double *numbers;                /* memory of all arrays below */
   double *sides;                  /* constants (space_structure.c), then E and R of all sides */
-  double *nodes;                  /* lambda, r, and D, later its factors */
+  double *nodes;                  /* lambda, r, and D or, later, the factors of D */
   baum_i_space_measure *measures; /* (node_count) */
   double *off;     /* S below the diagonal, later replaced by [ U1 U2 ] of space_factor_hot.c */
   double *free;    /* (body_count x 8) a0 */
@@ -164,10 +163,10 @@ typedef struct baum_i_space {
   double *nothing; /* zeros */
   double *pull;    /* W (f - M a - J^T lambda) */
   double *pull_low;
-  /* (body_count x 4) u of slender bodies, otherwise 0. The solver replaces I by L L^T = I + L u u^T
-   * L^T. Refinement removes the effect of this change. */
+  /* (body_count x 4) u of slender bodies, otherwise 0. For a slender body, the solver replaces I by
+   * L L^T = I + L u u^T L^T. Refinement removes the effect of this change. */
   double *lack;
-  double *spins;  /* (body_count) change of the spin of slender bodies by the last refinement */
+  double *spins;  /* (body_count) change of the spin of thin bodies by the last refinement */
   double *units;  /* (numbers_of_rows) factors that convert multipliers to forces */
   bool is_raised; /* the inertia of at least one body is raised */
   bool has_thin;  /* at least one body is thin */
@@ -177,7 +176,8 @@ typedef struct baum_i_space {
   const double *load; /* f of the present right-hand side: force or nothing */
 } baum_i_space;
 
-/* Number of entries of a vector of n rows, and of a matrix with three columns. */
+/* The first function returns the number of stored entries of a vector with `rows` rows. The second
+ * one returns the number of stored entries of a matrix with `rows` rows and three columns. */
 static inline int baum_i_space_vector(int rows)
 {
   return rows > 4 ? 8 : 4;
@@ -194,9 +194,9 @@ static inline int baum_i_space_pivot(int rows)
   return 2 * baum_i_space_vector(rows);
 }
 
-/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections
- * have the right-hand side (0, r) and do not need it, because any positive definite metric suits
- * them. */
+/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections,
+ * which have the right-hand side (0, r), do not need it, because they may use any positive definite
+ * metric. */
 static inline bool baum_i_space_must_refine(const baum_i_space *space)
 {
   return space->is_raised && space->load == space->force;
@@ -212,7 +212,8 @@ baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_
 /* Sets the islands of an otherwise complete structure (space_islands.c). */
 baum_status baum_i_space_find_islands(baum_i_space *space);
 
-/* Sets W. Returns -1, or the first mass block that is not positive definite. */
+/* Sets W. Returns -1 if all mass blocks are positive definite, otherwise the index of the first one
+ * that is not. */
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
 /* The first function tells whether there are bodies so slender that their pivots may be too small.
@@ -225,8 +226,8 @@ void baum_i_space_restore_slender(baum_i_space *space, int body);
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
 
-/* Prepare solutions with the present factors, as baum_i_block_set_rest() and baum_i_block_pull()
- * do. */
+/* Prepare a solution with the present factors, as baum_i_block_set_rest() and baum_i_block_pull()
+ * do for planar mechanisms. */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
 
@@ -234,7 +235,8 @@ void baum_i_space_pull(baum_i_space *space, const double *x);
  * this one. */
 void baum_i_space_undivided(const baum_i_space *space, int node, double det[2]);
 
-/* Hot functions for right-hand sides and for nodes whose sides come from J. */
+/* Functions of hot files (base/hot.h) for right-hand sides and for nodes whose sides come from
+ * J. */
 typedef struct baum_i_space_sides_kernel {
   /* Sets f and a0 = W f. */
   void (*set_force)(baum_i_space *space, const double *force);
@@ -245,7 +247,7 @@ typedef struct baum_i_space_sides_kernel {
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
 
-/* Hot functions for the factorization, like those of baum_i_block_kernel. */
+/* Functions of hot files (base/hot.h) for the factorization, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_factor_kernel {
   void (*couple)(baum_i_space *space);
   baum_i_pivots (*eliminate)(baum_i_space *space);
@@ -262,13 +264,13 @@ typedef struct baum_i_space_residual_kernel {
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_plain;
 extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
-/* Hot functions for the solution, like those of baum_i_block_kernel. */
+/* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
   /* Returns the largest acceleration of a body that the multipliers of one node cause, divided by
-   * the largest acceleration of all bodies of the island. The spin of a thin body is instead
-   * divided by its resulting spin, if that is larger. If this quotient is large, digits have
-   * cancelled. */
+   * the largest resulting acceleration of all bodies of the island. The spin of a thin body is
+   * divided by the resulting spin of this body, if this spin is larger than that acceleration. If
+   * the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. The residual of the equations of

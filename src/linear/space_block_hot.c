@@ -3,7 +3,7 @@
  *
  *   lambda2 = Z b2' - U2^T lambda_i,  lambda1 = P b1 - U1^T lambda_i - Y lambda2.
  *
- * Refinement is described in block_hot.c. */
+ * The terms with lambda_i are summed over later nodes i. Refinement is described in block_hot.c. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ static const double rounding = 0x1p-46;
 
 /* ---- substitute ---- */
 
-/* Returns G^T lambda for a matrix G with three columns. */
+/* Returns m^T lambda for a matrix m with three columns. */
 BAUM_I_INLINE baum_i_four transposed_times(const double *m, column lambda, bool tall)
 {
   baum_i_four products[4];
@@ -144,7 +144,7 @@ static void substitute(baum_i_space *b, double *lambda)
   read_lambda(b, lambda);
 }
 
-/* Subtracts U x, for a matrix of n columns, from the numbers of a later node. */
+/* Subtracts U x from the numbers of a later node. U has n columns. */
 BAUM_I_INLINE void subtract_columns(int n, const double *u, const double *x, bool tall, double *to)
 {
   column sum = baum_i_column_load(to, 1, 0, tall);
@@ -310,7 +310,7 @@ static double ratio(double x, double y)
   return x > 0.0 ? x / y : 0.0;
 }
 
-/* The largest accelerations of origins, and angular accelerations except spins of thin bodies. */
+/* Largest accelerations of origins, and angular accelerations without spins of thin bodies. */
 typedef struct peaks {
   four moves;
   four turns;
@@ -330,7 +330,7 @@ BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
   return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
 }
 
-/* `thin` tells whether any body is thin. It must be a compile-time constant. */
+/* Includes the acceleration of one body in `most`. `thin` (any body is thin) must be a constant. */
 BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
                             peaks most)
 {
@@ -359,7 +359,7 @@ BAUM_I_INLINE double largest_motion(const baum_i_space *b, int island, bool thin
   return size_of(b, most);
 }
 
-/* Includes the accelerations that the multipliers of one node cause. */
+/* Includes in `most` the accelerations that the multipliers of one node cause. */
 BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                                    bool thin, peaks most)
 {
@@ -368,7 +368,7 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
     const baum_i_space_side *side = &b->side_list[s];
     const baum_i_space_body *body = &b->bodies[side->body];
     four turn = transposed_times(b->sides + side->turn, lambda, tall);
-    four push = lambda.low; /* E^T lambda up to its sign if E is +-I; weight[3] is 0 */
+    four push = lambda.low; /* if E is +-I: E^T lambda up to its sign; weight[3] is 0 */
     if (side->sign == 0) {
       push = transposed_times(b->sides + side->move, lambda, tall);
     }
@@ -378,7 +378,7 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
   return most;
 }
 
-/* Returns the sum of the magnitudes of the spins that one side causes, which may nearly cancel. */
+/* Returns the sum of the magnitudes of the spins that the single multipliers cause at one side. */
 BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side *side,
                                  column lambda, bool tall)
 {
@@ -502,8 +502,8 @@ static double add_changes(const baum_i_space *b, int island)
 }
 
 /* If no joint keeps a slender body from spinning about its axis, the raised moment of inertia makes
- * all changes of the spin much too small, and the changes do not decrease. Changes below NOISE
- * times the accelerations may be rounding errors. */
+ * all changes of the spin much too small, and a change is more than SLOWEST times the change
+ * before. Changes below NOISE times the accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 

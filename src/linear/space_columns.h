@@ -9,7 +9,7 @@
 #include "base/four.h"
 #include "linear/space_block.h"
 
-/* (x_0, x_1, 0, 0) */
+/* Returns (x_0, x_1, 0, 0). */
 BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 {
 #ifdef BAUM_I_WIDE
@@ -103,7 +103,7 @@ BAUM_I_INLINE double baum_i_four_sum(baum_i_four x)
   return halves[0] + halves[1];
 }
 
-/* (x_1, x_2, x_0, x_3) */
+/* Returns (x_1, x_2, x_0, x_3). */
 BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
 {
 #ifdef BAUM_I_WIDE
@@ -186,8 +186,8 @@ BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
 }
 
-/* u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in space_block.h)
- * contributes u (u . y) to the residual of the equations of motion. */
+/* Returns u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in
+ * space_block.h) contributes u (u . y) to the residual of the equations of motion. */
 BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const double *motion)
 {
   const double *u = b->lack + (ptrdiff_t)4 * body;

@@ -7,9 +7,9 @@
  *
  *   D = [ D1  C ; C^T  D2 ],  P = D1^-1,  Y = P C,  Z = (D2 - C^T Y)^-1,
  *
- * and both inverses are computed as adjugates divided by determinants. The elimination of the node
- * changes its coupling X = [ X1 X2 ] with a later node i, the right-hand side b and the blocks of
- * later nodes (S_fe couples node f with node e) to
+ * and both inverses are computed as adjugates divided by determinants. Let X = [ X1 X2 ] be the
+ * coupling of the node with a later node i, b the right-hand side, and S_fe the coupling of two
+ * later nodes f and e. The elimination of the node computes
  *
  *   U1 = X1 P,  X2' = X2 - U1 C,  U2 = X2' Z,     b2' = b2 - Y^T b1
  *   D_i -= U1 X1^T + U2 X2'^T,  b_i -= U1 b1 + U2 b2',  S_fe -= [ X1  X2' ]_f [ U1  U2 ]_e^T
@@ -29,7 +29,7 @@ static const double bad_pivot = 1e-12;
 
 /* ---- off-diagonal blocks ---- */
 
-/* Computes E_i E_k^T / m + R_i R_k^T. n: number of rows of the earlier node. */
+/* Computes E_i E_k^T / m + R_i R_k^T. Node k is eliminated before node i and has n rows. */
 BAUM_I_INLINE void couple_pair(const baum_i_space *b, const baum_i_space_pair *pair, int n,
                                bool tall, bool lean)
 {
@@ -141,7 +141,7 @@ BAUM_I_INLINE double invert(int n, double s[6])
   return det;
 }
 
-/* Entry (i, j) of a lower triangle. */
+/* Returns entry (i, j) of a lower triangle. */
 BAUM_I_INLINE double of_triangle(const double s[6], int i, int j)
 {
   return i >= j ? s[i * (i + 1) / 2 + j] : s[j * (j + 1) / 2 + i];
@@ -225,9 +225,9 @@ BAUM_I_INLINE void store_factors(int n, const pivot *t, double *d, double *b)
 }
 
 /* Subtracts X' U^T from a block of off[] or, if `is_pivot`, from D of the later node. Here x is X'
- * of one coupling, and u is U of an earlier coupling or, for D, of the same one. D is symmetric, so
- * rows 4 and 5 of D are stored only for columns 4 and 5. n: number of rows of the eliminated
- * node. */
+ * = [ X1 X2' ] of one coupling, and u is U = [ U1 U2 ] of an earlier coupling or, for D, of the
+ * same coupling. D is symmetric, so rows 4 and 5 of D are stored only for columns 4 and 5. n:
+ * number of rows of the eliminated node. */
 BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, const double *u,
                                     int columns, bool is_pivot, double *to)
 {

@@ -10,20 +10,20 @@
 
 typedef struct baum_i_sparse_lu baum_i_sparse_lu;
 
-/* Work so far. */
+/* Work done so far. */
 typedef struct baum_i_sparse_lu_work {
   int64_t factorizations;
   int64_t full_factorizations; /* those that chose new pivots and may allocate */
 } baum_i_sparse_lu_work;
 
 /* Creates factors of an n x n matrix in compressed columns with ascending rows. The pattern is
- * copied. BAUM_OK or BAUM_ERR_MEMORY; *out is then NULL. */
+ * copied. Returns BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. */
 baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int32_t *rows,
                                     baum_i_sparse_lu **out);
 void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
 
 /* Factors the matrix. As long as the last pivots are good, keeps them and allocates nothing.
- * BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. None of these functions sets a message. */
+ * Returns BAUM_OK, BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
 /* A diagonal entry is chosen as the pivot if it is at least this fraction of the largest entry of
@@ -31,18 +31,20 @@ baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 #define BAUM_I_USUAL_THRESHOLD 0.001
 
 /* The two parts of factoring, for a caller that decides when pivots are chosen. _keep() requires
- * pivots chosen earlier. It returns BAUM_OK or BAUM_ERR_SINGULAR; BAUM_OK does not exclude that the
- * pivots have become useless. _choose() returns BAUM_OK, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * pivots chosen earlier. _keep() returns BAUM_OK or BAUM_ERR_SINGULAR. Even if it returns BAUM_OK,
+ * the pivots may have become useless. _choose() returns BAUM_OK, BAUM_ERR_SINGULAR or
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values);
 baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold);
 
-/* Returns the ratio of the smallest to the largest pivot; 0 after a failure. */
+/* Returns the ratio of the smallest to the largest pivot, or 0 after a failure. */
 double baum_i_sparse_lu_rcond(const baum_i_sparse_lu *lu);
 
-/* Declares that values are scaled, so that rows are not divided by their largest entry. */
+/* Declares that all values are already scaled. Rows are then not divided by their largest entry. */
 void baum_i_sparse_lu_take_scaled(baum_i_sparse_lu *lu);
 
-/* Makes the next factorization choose new pivots, so that results do not depend on earlier ones. */
+/* Makes the next factorization choose new pivots, so that results do not depend on earlier
+ * factorizations. */
 void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu);
 
 /* Replaces the right-hand side x (n) by the solution. Requires a factorization. */

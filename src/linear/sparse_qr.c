@@ -9,9 +9,9 @@
  * R_kj may be non-zero if k is on the path in the tree from the first column of a row of A up to
  * another column j of that row (Liu 1986). A chain of columns and parents whose rows of R have
  * nearly the same pattern is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
- * 2011). The columns of the chain are the pivots of the front. A front consists of the rows of A
- * that begin with one of its pivots, and of the rows that its child fronts pass on. Rows are
- * ordered by the column with which they begin:
+ * 2011). The columns of the chain are the pivots of the front. A row begins with the first column
+ * of its pattern. A front consists of the rows of A that begin with a pivot of the front, and of
+ * the rows that its child fronts pass on. Rows are ordered by the column with which they begin:
  *
  *     pivots  others
  *   [ R   R | R  R  R ]   independent pivots: rows of R
@@ -47,8 +47,8 @@
 
 enum { NONE = -1 };
 
-/* A front may be wider than the pattern of each of its rows of R by 1 / SLACK_SHARE of the pattern
- * plus SLACK columns. */
+/* A front may have more columns than the pattern of any of its rows of R has, but at most by 1 /
+ * SLACK_SHARE of the pattern plus SLACK. */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
@@ -56,7 +56,7 @@ typedef struct front {
   int32_t first_child;
   int32_t next_child;
   int32_t first_row; /* first row of A that begins with a pivot of this front */
-  int32_t rows;      /* largest number of rows */
+  int32_t rows;      /* largest possible number of rows */
   int32_t columns;
   int32_t pivots; /* number of pivots, which are the first columns */
   int32_t *place; /* (columns) position of each column in the order of elimination, ascending */
@@ -182,8 +182,8 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Joins columns and their parents into fronts, as long as a front is little wider than the pattern
- * of each of its rows of R. */
+/* Joins columns and their parents into fronts, as long as a front is only slightly wider than the
+ * pattern of each of its rows of R. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
   int32_t *length = p->mark;    /* length of the chain up to each column */
@@ -362,8 +362,8 @@ static double *row_of(const front *f, int32_t i)
   return f->value + (ptrdiff_t)i * f->columns;
 }
 
-/* Tells whether column j has a reflection. The row of R or r that belongs to it is row done[j] -
- * 1. */
+/* Tells whether column j has a reflection. The row of R or r (see above) that belongs to column j
+ * is row done[j] - 1. */
 static bool is_reduced(const front *f, int32_t j)
 {
   return f->done[j] > (j > 0 ? f->done[j - 1] : 0);
@@ -445,7 +445,7 @@ static double sum_of_squares(const front *f, int32_t j, int32_t first)
   return sum;
 }
 
-/* Replaces column j from row `first` on by R_jj, v_1, v_2, ..., where v_0 = 1. Returns tau. */
+/* Replaces column j from row `first` on by R_jj, v_1, v_2, ... (v_0 is 1). Returns tau. */
 static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
   double *x = &row_of(f, first)[j];

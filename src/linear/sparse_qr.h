@@ -18,8 +18,8 @@ typedef struct baum_i_sparse_columns {
 typedef struct baum_i_sparse_qr baum_i_sparse_qr;
 
 /* Finds the structure of the factors. order (columns) lists the columns in their order of
- * elimination; NULL: ascending. Both arguments may be freed afterwards. BAUM_OK or BAUM_ERR_MEMORY,
- * without a message; *out is then NULL. */
+ * elimination; NULL: ascending. Both arguments may be freed afterwards. Returns BAUM_OK, or
+ * BAUM_ERR_MEMORY without a message and with *out = NULL. */
 baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const int32_t *order,
                                     baum_i_sparse_qr **out);
 void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is allowed */
@@ -32,8 +32,9 @@ void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is allowed */
 int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
                                 unsigned char *independent);
 
-/* Replaces the right-hand side b in x by the x that minimizes |A x - b| and is zero in dependent
- * columns. The length of the array is the larger of rows and columns. */
+/* On entry, x contains the right-hand side b. On return, it contains the vector y that minimizes |A
+ * y - b| and is zero in dependent columns. The length of x is the larger of the numbers of rows and
+ * columns. */
 void baum_i_sparse_qr_solve(baum_i_sparse_qr *qr, double *x);
 
 /* Projects x (rows) orthogonally onto the span of the independent columns. */
