@@ -142,8 +142,8 @@ static baum_status fail_omitted_row(const baum_workspace *w, int row)
     w->point.t, baum_i_row_label(w->mechanism, row).text, w->phi[row], w->phi_rate[row]);
 }
 
-/* Set size[] (body_count + 1) to the scaled sizes of the velocities of all islands. The size of the
- * ground, to which joints between fixed bodies belong, is the largest size of all islands. */
+/* Set size[k] (body_count + 1) to the largest scaled velocity in island number k. Joints between
+ * fixed bodies use size[0], the largest scaled velocity in all islands. */
 static void find_speeds(const baum_workspace *w, const double *v, double *size)
 {
   const baum_mechanism *m = w->mechanism;

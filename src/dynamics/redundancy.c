@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Permanent redundancy: rows that depend on others at the initial configuration and around it.
  *
- * The rank of J M^-1/2, with rows of unit length, is determined at the assembled initial
- * configuration and at neighbours on the constraint manifold. The largest of these ranks counts as
- * the rank of the mechanism. The rows outside one largest independent set are redundant, and every
- * solver omits them. The choice of rows may change during a run (row_set.c). An initial
- * configuration of lower rank is singular.
+ * The rank of J D^-1/2 with rows of unit length, where D is the diagonal of M, is determined at the
+ * assembled initial configuration and at neighbours on the constraint manifold. The largest of
+ * these ranks counts as the rank of the mechanism. The rows outside one largest independent set are
+ * redundant, and every solver omits them. The choice of rows may change during a run (row_set.c).
+ * An initial configuration of lower rank is singular.
  *
- * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
- * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
- * configuration is ambiguous beyond the first nearly dependent row. In this case the rank of a
- * neighbour with a clear rank is used, unless it is smaller than the part of the initial rank that
- * is not ambiguous. If a neighbour's rank is used, the initial configuration counts as singular. If
- * no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
- * close to each other, and the ambiguous rank is accepted. If the initial configuration is exactly
- * singular, ambiguous ranks of its neighbours are also accepted: they occur because the rows of
- * long members rotate only little between the neighbours.
+ * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding
+ * errors of rows selected after it to 1e-16 / d, so redundant rows may look independent. The rank
+ * of such a configuration is ambiguous beyond the first nearly dependent row. In this case the rank
+ * of a neighbour with a clear rank is used, unless it is smaller than the part of the initial rank
+ * that is not ambiguous. If a neighbour's rank is used, the initial configuration counts as
+ * singular. If no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows
+ * of two pins close to each other, and the ambiguous rank is accepted. If the initial configuration
+ * is exactly singular, ambiguous ranks of its neighbours are also accepted: they occur because the
+ * directions of long members change only little from neighbour to neighbour.
  *
  * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
  * independent set of all rows of positions. The number of chosen rows of positions gives the
@@ -36,14 +36,15 @@ enum { NEIGHBOURS = 4 };
 /* At an assembled configuration, rounding and assembly leave dependent rows at most 1e-12 away from
  * the span of other rows. Rows farther away than RANK_TOLERANCE are independent. */
 static const double RANK_TOLERANCE = 1e-10;
-/* Rows farther away than CLEAR are clearly independent, and do not amplify rounding to
- * RANK_TOLERANCE. */
+/* Rows farther away than CLEAR are clearly independent. The rounding errors that they amplify stay
+ * below RANK_TOLERANCE. */
 static const double CLEAR = 1e-5;
 /* Rows farther away than FIRST are selected first. After assembly, dependent rows contradict the
  * selected rows by 1e-14, and the motion contains this error divided by the distance of a selected
  * row from the span of the others. */
 static const double FIRST = 1e-3;
-static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* relative to the scales */
+/* Scaled distances of the neighbours from the initial configuration. */
+static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07};
 
 /* The rank at a configuration. If both numbers are equal, the rank is certain (clear). */
 typedef struct rank_found {

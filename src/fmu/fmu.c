@@ -2,8 +2,8 @@
 /* The binary that all exported FMUs contain. It reads a mechanism from the folder `resources` of
  * its FMU, and implements co-simulation by FMI 3.0. docs/fmu.md describes the FMUs.
  *
- * The value references count from 0 in this order: the time, the inputs, the numbers of the
- * parameters, and the columns of the outputs. */
+ * The value references count from 0 in this order: the time, the inputs, every number of every
+ * parameter, and every column of the outputs. */
 #include "fmu/fmi3.h"
 
 #include <math.h>

@@ -20,8 +20,8 @@ typedef struct baum_i_gain_draft {
 typedef struct baum_i_two_amplifications {
   baum_amplification positions;
   baum_amplification velocities;
-  /* True if the mechanism has only rows of velocity level, or if these have the larger spectral
-   * radius. */
+  /* True if the mechanism has only rows of velocity level, or if its rows of velocity level have
+   * the larger spectral radius. */
   bool by_velocities;
 } baum_i_two_amplifications;
 

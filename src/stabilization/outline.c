@@ -6,7 +6,7 @@
  *
  *   3 --2-- 2     edge k is between corners k and k + 1
  *   |       |     a curve enters through k if corner k is inside and k + 1 is not,
- *   3       1     and leaves through k if k is not and k + 1 is
+ *   3       1     and leaves through k if corner k + 1 is inside and k is not
  *   |       |
  *   0 --0-- 1     s to the right, m upwards
  */
