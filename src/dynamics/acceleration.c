@@ -46,7 +46,7 @@ static baum_status fail_blocks(const baum_workspace *w)
 /* ---- the solver of the whole system ---- */
 
 /* Evaluate all terms that the system and its right-hand side need. gamma and g are evaluated only
- * if `force` is true. */
+ * if `force` is true. Otherwise g is set to zero. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -164,8 +164,8 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
 }
 
 /* The block solver only factors its matrix, because the pivots are part of the factors. If it is
- * not used, or if its pivot does not count, the accelerations are computed. For the solver of the
- * whole system this costs little more than factoring. */
+ * not used, or if baum_i_blocks_tell() rejects its pivot, the accelerations are computed. For the
+ * solver of the whole system this costs little more than factoring. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

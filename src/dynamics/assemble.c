@@ -40,7 +40,7 @@ static const double NO_SWING = 1e-12;
 /* Memory of one assembly. */
 typedef struct assembly {
   baum_workspace *w;
-  const bool *held;   /* (nv) or NULL */
+  const bool *held;   /* (nv) true for coordinates that do not move; NULL: all may move */
   const double *left; /* (nc) values of Phi after assembly; NULL: all are 0 */
   double t;
   double *q;        /* (nq) present configuration */
@@ -185,7 +185,7 @@ static void keep_open_row(assembly *s)
   }
 }
 
-/* Name the joints whose violations are at least a tenth of the largest. */
+/* Write the names of the joints whose violation is at least a tenth of the largest violation. */
 static void name_contradicting(const assembly *s, const double *rows, const char *unit,
                                char text[BAUM_I_MESSAGE_SIZE])
 {
@@ -270,8 +270,8 @@ static double limit_step(const assembly *s)
   return size;
 }
 
-/* Take the step in w->a, halved until the violation decreases; *fell tells whether the violation
- * decreased. */
+/* Move the configuration by the step in w->a. Halve the step until the violation decreases. *fell
+ * tells whether it has decreased. */
 static baum_status search_along_step(assembly *s, double before, bool *fell)
 {
   baum_workspace *w = s->w;

@@ -91,7 +91,8 @@ BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path 
   }
 }
 
-/* Return the change of damping Phi' + stiffness Phi that the gain of a single row causes. */
+/* Return by how much the factor right->row_gains[row] changes damping Phi' + stiffness Phi of a
+ * row. */
 static double gain_of_row(const baum_workspace *w, const baum_i_right_side *right, int row)
 {
   double f = right->row_gains[row];
@@ -382,7 +383,8 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 }
 
 /* If `simple` is true, the first refinement needs no residual in twice the working precision.
- * Slender bodies need two refinements, because the second tells whether refinement converges. */
+ * Slender bodies need two refinements, because the second one tells whether refinement
+ * converges. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations by the block solver, which most evaluations use.
+/* Computes accelerations by the block solver, which most evaluations use.
  *
  * A *block path* is a block solver together with the data from which its system is computed: the
  * joints, the omitted rows, and the constant forces. Planar revolute joints (pins.h) and most
@@ -19,9 +19,9 @@
 /* An omitted row, whose multiplier is always 0. */
 typedef struct baum_i_omitted_row {
   int row;
-  int value;          /* index of its first value in J */
-  int count;          /* number of values */
-  const int *columns; /* (count) */
+  int value;          /* index of the row's first value in the blocks of J */
+  int count;          /* number of values of the row */
+  const int *columns; /* (count) column of each value */
 } baum_i_omitted_row;
 
 /* The block solver is `space` if the mechanism has bodies in space and no bodies with user
@@ -41,7 +41,7 @@ struct baum_i_block_path {
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
   double *points;              /* (4 pin_count, pin_count rounded up to even) points of pins */
-  int group_count;             /* groups of joints that no hot file evaluates */
+  int group_count;             /* number of groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
@@ -82,12 +82,13 @@ baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
-/* slender.c: raise the moments of inertia of slender bodies if pivots are too small without it.
+/* slender.c: raise the moments of inertia of slender bodies if pivots would otherwise be too small.
  * Bodies for which refinement would not converge keep their moments. */
 baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
-  * They are the same path if no body is fixed. *verdict describes the path for all bodies. */
+ * They are the same path if no body is fixed. The verdict of baum_i_paths_create() describes the
+ * path for all bodies. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -139,7 +140,7 @@ baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 
-/* Return the forces (nv) of the last acceleration. */
+/* Return the forces (nv) with which the last acceleration was computed. */
 static inline const double *baum_i_solved_force(const baum_workspace *w)
 {
   const baum_i_block_path *path = w->solved_by;

@@ -373,8 +373,8 @@ static bool is_uneven_in_space(const baum_i_space *b)
 /* Tell whether joints may connect a light body to a heavy one. At both sides of all pins, the
  * function compares the inverse masses w_0 + w_2 |p|^2, where w_0 is the inverse mass of the body,
  * w_2 its inverse inertia, and p the point of the pin. It also compares the inverse masses and
- * inertias of all bodies that other joints connect. It returns true for every mechanism with dense
- * bodies. */
+ * inertias of all bodies that other joints connect. It returns true for every mechanism that has
+ * bodies with user coordinates. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The Jacobian dF/dy + c dF/dy' of the residual forms (dae_residual.c), assembled from the blocks
- * of all elements. Instead of q, its variables are displacements of length nv. The rows of q' - N v
+/* Assembles the Jacobian dF/dy + c dF/dy' of the residual forms (dae_residual.c) from the blocks of
+ * all elements. Instead of q, the variables are displacements of length nv. The rows of q' - N v
  * are multiplied by N^+. The matrix therefore has nv rows and nv columns for the positions:
  *
  *          q                                             v                       lambda

@@ -62,7 +62,7 @@ struct baum_workspace {
   baum_i_block_path *motion;    /* block solver without fixed bodies; `path` if none is fixed */
   baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
   bool blocks_only;             /* no other solver is allowed */
-  baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
+  baum_i_block_path *solved_by; /* block path that gave the last solution; NULL: kkt */
   /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
    * none */
   baum_i_block_path *eliminated_by;
@@ -94,7 +94,7 @@ struct baum_workspace {
 
   double *work_q; /* (9 nq) */
   double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
-  double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
+  double *mass_q; /* (mass_size) (M v')_q, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
   double *jw_q; /* (jacobian_size) (J w)_q */
@@ -276,7 +276,8 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Fail in the same way if a value (nv), divided by the scale of its coordinate, overflows. */
+/* Fail with BAUM_ERR_NOT_FINITE if a value (nv), divided by the scale of its coordinate,
+ * overflows. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
 /* Fail with BAUM_ERR_NOT_FINITE. The message names the joint or body of the first number in J,
@@ -290,7 +291,7 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
  * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. After a failure, q and v are
  * undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
-/* Change only v. The velocities of fixed bodies become 0. */
+/* Project only v. The velocities of fixed bodies become 0. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
@@ -305,10 +306,9 @@ baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, con
 baum_status baum_i_check_projection(baum_workspace *workspace, double t, const double *q,
                                     const double *v, const double *before);
 
-/* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P
- * (normal_part.c) belongs to the configuration of the last acceleration, motion or projection,
- * which must have succeeded. May return BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE,
- * without a message. */
+/* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P belongs to
+ * the configuration of the last acceleration, motion or projection, which must have succeeded. May
+ * return BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out to the part of a displacement x that the projection of positions removes. It equals P x
  * unless there are rows of velocity level. */

@@ -5,8 +5,8 @@
  * elimination. The measure is the smallest of these ratios. Before the elimination, D of a node is
  * its block of S = J M^-1 J^T. For a pin this block is 2 x 2, and its determinant does not depend
  * on the direction of axes. For other pairs of rows, which may depend on each other, the product of
- * the diagonal entries of this block replaces the determinant before the elimination. In space the
- * node is a whole joint. For other solvers the measure is the reciprocal condition number of the
+ * the diagonal entries of this block replaces the determinant before the elimination. In space, a
+ * node is a whole joint. For other solvers, the measure is the reciprocal condition number of the
  * scaled matrix. Both measures are free of units and fall with the square of the distance from a
  * singular configuration. Their sizes differ, so each must be compared with its own usual value. If
  * a body has a small inertia, the block solver gives up for some directions of its arms although
@@ -17,8 +17,8 @@
 #include "base/hot.h"
 #include "dynamics/block_path.h"
 
-/* Return the determinant of the block of S of a pin. The product of the diagonal entries would
- * depend on the direction of the arm if an inertia is small. */
+/* Return the determinant of a pin's block of S. The product of the diagonal entries would depend on
+ * the direction of the arm if an inertia is small. */
 static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Projection onto the constraints by the least change in the metric of M (Eich 1993; Lubich 1991).
+/* Projects states onto the constraints by the least change in the metric of M (Eich 1993; Lubich
+ * 1991).
  *
  *   positions:                            velocities:
  *   [ M  J^T ] [ dq     ]   [  0   ]      [ M  J^T ] [ dv     ]   [ 0        ]

@@ -45,9 +45,9 @@ baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const do
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Omit the rows that are marked in `omitted` (nc) instead of the present ones. Their number must be
- * the same as before, and the kept rows must have the same rank. May return BAUM_ERR_MEMORY,
- * BAUM_ERR_UNSUPPORTED (if the block solver cannot be used with the new set), or statuses of user
- * functions. After a failure, nothing has changed. */
+ * the same as before, and the kept rows must have the same rank. May fail with BAUM_ERR_MEMORY,
+ * with BAUM_ERR_UNSUPPORTED if the block solver cannot be used with the new set, or with the status
+ * of a user function. After a failure, nothing has changed. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest

@@ -59,7 +59,7 @@ BAUM_I_INLINE four three(const double *from)
   return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
 }
 
-/* A x */
+/* Computes A x. */
 BAUM_I_INLINE four turned(const double *axes, const double *x)
 {
   four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
@@ -205,7 +205,7 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
 /* All rows of a joint: columns of R and E of both sides, and Phi, Phi' and gamma. */
 typedef struct rows {
   column turn[2][3];
-  column move[3]; /* E_b = -E_a, only rows s */
+  column move[3]; /* columns of E_b = -E_a, set only in rows s */
   column phi;
   column rate;
   column gamma;

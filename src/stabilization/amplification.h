@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The factor by which one step of a method amplifies a constraint violation that satisfies Phi'' +
- * 2 alpha Phi' + beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta h)^2.
- * Below, mu is one of the roots of mu^2 + 2 A mu + B = 0, and z is a factor by which one step
+/* Computes the factor by which one step of a method amplifies a constraint violation that satisfies
+ * Phi'' + 2 alpha Phi' + beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta
+ * h)^2. Below, mu is one of the roots of mu^2 + 2 A mu + B = 0, and z is a factor by which one step
  * multiplies a violation. */
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages that explain why gains were chosen or refused. */
+/* Writes the messages that explain why gains were chosen or refused. */
 #ifndef BAUM_I_STABILIZATION_GAIN_TEXT_H
 #define BAUM_I_STABILIZATION_GAIN_TEXT_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains that are computed by a rule. */
+/* Computes gains by a rule. */
 #ifndef BAUM_I_STABILIZATION_GAINS_H
 #define BAUM_I_STABILIZATION_GAINS_H
 
