@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: find a configuration and velocities that fulfil the constraints, with the least change
- * in the metric of M.
+/* Performs assembly: finds a configuration and velocities that fulfil the constraints, with the
+ * least change in the metric of M.
  *
  *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J D^-1 J^T)_ii
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
@@ -239,8 +239,8 @@ static baum_status fail_velocities(const assembly *s)
 
 /* ---- positions ---- */
 
-/* Subtract the wanted values of Phi from w->phi, which then contains only violations that must
- * vanish. */
+/* Subtract the intended values of Phi (s->left) from w->phi, which then contains only violations
+ * that must vanish. */
 static void subtract_left(const assembly *s)
 {
   for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {

@@ -429,7 +429,7 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
                  .simple = amplified <= CANCELLED};
 }
 
-/* `last` has the same meaning as in solve(). If it is true, the solution is a correction of the
+/* `last` has the same meaning as in solve(). If `last` is true, the solution is a correction of the
  * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
                                const double *v)

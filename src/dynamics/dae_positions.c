@@ -29,9 +29,9 @@ typedef struct widening {
   double c;
   int widest;      /* largest number of positions nq of a body */
   double *memory;  /* one block of memory that contains all arrays below */
-  double *rate;    /* (nv x widest) row j: entries of column j of N in the rows of its body */
-  double *inverse; /* (nv x widest) row j: entries of row j of N^+ in the columns of its body */
-  double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q in the columns of its body */
+  double *rate;    /* (nv x widest) row j: entries of column j of N for the body of velocity j */
+  double *inverse; /* (nv x widest) row j: entries of row j of N^+ for the body of velocity j */
+  double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q for the body of position i */
   double *unit;    /* (nq) scratch memory for one vector */
   double *room;    /* (4 nq) scratch memory for results */
   /* Collects the positions of entries while the pattern is found; otherwise NULL. */

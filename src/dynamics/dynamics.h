@@ -61,7 +61,7 @@ struct baum_workspace {
   baum_i_block_path *path;      /* block solver for all bodies; NULL: kkt is used instead */
   baum_i_block_path *motion;    /* block solver without fixed bodies; `path` if none is fixed */
   baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
-  bool blocks_only;             /* no other solver is allowed */
+  bool blocks_only;             /* only the block solver is allowed */
   baum_i_block_path *solved_by; /* block path that gave the last solution; NULL: kkt */
   /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
    * none */

@@ -129,8 +129,8 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 /* ---- omitted rows ---- */
 
 /* Largest allowed violation of an omitted row: of Phi as a displacement, and of Phi' relative to
- * the velocities of the island. Rounding errors are smaller, and violations on another branch are
- * larger. */
+ * the velocities of the island. Rounding errors are smaller than this limit. If the configuration
+ * is on another branch, violations are larger. */
 static const double NEGLIGIBLE = 1e-7;
 
 static baum_status fail_omitted_row(const baum_workspace *w, int row)

@@ -56,7 +56,7 @@ typedef struct rank_found {
 typedef struct search {
   baum_workspace *w;
   double *start; /* (nq) assembled configuration */
-  double *q;     /* (nq) neighbour */
+  double *q;     /* (nq) configuration of a neighbour */
   double *x;     /* (nv) direction */
   rank_found kept;
 } search;

@@ -74,7 +74,7 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
 }
 
 /* Select the best set of rows whose limit is above `least`. Rows that are kept now are preferred.
- * *found tells whether there is a set. */
+ * *found tells whether there is such a set. */
 static baum_status select_apart(baum_workspace *w, double t, const double *q, double least,
                                 bool *found)
 {

@@ -19,10 +19,10 @@ typedef struct baum_i_space_frame {
   double w[4]; /* angular velocity in ground axes */
 } baum_i_space_frame;
 
-/* The shape of a planar revolute joint is PIN. In the names of the other shapes, each letter is a
- * kind of row, in the order of the rows. P: three rows that make points coincide. D: the product of
- * two axes, one on each body. E: a row D with the same axis on body_b as the row before. S: the
- * product of an axis on body_a and the vector between the points. */
+/* The shape of a planar revolute joint is PIN. In the names of the other shapes, the letters stand
+ * for the rows of the joint, in their order. P: three rows that make points coincide. D: the dot
+ * product of two axes, one on each body. E: a row D with the same axis on body_b as the row before
+ * it. S: the dot product of an axis on body_a and the vector between the points. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_PIN,
   BAUM_I_SHAPE_P,

@@ -45,7 +45,7 @@ static unsigned char factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of all values, and find the places in this matrix to which the values are
+/* Set the factors of all values, and find the places in Newton's matrix to which the values are
  * added. */
 static baum_status find_pattern(baum_i_step_matrix *matrix, int nv)
 {

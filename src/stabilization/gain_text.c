@@ -166,8 +166,9 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
                   !stable || undamped || near_edge};
 }
 
-/* With explicit methods and Adams methods, the error test ensures that violations decay. BDF
- * methods may use orders and steps with which violations grow (statement.c). */
+/* With explicit methods, the limit of the step ensures that violations decay; with Adams methods,
+ * the error test does. BDF methods may use orders and steps with which violations grow
+ * (statement.c). */
 static clause variable_step_clause(const baum_i_gain_context *context,
                                    const baum_i_gain_draft *gains, double max_step)
 {

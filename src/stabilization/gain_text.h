@@ -32,7 +32,7 @@ void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
                          baum_i_gain_choice *choice);
 
 /* Fails with BAUM_ERR_UNSTABLE. The message gives the region of stability, the requested point and
- * the nearest good point. */
+ * the nearest point with a spectral radius of at most 0.9. */
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
 
