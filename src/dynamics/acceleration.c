@@ -9,9 +9,9 @@
  * The projections of positions and velocities solve systems with the same matrix, but with other
  * right-hand sides.
  *
- * Rows that always depend on other rows are omitted from the system. The multipliers of omitted
- * rows are set to zero. This gives one of many possible solutions. If alpha = beta = 0, users
- * receive another one, the solution of least norm (least_multipliers.c).
+ * Rows that always depend on other rows are omitted from the system. Their multipliers are set to
+ * zero. These multipliers are one of many possible sets. If alpha = beta = 0, users receive the set
+ * of least norm instead (least_multipliers.c).
  */
 #include <string.h>
 
@@ -46,7 +46,7 @@ static baum_status fail_blocks(const baum_workspace *w)
 /* ---- the solver of the whole system ---- */
 
 /* Evaluate all terms that the system and its right-hand side need. gamma and g are evaluated only
- * if `force` is true. */
+ * if `force` is true. Otherwise g is set to zero. */
 static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
                                   bool force)
 {
@@ -124,7 +124,7 @@ static baum_status accelerate_whole(baum_workspace *w, const baum_i_right_side *
 }
 
 /* Solve by the given block path. If `path` is NULL, or if its pivots are too small, use the solver
- * of the whole system instead. */
+ * of the whole system instead. If w->blocks_only forbids this solver, small pivots are an error. */
 static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
                                  const double *q, const double *v, double alpha, double beta)
 {
@@ -163,8 +163,9 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* The block solver only factors, because the pivots are part of the factors. If the block solver is
- * not used, the whole system is solved, which costs little more than factoring it. */
+/* The block solver only factors its matrix, because the pivots are part of the factors. If it is
+ * not used, or if baum_i_blocks_tell() rejects its pivot, the accelerations are computed. For the
+ * solver of the whole system this costs little more than factoring. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

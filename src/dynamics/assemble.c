@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: find a configuration and velocities that fulfil the constraints, with the least change
- * in the metric of M.
+/* Performs assembly: finds a configuration and velocities that fulfil the constraints, with the
+ * least change in the metric of M.
  *
- *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
+ *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J D^-1 J^T)_ii
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
  *
  * The columns of held coordinates in J, and their coupling in M, are cleared, so these coordinates
- * do not move. The small S (Levenberg, Marquardt) permits redundant rows. If rows contradict each
- * other, the system with S is a least-squares problem. The remaining violation is in the
- * conflicting rows only, and therefore identifies them. Steps are limited, and halved until the
- * violation decreases. Rows of velocity level take part only in the assembly of velocities.
- * Violations are compared as displacements |Phi_i| / d_i, where d_i is the norm of row i of J after
- * each column has been multiplied by the scale of its coordinate.
+ * do not move. D is the diagonal of M. The small S (Levenberg, Marquardt) permits redundant rows.
+ * If rows contradict each other, the system with S is a least-squares problem. The remaining
+ * violation is in the conflicting rows only, and therefore identifies them. Steps are limited, and
+ * halved until the violation decreases. Rows of velocity level take part only in the assembly of
+ * velocities. Violations are compared as displacements |Phi_i| / d_i, where d_i is the norm of row
+ * i of J after each column has been multiplied by the scale of its coordinate.
  */
 #include <math.h>
 #include <string.h>
@@ -26,22 +26,22 @@ enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
 static const double MU = 1e-10;
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
-static const double CONVERGED = 1e-11; /* a step of this size leaves an error of its square */
+static const double CONVERGED = 1e-11; /* the error after a step of this size is about its square */
 static const double ROUNDING = 1e-13;  /* a violation up to this displacement counts as zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
-/* Corrections of velocities end when they have reduced the violation by this factor. The violation
- * that remains is then far below rounding errors. */
+/* Corrections of velocities end when they have reduced the violation to this fraction of its first
+ * value. The remaining violation is then far below rounding errors. */
 static const double CORRECTED = 1e-20;
-/* Violations of velocities below the sum of both limits are rounding errors. NO_RATE is in 1/s;
- * NO_SWING is relative to baum_i_swing_rate(). */
+/* Violations of velocities below NO_RATE + NO_SWING * baum_i_swing_rate() are rounding errors.
+ * NO_RATE is in 1/s. */
 static const double NO_RATE = 1e-14;
 static const double NO_SWING = 1e-12;
 
 /* Memory of one assembly. */
 typedef struct assembly {
   baum_workspace *w;
-  const bool *held;   /* (nv) or NULL */
-  const double *left; /* (nc) violations that stay, or NULL */
+  const bool *held;   /* (nv) true for coordinates that do not move; NULL: all may move */
+  const double *left; /* (nc) values of Phi after assembly; NULL: all are 0 */
   double t;
   double *q;        /* (nq) present configuration */
   double *trial;    /* (nq) */
@@ -58,8 +58,8 @@ static bool is_held(const bool *held, int i)
 /* ---- the matrix ---- */
 
 /* Clear the columns of held coordinates in a row. If the remaining entries are only rounding
- * errors, clear them, too. This occurs in the row of a driver if the rotation of its body about the
- * axis is held. */
+  * errors, clear them, too. This occurs in the row of a driver if the rotation of the driven body
+  * about the axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
 {
@@ -136,7 +136,7 @@ static baum_status translate(const assembly *s, baum_status status)
   return status;
 }
 
-/* Factor the present J and M, which must not change until the last solution with them. */
+/* Factor the matrix of the present J and M. J and M must not change while the factors are used. */
 static baum_status factor(const assembly *s)
 {
   baum_workspace *w = s->w;
@@ -172,9 +172,9 @@ static double worst_displacement(const assembly *s, const double *rows)
   return worst;
 }
 
-/* Store the row that is violated most before assembly. This row is often the cause. The
- * violations after assembly do not show it, because assembly distributes them among all
- * contradicting rows. */
+/* Store the row that is violated most before assembly. If rows contradict each other, this row
+ * often belongs to the joint that is defined wrongly. The violations after assembly do not show
+ * which joint this is, because assembly distributes them among all contradicting rows. */
 static void keep_open_row(assembly *s)
 {
   double worst = ROUNDING;
@@ -185,7 +185,7 @@ static void keep_open_row(assembly *s)
   }
 }
 
-/* Name the joints whose violations are at least a tenth of the largest. */
+/* Write the names of the joints whose violation is at least a tenth of the largest violation. */
 static void name_contradicting(const assembly *s, const double *rows, const char *unit,
                                char text[BAUM_I_MESSAGE_SIZE])
 {
@@ -239,8 +239,8 @@ static baum_status fail_velocities(const assembly *s)
 
 /* ---- positions ---- */
 
-/* Subtract the violations that stay from w->phi, which then contains only violations that must
- * vanish. */
+/* Subtract the intended values of Phi (s->left) from w->phi, which then contains only violations
+ * that must vanish. */
 static void subtract_left(const assembly *s)
 {
   for (int i = 0; s->left && i < s->w->mechanism->nc; i++) {
@@ -270,8 +270,8 @@ static double limit_step(const assembly *s)
   return size;
 }
 
-/* Take the step in w->a, halved until the violation decreases; *fell tells whether the violation
- * decreased. */
+/* Move the configuration by the step in w->a. Halve the step until the violation decreases. *fell
+ * tells whether it has decreased. */
 static baum_status search_along_step(assembly *s, double before, bool *fell)
 {
   baum_workspace *w = s->w;
@@ -432,7 +432,8 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
 
 /* ---- assembly ---- */
 
-/* If `closest` is true, q is set even if the rows contradict each other. */
+/* Assemble q and, unless v is NULL, v. If `closest` is true, q is set even if the rows contradict
+ * each other. */
 static baum_status assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held, const double *left, bool closest)
 {

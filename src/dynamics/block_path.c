@@ -15,21 +15,22 @@ enum { MOST_REFINEMENTS = 3 };
  * has converged; up to SETTLING the result is still acceptable. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
-/* In space, the accelerations also contribute to the change. Each refinement gains at least four
- * digits, so no other refinement is necessary after a change this small. If refinements gain fewer
- * digits, their changes stay large. */
+/* In space, the accelerations also contribute to the change. A refinement that converges gains at
+ * least four digits, so no further refinement is necessary after a change this small. If
+ * refinements gain fewer digits, their changes stay large. */
 static const double SETTLED_IN_SPACE = 1e-9;
 /* A refinement with a residual in working precision leaves an error of up to the size of its
  * change. */
 static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
-/* In space, the relative error of a is about eps * amplification / pivot. The pivot is the weakest
- * one, and the amplification (space_block.h) tells how much a = a0 - W J^T lambda increases errors
- * of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if amplification / pivot is at
- * most MOST_LOST. Their errors against quadruple precision were below 1e-10 in 1500 random
- * mechanisms. In the scenes of test_spatial_accuracy.c they were below 1e-12, and below 1e-11 if
- * masses differ by large factors. */
+/* In space, the relative error of a is about DBL_EPSILON * amplification / pivot. The pivot is the
+  * weakest one, and the amplification (space_block.h) tells how much a = a0 - W J^T lambda
+  * increases errors of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if
+  * amplification / pivot is at most MOST_LOST. Compared with solutions in quadruple precision,
+  * their errors were below 1e-10 in 1500 random mechanisms. In the scenes of
+  * test_spatial_accuracy.c they were below 1e-12, and below 1e-11 if masses differ by large
+  * factors. */
 static const double FAIR_PIVOT = 1e-4;
 static const double MOST_LOST = 1e5;
 
@@ -38,7 +39,8 @@ static const double MOST_LOST = 1e5;
  * a0: accelerations without constraint forces). */
 static const double CANCELLED = 2048.0;
 
-/* If `bending` is false, set gamma to zero, because its old values may be infinite. */
+/* Evaluate the rows of the joints in the path's groups. If `bending` is false, set gamma to zero,
+ * because its old values may be infinite. */
 BAUM_I_INLINE baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path,
                                           bool bending)
 {
@@ -89,7 +91,8 @@ BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path 
   }
 }
 
-/* Return the change of damping Phi' + stiffness Phi that the gain of a single row causes. */
+/* Return by how much the factor right->row_gains[row] changes damping Phi' + stiffness Phi of a
+ * row. */
 static double gain_of_row(const baum_workspace *w, const baum_i_right_side *right, int row)
 {
   double f = right->row_gains[row];
@@ -194,7 +197,7 @@ static baum_status refine(const baum_workspace *w, baum_i_block_path *path, baum
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Tell whether a is small compared with a0. */
+/* Tell whether a (`motion`) is small compared with a0 (`from`). */
 static bool has_cancelled(const double *from, const double *motion, int count)
 {
   double before = 0.0;
@@ -380,7 +383,8 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 }
 
 /* If `simple` is true, the first refinement needs no residual in twice the working precision.
- * Slender bodies need two refinements, because the second tells whether refinement converges. */
+ * Slender bodies need two refinements, because the second one tells whether refinement
+ * converges. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
@@ -425,7 +429,7 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
                  .simple = amplified <= CANCELLED};
 }
 
-/* `last` has the same meaning as in solve(). If it is true, the solution is a correction of the
+/* `last` has the same meaning as in solve(). If `last` is true, the solution is a correction of the
  * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
                                const double *v)
@@ -492,7 +496,8 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 
 /* ---- other right-hand sides ---- */
 
-/* Set out (nv) to `factor` times the solution for the right-hand side in the solver. */
+/* Set out (nv) to `factor` times the solution for the right-hand side that was written to the
+ * solver. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
   bool finite;

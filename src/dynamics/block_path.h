@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations by the block solver, which most evaluations use.
+/* Computes accelerations by the block solver, which most evaluations use.
  *
- * A *block path* is a block solver together with the data that fill it: the joints, the omitted
- * rows, and the constant forces. Planar revolute joints (pins.h) and most joints in space
- * (space_joints.h) are written directly from frames; other joints are written as blocks of J.
- * Constant masses and forces are set once. If the path cannot solve a system reliably, it gives up
- * without a message, and the solver of kkt.h factors the whole system.
+ * A *block path* is a block solver together with the data from which its system is computed: the
+ * joints, the omitted rows, and the constant forces. Planar revolute joints (pins.h) and most
+ * joints in space (space_joints.h) are computed directly from the frames of bodies. Other joints
+ * are copied from blocks of J. Constant masses and forces are set once. If the path cannot solve a
+ * system reliably, it gives up without a message, and the solver of kkt.h factors the whole system.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -19,9 +19,9 @@
 /* An omitted row, whose multiplier is always 0. */
 typedef struct baum_i_omitted_row {
   int row;
-  int value;          /* index of its first value in J */
-  int count;          /* number of values */
-  const int *columns; /* (count) */
+  int value;          /* index of the row's first value in the blocks of J */
+  int count;          /* number of values of the row */
+  const int *columns; /* (count) column of each value */
 } baum_i_omitted_row;
 
 /* The block solver is `space` if the mechanism has bodies in space and no bodies with user
@@ -34,24 +34,24 @@ struct baum_i_block_path {
   const baum_i_space_residual_kernel *residual_kernel;
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
-  bool has_planar;   /* a body is planar */
+  bool has_planar;   /* at least one body is planar */
   bool only_weights; /* all bodies are in space, and there are no force elements */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;              /* (even pin_count x 4) points of the pins */
-  int group_count;             /* groups of joints that no hot file evaluates */
+  double *points;              /* (4 pin_count, pin_count rounded up to even) points of pins */
+  int group_count;             /* number of groups of joints that no hot file evaluates */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* the joints of all groups */
   int omitted_count;
   int rated_count;             /* number of omitted rows whose Phi' is computed from J */
-  baum_i_omitted_row *omitted; /* (omitted_count) those whose Phi' is computed come first */
-  double *constant_force;      /* (nv) force on bodies with a constant force */
+  baum_i_omitted_row *omitted; /* (omitted_count) the rated_count rows come first */
+  double *constant_force;      /* (nv) constant forces; 0 for bodies whose force varies */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* not in space, many nodes: check the residual of every solution */
-  bool uneven;       /* masses are uneven: check whether digits have cancelled */
+  bool always_check; /* `block` has many nodes: check the residual of every solution */
+  bool uneven;       /* masses differ by large factors, so that digits may cancel */
   int fixed_count;   /* number of fixed bodies that the path excludes */
   int64_t factorizations;
   int64_t refinements;
@@ -61,8 +61,8 @@ struct baum_i_block_path {
 typedef struct baum_i_block_size {
   int nodes;
   int couplings;
-  int fill;           /* couplings of nodes that share no body */
-  int most_couplings; /* of one node */
+  int fill;           /* couplings of nodes that share no body; elimination adds them */
+  int most_couplings; /* largest number of couplings of one node */
 } baum_i_block_size;
 
 /* Create a path for the present set of omitted rows. If `for_motion` is true, the path also
@@ -82,12 +82,13 @@ baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
-/* slender.c: if the solver needs it, raise the moments of inertia of the slender bodies for which
- * refinement converges. */
+/* slender.c: raise the moments of inertia of slender bodies if pivots would otherwise be too small.
+ * Bodies for which refinement would not converge keep their moments. */
 baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
- * They are the same path if no body is fixed. *verdict describes the first path. */
+ * They are the same path if no body is fixed. The verdict of baum_i_paths_create() describes the
+ * path for all bodies. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -104,26 +105,28 @@ typedef struct baum_i_right_side {
   double damping;
   double stiffness;
   bool force;
-  /* (nc) factor f of each row, whose terms become damping f Phi' and stiffness f^2 Phi; NULL: all
-   * factors are 1 */
+  /* (nc) factor f of each row. The terms of the row are then damping f Phi' and stiffness f^2 Phi.
+   * NULL: all factors are 1. */
   const double *row_gains;
 } baum_i_right_side;
 
-/* The first part of baum_i_block_path_solve(): evaluate a state and write it to the solver. */
+/* The first part of baum_i_block_path_solve(): evaluate a state and write it to the solver. May
+ * fail with BAUM_ERR_SINGULAR if M is not positive definite. */
 baum_status baum_i_block_path_evaluate(baum_workspace *workspace, const baum_i_block_path *path,
                                        double t, const double *q, const double *v,
                                        const baum_i_right_side *right);
 
 /* Set a, lambda, Phi, Phi' and gamma of the workspace, and J of joints in the path's groups. v may
- * be NULL if the right-hand side does not need it. BAUM_ERR_SINGULAR: the path gives up. */
+ * be NULL if the right-hand side does not need it. Returns BAUM_ERR_SINGULAR if the path gives
+ * up. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
 
-/* Two functions that solve with the factors of the last solution. The first function sets out (nv)
- * to the vector with J out = r (nc) that is smallest in the metric of M. The second sets out to x
- * (nv) minus the part of x in the null space of J. Both may return BAUM_ERR_NOT_FINITE, without a
- * message. */
+/* Solve with the factors of the last solution. The first function sets out (nv) to the vector with
+ * J out = r (nc) that is smallest in the metric of M. The second function sets out to P x
+ * (normal_part.c), the part of x (nv) that the constraints remove. Both may return
+ * BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
                                         double *out);
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
@@ -131,13 +134,13 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
-/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side, by
- * workspace->motion or, if that fails, by the solver of the whole system. May also return
+/* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side. This function uses
+ * workspace->motion or, if that gives up, the solver of the whole system. May fail with
  * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 
-/* Return the forces (nv) of the last acceleration. */
+/* Return the forces (nv) with which the last acceleration was computed. */
 static inline const double *baum_i_solved_force(const baum_workspace *w)
 {
   const baum_i_block_path *path = w->solved_by;
@@ -147,7 +150,8 @@ static inline const double *baum_i_solved_force(const baum_workspace *w)
 /* Set the message for a status of the workspace's solver, and return the status. */
 baum_status baum_i_report_constraints(const baum_workspace *workspace, baum_status status);
 
-/* Factor the matrix to find its pivots, even if they are bad. */
+/* Factor the matrix to find its pivots, even if they are bad. May fail with BAUM_ERR_SINGULAR if M
+ * is not positive definite. */
 baum_status baum_i_block_path_factor(baum_workspace *workspace, baum_i_block_path *path, double t,
                                      const double *q);
 

@@ -55,7 +55,7 @@ static baum_i_space_kind kind_of(const baum_i_body *body)
   }
 }
 
-/* Tell whether the omitted rows of a joint become rows of zeros, so that space_joints_hot.c can
+/* Tell whether the omitted rows of a joint may become rows of zeros, so that space_joints_hot.c can
  * evaluate the joint. This is not possible if the joint has no shape of space_joints.h, if an
  * omitted row makes points coincide, or if all rows are omitted. */
 static bool stays_whole(const baum_i_joint *joint, const unsigned char *omitted)
@@ -306,7 +306,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
 }
 
 /* Return the number (from 1) of the first body whose M has no factorization L L^T, or 0 if there is
- * none. */
+ * no such body. */
 static int find_massless(const baum_workspace *w, const baum_i_block *block)
 {
   for (int i = 0; i < block->dense_count; i++) {
@@ -342,7 +342,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* The smallest positive number and the largest number that were included. */
+/* The smallest positive number and the largest number of those given to include(). */
 typedef struct range {
   double least;
   double most;
@@ -355,7 +355,8 @@ static void include(range *r, double x)
 }
 
 /* Do what is_uneven() does, for the solver for space. This function compares the inverse masses and
- * inertias of all bodies, even if no joint connects them. */
+ * inertias of all bodies, even if no joint connects them. It also returns true if moments of
+ * inertia have been raised. */
 static bool is_uneven_in_space(const baum_i_space *b)
 {
   range moves = {.least = (double)INFINITY};
@@ -369,9 +370,11 @@ static bool is_uneven_in_space(const baum_i_space *b)
   return b->is_raised || moves.most > UNEVEN * moves.least || turns.most > UNEVEN * turns.least;
 }
 
-/* Tell whether joints may connect a light body to a heavy one. The function compares the inverse
- * masses w_0 + w_2 |p|^2 at both sides of all pins, and the inverse masses and inertias of all
- * bodies that other joints connect. It returns true for every mechanism with dense bodies. */
+/* Tell whether joints may connect a light body to a heavy one. At both sides of all pins, the
+ * function compares the inverse masses w_0 + w_2 |p|^2, where w_0 is the inverse mass of the body,
+ * w_2 its inverse inertia, and p the point of the pin. It also compares the inverse masses and
+ * inertias of all bodies that other joints connect. It returns true for every mechanism that has
+ * bodies with user coordinates. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;

@@ -2,14 +2,15 @@
 /* Newton's method with the matrix of one configuration for all iterations (the chord method):
  *
  *   [ M   J^T ] [ dq     ]   [  0      ]
- *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M, J: of a configuration other than q
+ *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M, J: at the factored configuration
  *
  * After a step of length 1/rate, the velocities satisfy J v = nu if a solves
  *
  *   [ M   J^T ] [ a      ]   [ g         ]
  *   [ J   0   ] [ lambda ] = [ -rate Phi' ]
  *
- * Both use the block solver; if it gives up, the solver of the whole system takes over.
+ * The block solver solves both systems. If it gives up, the solver of the whole system is used
+ * instead.
  */
 #include "dynamics/chord.h"
 

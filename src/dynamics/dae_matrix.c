@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The Jacobian dF/dy + c dF/dy' of the residual forms (dae_residual.c), assembled from the blocks
- * of all elements. Instead of q, its variables are displacements of length nv. The rows of q' - N v
+/* Assembles the Jacobian dF/dy + c dF/dy' of the residual forms (dae_residual.c) from the blocks of
+ * all elements. Instead of q, the variables are displacements of length nv. The rows of q' - N v
  * are multiplied by N^+. The matrix therefore has nv rows and nv columns for the positions:
  *
  *          q                                             v                       lambda
@@ -42,7 +42,7 @@ struct baum_i_residual_matrix {
 typedef struct sink {
   /* Collects the positions of entries while the pattern is found; otherwise NULL. */
   baum_i_places *places;
-  const int32_t *slot; /* the slot of the next entry while values are added */
+  const int32_t *slot; /* while values are added, points to the slot of the next entry */
   double *values;
 } sink;
 
@@ -147,8 +147,10 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
   }
 }
 
-/* The following three functions emit an entry of a constraint row. They take the derivatives of
- * Phi'' with gains (index 1), of Phi' (index 2), or of Phi (index 3). */
+/* The following three functions emit the entries of a constraint row in one column of q and in the
+ * same column of v. The entries are derivatives of Phi'' with the stabilization terms (index 1), of
+ * Phi' (index 2), or of Phi (index 3). `at` is the index of the entry in J, (J w)_q and so on.
+ * `keep` is 1, or 0 if the row is replaced by a 1 on its diagonal. */
 
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {

@@ -2,7 +2,8 @@
 /* Computes the Jacobian dF/dy + c dF/dy' with respect to q itself. It starts from the matrix T of
  * dae_matrix.c, whose variables are not q but displacements dx = N^+ dq of length nv. If q consists
  * of more numbers than there are displacements, dq may also point away from the manifold of valid
- * q. Such parts of dq change only the rows of q. The Jacobian is therefore
+ * q. Such parts of dq change only the rows of q; their effect is the term B. The Jacobian is
+ * therefore
  *
  *   L T R + B,   L = diag(N, I),   R = diag(N^+, I),
  *   B = c I - (N u)_q - N (c I - N^+ (N v)_q N) N^+   in the rows and columns of q
@@ -28,14 +29,14 @@ typedef struct widening {
   double c;
   int widest;      /* largest number of positions nq of a body */
   double *memory;  /* one block of memory that contains all arrays below */
-  double *rate;    /* (nv x widest) row j: entries of column j of N in the rows of its body */
-  double *inverse; /* (nv x widest) row j: entries of row j of N^+ in the columns of its body */
-  double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q in the columns of its body */
+  double *rate;    /* (nv x widest) row j: entries of column j of N for the body of velocity j */
+  double *inverse; /* (nv x widest) row j: entries of row j of N^+ for the body of velocity j */
+  double *bend;    /* (nq x widest) row i: entries of row i of (N u)_q for the body of position i */
   double *unit;    /* (nq) scratch memory for one vector */
   double *room;    /* (4 nq) scratch memory for results */
   /* Collects the positions of entries while the pattern is found; otherwise NULL. */
   baum_i_places *places;
-  const int32_t *slot; /* the slot of the next entry while values are added */
+  const int32_t *slot; /* while values are added, points to the slot of the next entry */
   double *values;
 } widening;
 
@@ -108,8 +109,9 @@ static void set_bends(const widening *x)
 
 /* ---- the walk ---- */
 
-/* The product L T R turns one row (or column) of T into one or several rows (or columns) of the
- * Jacobian. An image lists these rows, and the factor for each. */
+/* The product L T R has more rows and columns than T. A row of T contributes to one or several rows
+ * of the product. An image lists these rows of the product, and the factor by which the row of T is
+ * multiplied for each of them. For a column of T, an image lists columns of the product. */
 typedef struct image {
   int first;
   int count;

@@ -15,9 +15,9 @@
  *   Phi'
  *   Phi
  *
- * A row of velocity level has no Phi: Phi' takes the place of Phi at index 3, and mu_i = 0 in GGL.
- * For an omitted row i the equations are lambda_i = 0 and mu_i = 0. If the rows have different
- * gains, alpha and beta above are the gains of row i.
+ * A row of velocity level has no Phi. In its place, the residual contains Phi' at index 3, and mu_i
+ * in GGL. For an omitted row i, the residual contains lambda_i and mu_i instead of the constraint.
+ * If the rows have different gains, alpha and beta above are the gains of row i.
  */
 #include <string.h>
 
@@ -79,7 +79,7 @@ static void position_rows(const baum_mechanism *m, const double *q, const double
   }
 }
 
-/* Set the residual of rows of velocity level, whose equation in GGL is mu = 0. */
+/* Set the residual of GGL for rows of velocity level, whose second equation is mu = 0. */
 static void hold_velocity_rows(const baum_mechanism *m, const double *mu, double *rows)
 {
   for (int i = 0; i < m->nc && m->velocity_rows; i++) {

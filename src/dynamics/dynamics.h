@@ -10,9 +10,9 @@
  * The stages allocate no memory. A solution allocates memory only if its solver is used for the
  * first time or chooses new pivots.
  *
- * All functions with a status may return BAUM_OK, BAUM_ERR_CALLBACK and BAUM_ERR_NOT_FINITE. Their
- * comments name other statuses. After BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE,
- * workspace->point.retry tells whether a smaller step may help.
+ * All functions with a status may return BAUM_OK, BAUM_ERR_CALLBACK and BAUM_ERR_NOT_FINITE. The
+ * comment of a function names the other statuses with which it may fail. After BAUM_ERR_CALLBACK or
+ * BAUM_ERR_NOT_FINITE, workspace->point.retry tells whether a smaller step may help.
  */
 #ifndef BAUM_I_DYNAMICS_DYNAMICS_H
 #define BAUM_I_DYNAMICS_DYNAMICS_H
@@ -29,7 +29,7 @@
 typedef struct baum_i_sharing {
   baum_i_kkt *kkt;  /* NULL while no row has been omitted */
   double *weight;   /* (mass_size) block values of W */
-  double *mobility; /* (nc) square of the length of row i of J M^-1/2 */
+  double *mobility; /* (nc) result of baum_i_row_mobilities(), but 1 for empty rows */
   double *part;     /* (nc) multipliers in the null space of J^T */
   double *work;     /* (4 nc) */
   double *system;   /* (4 (nv + nc)) */
@@ -58,11 +58,11 @@ struct baum_workspace {
   baum_i_kkt_structure structure;
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
-  baum_i_block_path *path;      /* NULL: kkt solves */
-  baum_i_block_path *motion;    /* excludes fixed bodies; equals `path` if no body is fixed */
+  baum_i_block_path *path;      /* block solver for all bodies; NULL: kkt is used instead */
+  baum_i_block_path *motion;    /* block solver without fixed bodies; `path` if none is fixed */
   baum_i_block_verdict verdict; /* result of baum_i_use_blocks() */
-  bool blocks_only;             /* no other solver is allowed */
-  baum_i_block_path *solved_by; /* path of the last solution; NULL: kkt */
+  bool blocks_only;             /* only the block solver is allowed */
+  baum_i_block_path *solved_by; /* block path that gave the last solution; NULL: kkt */
   /* path of the last elimination by blocks, even if another solver then gave the solution; NULL:
    * none */
   baum_i_block_path *eliminated_by;
@@ -87,14 +87,14 @@ struct baum_workspace {
   double *work_c;   /* (2 nc) */
   double *shift;    /* (nc) S of kkt.h */
   double *inputs;   /* (input_count) present values */
-  /* (nc) factor by which the gains of each row are multiplied: 1/2 for rows of velocity level,
-   * otherwise 1, times the row_gains of the run; NULL: all factors are 1 */
+  /* (nc) factor by which the gains of each row are multiplied. It is the option row_gains of the
+   * run (without this option 1), times 1/2 for rows of velocity level. NULL: all factors are 1. */
   const double *row_gains;
   double *metric; /* (nv) diagonal of W, once metric_ready */
 
   double *work_q; /* (9 nq) */
   double *rate_q; /* (mass_size) result of baum_i_linearize_rate() */
-  double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
+  double *mass_q; /* (mass_size) (M v')_q, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
   double *jw_q; /* (jacobian_size) (J w)_q */
@@ -107,17 +107,18 @@ struct baum_workspace {
   double *force_q; /* (force_square_size) */
   double *force_v;
 
-  double *unprojected; /* (nq + nv) state before the last projection, not owned; NULL: not stored */
+  /* (nq + nv) the caller's array that receives the state before each projection, or NULL */
+  double *unprojected;
 
-  int64_t evaluations;   /* solutions and residuals */
-  int64_t near_singular; /* solutions in which the matrix was close to singular */
+  int64_t evaluations;   /* number of computed solutions and residuals */
+  int64_t near_singular; /* number of solutions whose matrix was close to singular */
 };
 
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
                                     baum_workspace **out);
 
 /* Use the block solver for accelerations from now on, if it suits the mechanism. Call this after
- * the redundant rows are known. May also return BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED if the
+ * the redundant rows are known. May fail with BAUM_ERR_MEMORY, or with BAUM_ERR_UNSUPPORTED if the
  * block solver does not suit but no other solver is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
@@ -130,9 +131,9 @@ baum_i_text baum_i_blocks_reason(const baum_workspace *workspace);
  * the object in the message. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
-/* A probe evaluates other states with the workspace of a run. Near-singular solutions between begin
- * and end are not counted. A message that is set between them is kept only if the status passed to
- * end is an error. */
+/* A probe evaluates other states with the workspace of a run. Near-singular solutions between
+ * baum_i_probe_begin() and baum_i_probe_end() are not counted. A message that is set between these
+ * calls is kept only if `status` is an error. */
 typedef struct baum_i_probe {
   baum_workspace *workspace;
   int64_t near_singular;
@@ -172,17 +173,18 @@ baum_status baum_i_evaluate_mass(baum_workspace *workspace);
 /* Set Phi and Phi' of rows between fixed bodies to zero; baum_i_motion() does not evaluate these
  * rows. */
 void baum_i_clear_fixed_rows(baum_workspace *workspace);
-/* Evaluate only Phi and Phi', which is cheaper than the velocity stage. */
+/* Evaluate only Phi, J, nu and Phi', which is cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* Set workspace->a and ->lambda to the solution of equation (7) in acceleration.c, which becomes
  * equation (5) if alpha = beta = 0. alpha is negative for motion backward in time. J is set only
- * after baum_i_need_jacobian(). May also return BAUM_ERR_SINGULAR (the message names a joint),
+ * after baum_i_need_jacobian(). May fail with BAUM_ERR_SINGULAR (the message names a joint) or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* Find only a. It is 0 for fixed bodies, which must have the poses that baum_i_place_fixed_bodies()
- * gives them. lambda, J, Phi and Phi' of rows between fixed bodies are not always set. */
+/* Do the same as baum_i_acceleration(), but exclude fixed bodies. They must have the poses that
+ * baum_i_place_fixed_bodies() gives them, and their a is 0. For rows between fixed bodies, lambda,
+ * J, Phi and Phi' are not always set. */
 baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
                           double alpha, double beta);
 /* Evaluate the blocks of J at the last point, if the last evaluation skipped them. */
@@ -194,8 +196,9 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 
 /* ---- pivot.c ---- */
 
-/* A configuration is nearly singular if its smallest pivot is below this fraction of the usual one.
- * This corresponds to a seventh of the usual distance from singular configurations. */
+/* A configuration is nearly singular if its smallest pivot is below this fraction of the usual
+ * pivot. Its distance from a singular configuration is then below a seventh of the usual
+ * distance. */
 #define BAUM_I_NEAR_PIVOT 0.02
 
 /* Return the smallest pivot of the last solution, which measures the distance from a singular
@@ -217,8 +220,8 @@ baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double 
 
 baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, const double *v,
                           double *kinetic, double *potential);
-/* The first function returns the number of values of a joint's reaction. The second one computes
- * them, and is called after a position stage. */
+/* The first function returns the number of values of a joint's reaction. The second function
+ * computes these values. Call it after a position stage. */
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
@@ -230,10 +233,10 @@ void baum_i_choose_metric(baum_workspace *workspace);
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
 /* ---- dae_residual.c, dae_matrix.c: the residual F(t, y, y') and its Jacobian dF/dy + c dF/dy'. y
- * is (q, v, lambda), and for GGL (q, v, lambda, mu). For GGL, W must be chosen before. In the
- * Jacobian, displacements of length nv replace dq. ---- */
+ * is (q, v, lambda), and for GGL (q, v, lambda, mu). For GGL, W must have been chosen (metric.c).
+ * The variables of the Jacobian are displacements of length nv in place of q. ---- */
 
-/* Length of y. */
+/* Return the length of y. */
 int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
@@ -273,7 +276,8 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
                                    const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* Fail in the same way if a value (nv), divided by the scale of its coordinate, overflows. */
+/* Fail with BAUM_ERR_NOT_FINITE if a value (nv), divided by the scale of its coordinate,
+ * overflows. */
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
 
 /* Fail with BAUM_ERR_NOT_FINITE. The message names the joint or body of the first number in J,
@@ -283,15 +287,15 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
 /* ---- project.c, assemble.c ---- */
 
 /* Change q, and then v, by the least change in the metric of M, so that they fulfil the constraints
- * at t. Rows of velocity level restrict the directions in which q moves. May also return
- * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. After a failure q and v are
+ * at t. Rows of velocity level restrict the directions in which q moves. May fail with
+ * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. After a failure, q and v are
  * undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
-/* Change only v. The velocities of fixed bodies become 0. */
+/* Project only v. The velocities of fixed bodies become 0. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
-/* Set workspace->a to the change of v that removes Phi'. May also return BAUM_ERR_SINGULAR or
+/* Set workspace->a to the change of v that removes Phi'. May fail with BAUM_ERR_SINGULAR or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);
@@ -304,13 +308,13 @@ baum_status baum_i_check_projection(baum_workspace *workspace, double t, const d
 
 /* normal_part.c: set out (nv) to P x, the part of x (nv) that the constraints remove. P belongs to
  * the configuration of the last acceleration, motion or projection, which must have succeeded. May
- * return BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE; sets no message. */
+ * return BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out to the part of a displacement x that the projection of positions removes. It equals P x
  * unless there are rows of velocity level. */
 baum_status baum_i_displaced_part(baum_workspace *workspace, const double *x, double *out);
 /* Set out (nv) to the smallest vector, in the metric of M, with J out = rows (nc). rows may be
- * workspace->work_c. Returns the same statuses. */
+ * workspace->work_c. May fail with the same statuses as baum_i_normal_part(), without a message. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
 /* Do the same as baum_workspace_assemble(). v may be NULL. held (nv) marks the coordinates that do
@@ -326,35 +330,37 @@ baum_status baum_i_assemble_closest(baum_workspace *workspace, double t, double 
                                     const bool *held);
 
 /* Fail with BAUM_ERR_INCONSISTENT if the axes of a joint point in opposite directions instead of
- * the same direction at the point of the workspace. The constraint equations cannot distinguish the
- * two cases. `action` is the subject of the message. */
+ * the same direction in the configuration of workspace->point. The constraint equations cannot
+ * distinguish the two cases. `action` is the subject of the message. */
 baum_status baum_i_check_sides(const baum_workspace *workspace, double t, const char *action);
 
-/* ---- least_multipliers.c: for omitted rows, with M and J in the workspace ---- */
+/* ---- least_multipliers.c: M and J must be in the workspace ---- */
 
-/* Replace workspace->lambda by multipliers that give the same forces and have the least norm. The
- * norm weights multiplier i by the length of row i of J M^-1/2. Returns BAUM_ERR_SINGULAR if the
- * multipliers of the last solution do not balance the forces. May also return BAUM_ERR_MEMORY. */
+/* Replace workspace->lambda by multipliers that give the same forces and have the least norm. In
+ * this norm, the weight of multiplier i is the length of row i of J D^-1/2, where D is the diagonal
+ * of M. May fail with BAUM_ERR_SINGULAR, if the multipliers of the last solution do not balance the
+ * forces, or with BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
-/* Write the names of joints whose multipliers are not unique. Returns the same statuses; after a
- * failure the text is empty. */
+/* Write the names of joints whose multipliers are not unique. May fail with BAUM_ERR_SINGULAR or
+ * BAUM_ERR_MEMORY; the text is then empty. */
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
-/* Find which multipliers are unique (nc). All are unique if no row is omitted. Returns the same
- * statuses. */
+/* Set unique[i] (nc) to whether multiplier i is unique. All multipliers are unique if no row is
+ * omitted. May fail with BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_find_unique_multipliers(baum_workspace *workspace, bool *unique);
 
 /* ---- sizes of rows and states ---- */
 
-/* The factor by which alpha and beta of a row are multiplied. */
+/* Return the factor by which alpha and beta of a row are multiplied. */
 static inline double baum_i_row_gain(const baum_workspace *workspace, int row)
 {
   return workspace->row_gains ? workspace->row_gains[row] : 1.0;
 }
 
-/* Set size_i (nc) to the norm of row i of J with its columns multiplied by the scales, or to 1 for
- * empty rows. |Phi_i| / size_i is the violation as a displacement. */
+/* Set size[i] (nc) to the norm of row i of J after each column has been multiplied by the scale of
+ * its coordinate, or to 1 if the row is empty. |Phi_i| / size[i] is the violation as a
+ * displacement. */
 void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 
 /* Set inverse (nv) to 1 / M_ii, or to 0 for coordinates without mass. Very small moments of inertia
@@ -379,7 +385,7 @@ double baum_i_swing_rate(const baum_mechanism *mechanism);
 
 /* Return the largest |x_i| / scale_i of a vector x (nv). */
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
-/* Do the same for positions (nq). */
+/* Return the largest |q_i| / position_scale_i of positions q (nq). */
 double baum_i_position_size(const baum_mechanism *mechanism, const double *q);
 
 /* Return the index of the value of largest magnitude, or -1 if there are no values. `largest`

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of dynamics.h. They check their arguments, call the stages of the
+/* The public functions of baum/dynamics.h. They check their arguments, call the stages of the
  * evaluation, and write results that are stored as blocks to the caller's dense arrays. */
 #include <math.h>
 #include <string.h>

@@ -18,9 +18,10 @@ typedef struct baum_i_island {
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
-/* Number the islands. *island receives a new array (body_count + 1) with the number of the ground
- * and of each body. The caller frees the array. The ground and every fixed body have numbers of
- * their own. Returns BAUM_OK or BAUM_ERR_MEMORY. */
+/* Number the islands. *island receives a new array (body_count + 1), which the caller frees. Entry
+ * k is the number of the island to which body k belongs. The ground (entry 0) and every fixed body
+ * belong to no island; each gets a number that no other body has. Returns BAUM_OK or
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_number_islands(const baum_mechanism *mechanism, int **island);
 
 /* Return the number of the island that a joint belongs to. If the joint connects only fixed bodies,

@@ -17,9 +17,9 @@
  * by orders of magnitude would cause rounding errors.
  *
  * The method of conjugate gradients (CGLS of A. Bjorck) finds the z that minimizes |S (lambda + N
- * z)|. Here S = diag(s_i), and s_i = |row i of J M^-1/2|. The entries of S in the rows d
- * precondition the iteration. The forces stay balanced even if the iteration ends before it has
- * found the minimum.
+ * z)|. Here S = diag(s_i), s_i = |row i of J D^-1/2|, and D is the diagonal of M. The entries of S
+ * in the rows d precondition the iteration. The forces stay balanced even if the iteration ends
+ * before it has found the minimum.
  *
  * If the constraints are violated, the omitted rows need not depend on the other rows, and N z may
  * disturb the balance of the forces. Then only a fraction of N z is added, namely the largest
@@ -123,7 +123,8 @@ static search search_memory(const baum_workspace *w)
     .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
 }
 
-/* Find the gradient at lambda + part, and set *size to the square of its length. */
+/* Find the gradient of |S (lambda + N z)|^2 / 2 with respect to z at N z = `part`. Set *size to the
+ * square of its preconditioned length. */
 static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
   const baum_i_sharing *r = &w->sharing;
@@ -195,7 +196,8 @@ static baum_status find_part(baum_workspace *w)
 
 /* ---- balance ---- */
 
-/* Vectors of the whole system, each of length nv + nc. */
+/* Vectors of length nv + nc for the system with the matrix K of M and J: the right-hand side b, the
+ * solution x, residual = b - K x, and size = |b| + |K| |x|. */
 typedef struct balance {
   double *b;
   double *x;
@@ -222,8 +224,8 @@ static balance compute_balance(const baum_workspace *w, const double *force, con
   return out;
 }
 
-/* Find the largest term of `count` rows of M a + J^T lambda = g. Terms are multiplied by the scale
- * of their coordinate. */
+/* Return the largest of `count` entries of terms[], which belong to rows of M a + J^T lambda = g.
+ * Each entry is multiplied by the scale of its coordinate. */
 static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
@@ -362,9 +364,9 @@ static const double SHARED = 1e-6;
  * removes the error that the shift causes. */
 static const double SHIFT = 1e-12;
 
-/* Set `part` to a generic null vector whose rows are scaled to displacements. Set *least to the
- * size above which its components count as non-zero. If the constraints are violated, components
- * that should be zero are about as large as the relative residual of the vector. */
+/* Set `part` to a generic null vector of J^T whose rows are scaled to displacements. Set *least to
+ * the size above which its components count as non-zero. If the constraints are violated,
+ * components that should be zero are about as large as the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The metric W that weights the correction of positions in the form GGL:
+/* Chooses the metric W that weights the correction of positions in the form GGL:
  *
  *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
  *

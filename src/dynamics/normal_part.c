@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The part P x of a vector x (nv) that the constraints remove. It is computed with the factors of
- * the last solution:
+/* Computes P x, the part of a vector x (nv) that the constraints remove. The factors of the last
+ * solution are used:
  *
  *   P x = M^-1 J^T (J M^-1 J^T)^-1 J x:   [ M  J^T ] [ P x    ]   [ 0   ]
  *                                         [ J   0  ] [ lambda ] = [ J x ]
  *
- * With any right-hand side r of the rows in place of J x, the same system gives the smallest
- * velocity y with J y = r.
+ * With any right-hand side r of the rows in place of J x, the same system gives the velocity y with
+ * J y = r that is smallest in the metric of M.
  *
  * P P = P. In the metric of M, x - P x is the vector y nearest to x with J y = 0.
  */

@@ -9,7 +9,8 @@
 
 /* Input and output of the kernel. */
 typedef struct baum_i_pins {
-  /* (even pin_count x 4) point on body a, then point on body b; order of block->pins */
+  /* (4 pin_count, with pin_count rounded up to even) for each pin, in the order of block->pins: its
+   * point on body a, then its point on body b */
   const double *points;
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
@@ -21,8 +22,8 @@ typedef struct baum_i_pins {
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Set arms, right-hand sides, pivots and lambda[] of the pins. The block must already contain a0,
-   * the accelerations without constraint forces. */
+  /* Set arms, right-hand sides r and pivots of the pins, and set lambda[] to J a0 - r. The block
+   * must already contain a0, the accelerations without constraint forces. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

@@ -8,8 +8,10 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * In gamma, w_a and w_b are the angular velocities of the bodies. In D, w_a0 and w_a2 are the first
- * and the third diagonal entry of W of body a, and w_b0 and w_b2 are those of body b.
+ * In Phi, r_a is the origin of body a, and p_a is the vector from it to the point of the joint. In
+ * gamma, w_a is the angular velocity of body a. The vector k is the normal of the plane. In the
+ * pivot D, w_a0 and w_a2 are the first and the third diagonal entry of W of body a. The index b
+ * marks the same quantities of body b.
  *
  * J is not formed. The arms and gamma are rounded exactly like the J and gamma that users receive.
  * The compiler therefore may not use fused multiply-add instructions for them. Close to a singular

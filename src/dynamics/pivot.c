@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Measures how close the last solution was to a singular configuration.
  *
- * For blocks the measure is the smallest ratio, over all nodes, of det D to the same determinant
- * before the elimination. Before the elimination, D of a node is its block of S = J M^-1 J^T. For a
- * pin this block is 2 x 2, and its determinant does not depend on the direction of axes. For other
- * pairs of rows, which may depend on each other, the product of the diagonal entries of S replaces
- * the determinant. In space the node is a whole joint. For other solvers the measure is the
- * reciprocal condition number of the scaled matrix. Both measures are free of units and fall with
- * the square of the distance from a singular configuration. Their sizes differ, so each must be
- * compared with its own usual value. If a body has a small inertia, the block solver gives up for
- * some directions of its arms although the configuration is not close to a singular one.
+ * For the block solver, det D of each node is divided by det D of the same node before the
+ * elimination. The measure is the smallest of these ratios. Before the elimination, D of a node is
+ * its block of S = J M^-1 J^T. For a pin this block is 2 x 2, and its determinant does not depend
+ * on the direction of axes. For other pairs of rows, which may depend on each other, the product of
+ * the diagonal entries of this block replaces the determinant before the elimination. In space, a
+ * node is a whole joint. For other solvers, the measure is the reciprocal condition number of the
+ * scaled matrix. Both measures are free of units and fall with the square of the distance from a
+ * singular configuration. Their sizes differ, so each must be compared with its own usual value. If
+ * a body has a small inertia, the block solver gives up for some directions of its arms although
+ * the configuration is not close to a singular one.
  */
 #include <math.h>
 
 #include "base/hot.h"
 #include "dynamics/block_path.h"
 
-/* Return the determinant of the block of S of a pin. The product of the diagonal entries would
- * depend on the direction of the arm if an inertia is small. */
+/* Return the determinant of a pin's block of S. The product of the diagonal entries would depend on
+ * the direction of the arm if an inertia is small. */
 static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];
@@ -94,9 +95,9 @@ static weakest smallest_in_space(const baum_i_space *space)
 }
 
 /* Find the pivot of the last elimination by blocks, even if the block solver then gave up. Returns
- * false if there is no such elimination. Also returns false if another solver gave the solution,
- * masses are uneven and the pivot is at rounding level, because such pivots are common if masses
- * are uneven. */
+ * false if there is no such elimination. Also returns false if the pivot is at rounding level,
+ * masses are uneven, and another solver gave the solution: uneven masses often cause such
+ * pivots. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Projection onto the constraints by the least change in the metric of M (Eich 1993; Lubich 1991).
+/* Projects states onto the constraints by the least change in the metric of M (Eich 1993; Lubich
+ * 1991).
  *
  *   positions:                            velocities:
  *   [ M  J^T ] [ dq     ]   [  0   ]      [ M  J^T ] [ dv     ]   [ 0        ]
@@ -128,8 +129,8 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 /* ---- omitted rows ---- */
 
 /* Largest allowed violation of an omitted row: of Phi as a displacement, and of Phi' relative to
- * the velocities of the island. Rounding errors are smaller, and violations on another branch are
- * larger. */
+ * the velocities of the island. Rounding errors are smaller than this limit. If the configuration
+ * is on another branch, violations are larger. */
 static const double NEGLIGIBLE = 1e-7;
 
 static baum_status fail_omitted_row(const baum_workspace *w, int row)
@@ -142,8 +143,8 @@ static baum_status fail_omitted_row(const baum_workspace *w, int row)
     w->point.t, baum_i_row_label(w->mechanism, row).text, w->phi[row], w->phi_rate[row]);
 }
 
-/* Set size[] (body_count + 1) to the scaled sizes of the velocities of all islands. The size of the
- * ground, to which joints between fixed bodies belong, is the largest size of all islands. */
+/* Set size[k] (body_count + 1) to the largest scaled velocity in island number k. Joints between
+ * fixed bodies use size[0], the largest scaled velocity in all islands. */
 static void find_speeds(const baum_workspace *w, const double *v, double *size)
 {
   const baum_mechanism *m = w->mechanism;

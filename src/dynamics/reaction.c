@@ -4,10 +4,10 @@
  *
  * For a planar joint, the entries of this force at (x, y) of body_b are the force F, and the entry
  * at the angle of body_b is the moment m_C about its centre of mass C. The moment about the joint's
- * point P on body_b is m_P = m_C - (P - C) x F. Ground has no columns in J. If body_b is ground,
- * force and moment on it are therefore the opposite of those on body_a. In space the same equations
- * hold with vectors. All six columns of body_b are used, even if it is planar, a particle or
- * ground. The entries at the rotations are the components of the moment about C in body axes.
+ * point P on body_b is m_P = m_C - cross(P - C, F). Ground has no columns in J. If body_b is
+ * ground, force and moment on it are therefore the opposite of those on body_a. In space the same
+ * equations hold with vectors. All six columns of body_b are used, even if it is planar, a particle
+ * or ground. The entries at the rotations are the components of the moment about C in body axes.
  */
 #include <string.h>
 

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Permanent redundancy: rows that depend on others at the initial configuration and around it.
+/* Finds permanent redundancy: rows that depend on other rows at the initial configuration and
+ * around it.
  *
- * The rank of J M^-1/2, with rows of unit length, is determined at the assembled initial
- * configuration and at neighbours on the constraint manifold. The largest of these ranks counts as
- * the rank of the mechanism. The rows outside one largest independent set are redundant, and every
- * solver omits them. The choice of rows may change during a run (row_set.c). An initial
- * configuration of lower rank is singular.
+ * The rank of J D^-1/2 with rows of unit length, where D is the diagonal of M, is determined at the
+ * assembled initial configuration and at neighbours on the constraint manifold. The largest of
+ * these ranks counts as the rank of the mechanism. The rows outside one largest independent set are
+ * redundant, and every solver omits them. The choice of rows may change during a run (row_set.c).
+ * An initial configuration of lower rank is singular.
  *
- * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding of
- * later rows to 1e-16 / d, so redundant rows may look independent. The rank of such a
- * configuration is ambiguous beyond the first nearly dependent row. In this case the rank of a
- * neighbour with a clear rank is used, unless it is smaller than the part of the initial rank that
- * is not ambiguous. If a neighbour's rank is used, the initial configuration counts as singular. If
- * no neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins
- * close to each other, and the ambiguous rank is accepted. If the initial configuration is exactly
- * singular, ambiguous ranks of its neighbours are also accepted: they occur because the rows of
- * long members rotate only little between the neighbours.
+ * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding
+ * errors of rows selected after it to 1e-16 / d, so redundant rows may look independent. The rank
+ * of such a configuration is ambiguous beyond the first nearly dependent row. In this case the rank
+ * of a neighbour with a clear (not ambiguous) rank is used, unless it is smaller than the part of
+ * the initial rank that is not ambiguous. If a neighbour's rank is used, the initial configuration
+ * counts as singular. If no neighbour has a clear rank, rows are nearly dependent everywhere, like
+ * the rows of two pins close to each other, and the ambiguous rank is accepted. If the initial
+ * configuration is exactly singular, ambiguous ranks of its neighbours are also accepted: they
+ * occur because the directions of long members change only little from neighbour to neighbour.
  *
  * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
  * independent set of all rows of positions. The number of chosen rows of positions gives the
@@ -36,14 +37,15 @@ enum { NEIGHBOURS = 4 };
 /* At an assembled configuration, rounding and assembly leave dependent rows at most 1e-12 away from
  * the span of other rows. Rows farther away than RANK_TOLERANCE are independent. */
 static const double RANK_TOLERANCE = 1e-10;
-/* Rows farther away than CLEAR are clearly independent, and do not amplify rounding to
- * RANK_TOLERANCE. */
+/* Rows farther away than CLEAR are clearly independent. The rounding errors that they amplify stay
+ * below RANK_TOLERANCE. */
 static const double CLEAR = 1e-5;
 /* Rows farther away than FIRST are selected first. After assembly, dependent rows contradict the
  * selected rows by 1e-14, and the motion contains this error divided by the distance of a selected
  * row from the span of the others. */
 static const double FIRST = 1e-3;
-static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* relative to the scales */
+/* Scaled distances of the neighbours from the initial configuration. */
+static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07};
 
 /* The rank at a configuration. If both numbers are equal, the rank is certain (clear). */
 typedef struct rank_found {
@@ -54,7 +56,7 @@ typedef struct rank_found {
 typedef struct search {
   baum_workspace *w;
   double *start; /* (nq) assembled configuration */
-  double *q;     /* (nq) neighbour */
+  double *q;     /* (nq) configuration of a neighbour */
   double *x;     /* (nv) direction */
   rank_found kept;
 } search;
@@ -75,16 +77,16 @@ static baum_status find_rank(const search *s, double t, const double *q, rank_fo
   return BAUM_OK;
 }
 
-/* Return the certain rank. It counts the clearly independent rows and the first nearly dependent
- * row, which rounding does not yet affect. */
+/* Return the part of the rank that is certain. It counts the clearly independent rows and the first
+ * nearly dependent row, which rounding does not yet affect. */
 static int least_rank(const rank_found *rank)
 {
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Tell whether `rank` replaces `other`. The comparison uses the certain ranks; if they are equal,
- * the numbers of clearly independent rows; if these are equal, too, the numbers of independent
- * rows. */
+/* Tell whether `rank` replaces `other`. The comparison uses the results of least_rank(). If they
+ * are equal, it uses the numbers of clearly independent rows. If these are equal, too, it uses the
+ * numbers of independent rows. */
 static bool is_better(const rank_found *rank, const rank_found *other)
 {
   int more = least_rank(rank) - least_rank(other);

@@ -123,7 +123,8 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
 
 /* ---- skipped work ---- */
 
-/* Return the beginning of the line before the first item, and a separator before the others. */
+/* Return the text that precedes an item: the beginning of the line for the first item, and a
+ * separator for the others. */
 static const char *next_skipped(int *count)
 {
   return (*count)++ > 0 ? "; " : "skipped       ";

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Chooses another set of independent rows when the kept rows become nearly dependent.
  *
- * Example: A coupler is carried by three parallel cranks whose pivots are not in line. The
+ * Example: A coupler is carried by three parallel cranks whose ground joints are not in line. The
  * mechanism itself has no singular configurations. Three cranks have one redundant row. Whichever
  * row is omitted, the kept rows describe a parallelogram of two cranks together with a third crank
- * that is held by one row only, and these rows do become singular. Before the motion reaches such a
- * configuration, other rows are omitted, as in coordinate partitioning (Wehage and Haug 1982).
- * Accelerations do not depend on the choice of rows, but multipliers do.
+ * that is held by one row only, and these rows do become dependent in some configurations. Before
+ * the motion reaches such a configuration, other rows are omitted, as in coordinate partitioning
+ * (Wehage and Haug 1982). Accelerations do not depend on the choice of rows, but multipliers do.
  */
 #include "dynamics/row_set.h"
 
@@ -73,7 +73,8 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
   return status;
 }
 
-/* Select the best set of rows. Rows that are kept now are preferred. */
+/* Select the best set of rows whose limit is above `least`. Rows that are kept now are preferred.
+ * *found tells whether there is such a set. */
 static baum_status select_apart(baum_workspace *w, double t, const double *q, double least,
                                 bool *found)
 {
@@ -88,8 +89,8 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select a well-separated set of rows. This function scales the columns of J by the scales of the
- * coordinates instead of the masses. */
+/* Select a well-separated set of rows. This function multiplies the columns of J by the scales of
+ * the coordinates. select_apart() multiplies them by 1 / sqrt(M_ii) instead. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {

@@ -12,20 +12,20 @@
 
 typedef struct baum_i_row_set {
   int rank;          /* usual rank of J, see redundancy.c */
-  int position_rank; /* the same without rows of velocity level */
+  int position_rank; /* number of kept rows that are not of velocity level */
   /* Rank of J in the initial configuration. If it is less than `rank`, this configuration is
    * (nearly) singular. */
   int rank_at_start;
   int count;               /* number of omitted rows */
   unsigned char *omitted;  /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected; /* (nc) scratch: 1 if the row is in a new set */
-  /* The pivot at which baum_i_choose_rows() last searched for other rows; 0 if that search changed
-   * the rows, or if there was no search. */
+  /* The pivot at which baum_i_choose_rows() last searched for other rows. It is 0 if that search
+   * changed the rows, if the pivot has not been poor since then, or if there was no search. */
   double pivot_at_last_selection;
 } baum_i_row_set;
 
-/* Find the rank and the omitted rows at the assembled configuration (t, q). May also return
- * BAUM_ERR_MEMORY. */
+/* Assemble a copy of q at time t, and find the rank and the omitted rows in this configuration. May
+ * fail with BAUM_ERR_MEMORY. */
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q);
 
 /* Find the rank of the workspace's J, and mark one largest set of independent rows in `selected`.
@@ -35,19 +35,19 @@ baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *
  * the rows of welds that fix bodies. May return BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_select_rows(baum_workspace *workspace, double distance, int *rank);
 
-/* Look for the set of rows that is separated best in this configuration. If a set is found, keep it
- * instead of the present set. The number of rows stays the same. This must be called before the
- * block paths are created. */
+/* Look for the set of independent rows that is farthest from dependence in this configuration (see
+ * the limits in row_set.c). If a set is found, keep its rows instead of the present rows. The
+ * number of rows stays the same. This must be called before the block paths are created. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
 
-/* Tell whether there is a well-separated set of rows with full rank in this configuration. It does
- * not matter which rows are omitted now. */
+/* Tell whether there is a well-separated set of rows (see row_set.c) with full rank in this
+ * configuration. It does not matter which rows are omitted now. */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* Omit the rows that are marked in `omitted` (nc) instead of the present ones. Their number must be
- * the same as before, and the kept rows must have the same rank. May return BAUM_ERR_MEMORY,
- * BAUM_ERR_UNSUPPORTED (if the block solver cannot be used with the new set), or statuses of user
- * functions. After a failure, nothing has changed. */
+ * the same as before, and the kept rows must have the same rank. May fail with BAUM_ERR_MEMORY,
+ * with BAUM_ERR_UNSUPPORTED if the block solver cannot be used with the new set, or with the status
+ * of a user function. After a failure, nothing has changed. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts that describe the solver of accelerations and explain why it was chosen. */
+/* Writes texts that describe the solver for accelerations and explain why it was chosen. */
 
 #include "dynamics/block_path.h"
 

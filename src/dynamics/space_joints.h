@@ -10,19 +10,19 @@
 #include "linear/space_block.h"
 #include "mechanism/mechanism.h"
 
-/* Vectors of three numbers are followed by a 0. */
+/* The frame of a body. Each vector of three numbers is followed by a 0. */
 typedef struct baum_i_space_frame {
   double axes[12];   /* columns of A */
-  double turned[12]; /* columns of B = A L^-T */
+  double turned[12]; /* columns of B = A L^-T, with L of space_block.h */
   double r[4];
   double v[4];
   double w[4]; /* angular velocity in ground axes */
 } baum_i_space_frame;
 
-/* The shape of a planar revolute joint is PIN. In the names of the other shapes, each letter is a
- * kind of row, in the order of the rows. P: three rows that make points coincide. D: the product of
- * two axes, one on each body. E: a row D with the same axis on body_b as the row before. S: the
- * product of an axis on body_a and the vector between the points. */
+/* The shape of a planar revolute joint is PIN. In the names of the other shapes, the letters stand
+ * for the rows of the joint, in their order. P: three rows that make points coincide. D: the dot
+ * product of two axes, one on each body. E: a row D with the same axis on body_b as the row before
+ * it. S: the dot product of an axis on body_a and the vector between the points. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_PIN,
   BAUM_I_SHAPE_P,
@@ -37,7 +37,8 @@ typedef enum baum_i_space_shape {
   BAUM_I_SHAPES
 } baum_i_space_shape;
 
-/* Where the constants of a joint begin among its numbers. Vectors are in body axes. */
+/* The indices at which the constants of a joint begin in the array of its numbers. Vectors are in
+ * body axes. */
 enum {
   BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
@@ -50,11 +51,11 @@ typedef struct baum_i_space_joint {
   int32_t shape; /* baum_i_space_shape */
   int32_t node;
   int32_t row; /* the first of its rows */
-  /* The bodies in the order for which Phi is x_1 - x_0. Phi of a pin is x_a - x_b, so its first
-   * body is body_b. */
+  /* The bodies in the order for which Phi is x_1 - x_0, where x_k is the joint's point on body[k].
+   * Phi of a pin is x_a - x_b, so its first body is body_b. */
   int32_t body[2];
-  int32_t side[2]; /* -1: the body is ground */
-  int32_t numbers; /* start of its constants */
+  int32_t side[2]; /* the node's sides for these bodies; -1: the body is ground */
+  int32_t numbers; /* index of its first constant in baum_i_space_joints.numbers */
 } baum_i_space_joint;
 
 /* The joints of a block path, and a frame for each body. */

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the frames of bodies in space and the geometry of joints between them. A point s of a
- * body has the arm d = A s and the position x = r + d. Let e = x_b - x_a for the points of a joint.
- * With the upper sign for k = a and the lower sign for k = b, the rows and sides are
+ * body has the arm d = A s and the position r + d. Let e be the position of a joint's point on b
+ * minus the position of its point on a. With the upper sign for k = a and the lower sign for k = b,
+ * the rows and sides [E | R] (space_block.h) are
  *
  *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
- *   row d    Phi = x . y   (x on a, y on b), R_a = (x x y)^T B_a, R_b = -(x x y)^T B_b
- *   row e    a row d with the same y as the row before
- *   row s    Phi = x . e   (x on a), R_a = (x x (e + d_a))^T B_a, R_b = (d_b x x)^T B_b, E = -+ x
+ *   row d    Phi = x . y   (axis x on a, axis y on b)
+ *            R_a = cross(x, y)^T B_a,   R_b = -cross(x, y)^T B_b
+ *   row e    a row d with the same y as the row before it
+ *   row s    Phi = x . e   (axis x on a)
+ *            R_a = cross(x, e + d_a)^T B_a,   R_b = cross(d_b, x)^T B_b,   E = -+ x
  *
  * gamma is -Phi'' without the terms of accelerations. For a row d, let W_a and W_b be the angular
- * velocities, y' = W_b x y and z = y' - W_a x y. Then Phi' = z . x and gamma = -(W_b x y' + (y' +
- * z) x W_a) . x.
+ * velocities, y' = cross(W_b, y) and z = y' - cross(W_a, y). Then Phi' = z . x and gamma =
+ * -(cross(W_b, y') + cross(y' + z, W_a)) . x.
  */
 #include <float.h>
 #include <math.h>
@@ -56,7 +59,7 @@ BAUM_I_INLINE four three(const double *from)
   return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
 }
 
-/* A x */
+/* Computes A x. */
 BAUM_I_INLINE four turned(const double *axes, const double *x)
 {
   four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
@@ -184,7 +187,7 @@ typedef struct marker {
   four arm;   /* d */
   four place; /* r + d */
   four rate;
-  four bend; /* W x (W x d) */
+  four bend; /* cross(W, cross(W, d)), where W is the angular velocity */
 } marker;
 
 BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
@@ -202,7 +205,7 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
 /* All rows of a joint: columns of R and E of both sides, and Phi, Phi' and gamma. */
 typedef struct rows {
   column turn[2][3];
-  column move[3]; /* E_b = -E_a, only rows s */
+  column move[3]; /* columns of E_b = -E_a, set only in rows s */
   column phi;
   column rate;
   column gamma;
@@ -240,8 +243,8 @@ BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_s
   return d;
 }
 
-/* Puts (t_k)^T B_k into row i of both sides. Sets Phi to the sum of the numbers in terms[0], Phi'
- * to the sum of those in terms[1], and -gamma to the sum of those in terms[2]. */
+/* Sets row i of R_k to (t_k)^T B_k for both bodies k. Sets Phi to the sum of the numbers in
+ * terms[0], Phi' to the sum of those in terms[1], and -gamma to the sum of those in terms[2]. */
 BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
                            const four t[2], const four terms[3], int i, rows *out)
 {
@@ -441,8 +444,9 @@ BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *jo
   store_pivot(b, joint->node, n, d);
 }
 
-/* Sets a joint of n rows. If `points` is true, the first three rows are of kind p. `slides` has bit
- * i set if row i is of kind s. `again` is the row of kind e, or 0 if there is none. */
+/* Computes the n rows of a joint and writes them to the solver. If `points` is true, the first
+ * three rows are of kind p. `slides` has bit i set if row i is of kind s. `again` is the row of
+ * kind e, or 0 if there is none. */
 BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
                              bool points, unsigned slides, int again, const baum_i_space_pass *at)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes Newton's matrix of a step from the matrix of the residual (dae_matrix.c) with y = (q, v,
  * lambda) and c = by_a / by_v. In that matrix, the columns of v contain c M - g_v. They are
- * multiplied by by_v and added to the columns of q. Newton's matrix has no rows for q' - v. The
+ * multiplied by by_v and added to the columns of q. Newton's matrix has no rows for q' - N v. The
  * place to which each entry is added is found only once, when the matrix is created.
  */
 #include "dynamics/step_matrix.h"
@@ -16,10 +16,10 @@ enum { BY_NOTHING, BY_SCALE, BY_SCALE_V, BY_ONE, BY_V, FACTORS };
 
 struct baum_i_step_matrix {
   baum_i_residual_matrix *form;
-  double *full;          /* values of the full matrix, which belongs to `form` */
+  double *full;          /* values of the full matrix, whose pattern is in `form` */
   unsigned char *factor; /* the factor of each value: BY_NOTHING and so on */
-  /* Pattern (nv + nc) of this matrix; it has one slot for each value whose factor is not
-   * BY_NOTHING, in the same order. */
+  /* Pattern of Newton's matrix, which has nv + nc columns. There is one slot for each value in
+   * `full` whose factor is not BY_NOTHING. Slots and values have the same order. */
   baum_i_compressed pattern;
   double *values;
   baum_i_sparse_lu *lu;
@@ -45,7 +45,7 @@ static unsigned char factor_of(int nv, int row, int column)
   return column < nv ? BY_SCALE : BY_SCALE_V;
 }
 
-/* Set the factors of all values, and find the places in this matrix to which the values are
+/* Set the factors of all values, and find the places in Newton's matrix to which the values are
  * added. */
 static baum_status find_pattern(baum_i_step_matrix *matrix, int nv)
 {

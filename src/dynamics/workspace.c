@@ -9,7 +9,7 @@
 #include "dynamics/islands.h"
 #include "mechanism/general/coordinate.h"
 
-/* An array of the workspace. list_arrays() lists all of them. */
+/* An array of the workspace. list_arrays() lists all arrays. */
 typedef struct array {
   double **place;
   int count;

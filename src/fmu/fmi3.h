@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The types of FMI 3.0 that a co-simulation FMU without events and clocks needs. The official
- * headers declare the whole interface and are ten times as long. Source: Functional Mock-up
- * Interface Specification 3.0 (Modelica Association, 2022), 2.2. */
+/* Declares the types of FMI 3.0 that a co-simulation FMU without events and clocks needs. The
+ * official headers declare the whole interface and are ten times as long. Source: Functional
+ * Mock-up Interface Specification 3.0 (Modelica Association, 2022), 2.2. */
 #ifndef BAUM_I_FMU_FMI3_H
 #define BAUM_I_FMU_FMI3_H
 

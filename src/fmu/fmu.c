@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The binary that all exported FMUs contain. It reads a mechanism from the folder `resources` of
- * its FMU, and implements co-simulation by FMI 3.0. docs/fmu.md describes the FMUs.
+/* Implements the binary that all exported FMUs contain. The binary reads a mechanism from the
+ * folder `resources` of its FMU, and implements co-simulation by FMI 3.0. docs/fmu.md describes the
+ * FMUs.
  *
- * The value references count from 0 in this order: the time, the inputs, the numbers of the
- * parameters, and the columns of the outputs. */
+ * The value references count from 0 in this order: the time, the inputs, every number of every
+ * parameter, and every column of the outputs. */
 #include "fmu/fmi3.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ typedef struct baum_i_fmu_instance {
 /* The saved state of an FMU. One block of memory contains this struct, the numbers and the saved
  * run. */
 typedef struct baum_i_fmu_state {
-  size_t size;    /* of the whole block */
+  size_t size;    /* size of the whole block */
   size_t run;     /* size of the saved run, or 0 if there is no run */
   char token[64]; /* the first characters of the instantiation token of the FMU */
   double start_time;

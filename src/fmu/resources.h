@@ -27,7 +27,7 @@ typedef struct baum_i_fmu_resources {
   int channel_count;
   baum_channel *channels; /* the outputs */
   int number_count;
-  double *start; /* (number_count) initial inputs, then the numbers of all parameters */
+  double *start; /* (number_count) values of the inputs, then of the parameters */
 } baum_i_fmu_resources;
 
 /* Read the resources in a folder. After a failure, only baum_i_fmu_release() may use `out`. */
@@ -38,7 +38,7 @@ void baum_i_fmu_release(baum_i_fmu_resources *resources);
 int baum_i_fmu_size(const baum_i_fmu_parameter *parameter);
 
 /* Copy the mechanism, set the parameters of the copy, and freeze it. `numbers` (number_count) is
- * ordered like `start`. The function does not use the inputs in it. */
+ * ordered like `start`. The function ignores the inputs in `numbers`. */
 baum_status baum_i_fmu_build(const baum_i_fmu_resources *resources, const double *numbers,
                              baum_mechanism **out);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The functions of FMI 3.0 that these FMUs do not support. They must exist, because some simulators
- * load all functions of the interface. The functions below read only their first argument. This is
- * possible because the calling conventions of the supported systems permit a caller to pass more
- * arguments than the function declares. */
+/* Defines the functions of FMI 3.0 that FMUs of this library do not support. They must exist,
+ * because some simulators load all functions of the interface. The functions below read only their
+ * first argument. This is possible because the calling conventions of the supported systems permit
+ * a caller to pass more arguments than the function declares. */
 #include "fmu/fmi3.h"
 
 #define REFUSE(NAME)                           \

@@ -183,9 +183,9 @@ static number polish(const baum_i_method *method, number mu, double radius, int 
 }
 
 /* Finds w for the root with the largest |z|. The test of Schur and Cohn gives the circle on which
- * this root lies. Newton's method starts at those points of the circle where |p| is smallest. The
- * function returns the root found on the circle. Other roots may be close to the circle, but inside
- * of it. */
+ * this root lies. Newton's method starts at those points of the circle where |p| has a local
+ * minimum. It may also converge to roots inside of the circle. The function returns the root that
+ * is on the circle. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);

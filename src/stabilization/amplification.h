@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The factor by which one step of a method amplifies a constraint violation that satisfies
+/* Computes the factor by which one step of a method amplifies a constraint violation that satisfies
  * Phi'' + 2 alpha Phi' + beta^2 Phi = 0. All results are functions of A = |alpha h| and B = (beta
- * h)^2. Below, mu is one of the roots of mu^2 + 2 A mu + B = 0, and z is a factor of one step. */
+ * h)^2. Below, mu is one of the roots of mu^2 + 2 A mu + B = 0, and z is a factor by which one step
+ * multiplies a violation. */
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H
 
@@ -33,7 +34,7 @@ enum { BAUM_I_METHOD_DEGREE = 12 };
  * integrator. */
 typedef struct baum_i_method {
   baum_i_method_kind kind;
-  int degree; /* degree of R, or number k of steps */
+  int degree; /* degree of R, or the number k of steps of Adams-Bashforth */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
   /* The result of baum_i_stability_best(), stored if its search is slow, otherwise 0. */
   double best[2];
@@ -51,7 +52,7 @@ void baum_i_amplification(const baum_i_method *method, double alpha_h, double be
 
 /* Does what baum_i_amplification() does, for rows of velocity level. Their single mode is mu =
  * -alpha h, so z[1] is NaN. The second function returns the alpha h up to which the method is
- * stable for them. */
+ * stable for these rows. */
 void baum_i_velocity_amplification(const baum_i_method *method, double alpha_h,
                                    baum_amplification *out);
 double baum_i_velocity_limit(const baum_i_method *method);
@@ -84,17 +85,17 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 /* ---- In the plane --------------------------------------------------------- */
 
 /* Finds the point with alpha h > 0 that has the smallest spectral radius. If there is a dead-beat
- * point, this is that point. If there are several, points with two different mu are preferred, and
- * among them the one with the smallest gains. */
+ * point, this is that point. If there are several dead-beat points, points with two different mu
+ * are preferred, and among these the point with the smallest gains. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* Finds the dead-beat point, which is the point where all z are 0. If there is none, returns false
  * and stores nothing. */
 bool baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Finds the nearest point that has a spectral radius of at most 0.9. The distance of the point that
- * is found is at most 1 % larger than the smallest possible distance. If no point has such a
- * spectral radius, finds the point with the smallest spectral radius. */
+/* Finds the point nearest to (alpha_h, beta2_h2) that has a spectral radius of at most 0.9. The
+ * distance to the point that is found is at most 1 % larger than the smallest possible distance. If
+ * no point has such a spectral radius, finds the point with the smallest spectral radius. */
 void baum_i_stability_nearest(const baum_i_method *method, double alpha_h, double beta2_h2,
                               double *good_alpha_h, double *good_beta2_h2);
 

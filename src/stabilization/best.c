@@ -17,11 +17,11 @@
  * Adams-Bashforth methods use past steps. They therefore have no dead-beat point. Their spectral
  * radius is smallest at a pair of complex mu or at a double mu, for the following reason. If the
  * two mu are real and different, one of them has the larger |z|, which is the spectral radius. If
- * this mu is moved onto the other one, the spectral radius does not become larger. The point is
- * searched on a lattice in the chart (chart.h). The lattice is refined around the best point found
- * so far, which at first is the best point with critical damping. The largest of several |z| is, as
- * a function of the point, a surface with sharp valleys. A descent method would stop in such a
- * valley. A search on a lattice does not stop there. */
+ * this mu is moved onto the other one, the spectral radius does not become larger.
+ * baum_i_stability_best() searches for this point on a lattice in the chart (chart.h). The lattice
+ * is refined around the best point found so far, which at first is the best point with critical
+ * damping. The largest of several |z| is, as a function of the point, a surface with sharp valleys.
+ * A descent method would stop in such a valley. A search on a lattice does not stop there. */
 #include <math.h>
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages about gains.
+/* Writes messages about gains.
  *
  * A message contains a warning if the gains are near the edge of the region of stability. In the
  * exact solution of equation (6) in amplification.c, the slower mode decays by the factor exp(-p)
@@ -28,9 +28,9 @@ static baum_i_text radius_text(double radius)
                : baum_i_text_of("%.6g", radius);
 }
 
-/* The point of the gains lies on a ray that starts at 0. Returns the largest alpha h up to which
- * this ray is stable. Returns NaN if alpha or beta is 0. Also returns NaN if alpha = beta, because
- * messages always state the limit for this ray. */
+/* Returns the alpha h up to which gains with the same ratio alpha / beta are stable. Returns NaN if
+ * alpha or beta is 0. Also returns NaN if alpha = beta, because messages always state the limit for
+ * this ratio. */
 static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
 {
   double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
@@ -133,7 +133,7 @@ typedef struct clause {
   bool warns;
 } clause;
 
-/* The clause about rows of velocity level at a fixed step. */
+/* Writes the clause about rows of velocity level at a fixed step. */
 static clause velocity_clause(const baum_i_gain_draft *gains, const baum_amplification *velocities)
 {
   bool undamped = gains->alpha_h == 0.0;
@@ -166,8 +166,9 @@ static clause fixed_step_clause(const baum_i_gain_context *context, const baum_i
                   !stable || undamped || near_edge};
 }
 
-/* With explicit methods and Adams methods, the error test ensures that violations decay. BDF
- * methods may use orders and steps with which violations grow (statement.c). */
+/* With explicit methods, the limit of the step ensures that violations decay; with Adams methods,
+ * the error test does. BDF methods may use orders and steps with which violations grow
+ * (statement.c). */
 static clause variable_step_clause(const baum_i_gain_context *context,
                                    const baum_i_gain_draft *gains, double max_step)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages that explain why gains were chosen or refused. */
+/* Writes the messages that explain why gains were chosen or refused. */
 #ifndef BAUM_I_STABILIZATION_GAIN_TEXT_H
 #define BAUM_I_STABILIZATION_GAIN_TEXT_H
 
@@ -20,8 +20,8 @@ typedef struct baum_i_gain_draft {
 typedef struct baum_i_two_amplifications {
   baum_amplification positions;
   baum_amplification velocities;
-  /* True if the mechanism has only rows of velocity level, or if these have the larger spectral
-   * radius. */
+  /* True if the mechanism has only rows of velocity level, or if its rows of velocity level have
+   * the larger spectral radius. */
   bool by_velocities;
 } baum_i_two_amplifications;
 
@@ -32,7 +32,7 @@ void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
                          baum_i_gain_choice *choice);
 
 /* Fails with BAUM_ERR_UNSTABLE. The message gives the region of stability, the requested point and
- * the nearest good point. */
+ * the nearest point with a spectral radius of at most 0.9. */
 baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
                                double radius);
 

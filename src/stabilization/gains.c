@@ -4,10 +4,10 @@
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               A and B as given
  *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               (10, 11): A = 1, B = 2
- *   frequency  beta = 2 pi f,  alpha = zeta beta                s^2 + 2 zeta omega s + omega^2
+ *   frequency  beta = omega = 2 pi f,  alpha = zeta omega       s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
  *   best       scaled, with the point of least spectral radius
- *   auto       alpha = beta = c x rate, h alpha <= 0.3          this limit preserves cost and order
+ *   auto       alpha = beta = c * rate, h alpha <= 0.3          this limit preserves cost and order
  *
  * A and B are stored together with alpha and beta. The stability of a rule that is relative to the
  * step is thus checked at exactly the point that the rule gives.
@@ -50,7 +50,7 @@ static const double AUTO_DRIVEN_MULTISTEP = 40.0;
 /* Up to this alpha h, order and cost of a method do not change. */
 static const double AUTO_CAP = 0.3;
 static const double AUTO_AT_REST = 0.01; /* alpha h that is chosen if nothing moves */
-/* A mechanism is considered at rest if rate h is below this. */
+/* A mechanism is considered at rest if the rate of its motion times h is below this. */
 static const double REST = 1e-9;
 /* A dead-beat point has a spectral radius of at most this. */
 static const double DEAD = 1e-6;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains that are computed by a rule. */
+/* Computes gains by a rule. */
 #ifndef BAUM_I_STABILIZATION_GAINS_H
 #define BAUM_I_STABILIZATION_GAINS_H
 
@@ -41,9 +41,9 @@ typedef struct baum_i_gain_choice {
  * Returns BAUM_ERR_ARGUMENT for invalid numbers, and if the rule requires a fixed step but the step
  * is variable. Returns BAUM_ERR_UNSUPPORTED if the method has no dead-beat point. Returns
  * BAUM_ERR_UNSTABLE if the gains are unstable. The message then gives (alpha h, beta^2 h^2), the
- * spectral radius, the stable region and the nearest good pair of gains, in 1/s and multiplied by
- * the step. Gains at which violations neither decay nor grow are accepted with BAUM_OK, and the
- * caller warns. */
+ * spectral radius, the stable region and the nearest pair of gains with a spectral radius of at
+ * most 0.9, in 1/s and multiplied by the step. Gains at which violations neither decay nor grow are
+ * accepted with BAUM_OK, and the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

@@ -6,7 +6,7 @@
  *
  *   3 --2-- 2     edge k is between corners k and k + 1
  *   |       |     a curve enters through k if corner k is inside and k + 1 is not,
- *   3       1     and leaves through k if k is not and k + 1 is
+ *   3       1     and leaves through k if corner k + 1 is inside and k is not
  *   |       |
  *   0 --0-- 1     s to the right, m upwards
  */
@@ -83,7 +83,7 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 /* ---- Curves --------------------------------------------------------------- */
 
 /* Returns the edge through which a curve leaves a square. If only two opposite corners are inside,
- * they are connected if the middle of the square is inside. */
+ * the region connects them if the middle of the square is inside. */
 static int leave(const march *m, const int square[2], int edge)
 {
   bool opposite = is_inside(m, square, edge + 2);

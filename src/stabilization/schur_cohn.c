@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The test of Schur (1917) and Cohn (1922) whether all roots of a polynomial are inside a circle.
+/* Performs the test of Schur (1917) and Cohn (1922), which tells whether all roots of a polynomial
+ * are inside a circle.
  *
  *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)) with coefficients conj(c_(n-k))
  *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
  *
  * On the unit circle, |p| = |p*|. If |c_0| < |c_n|, the term with p is therefore larger there than
- * the term with p*. By Rouche's theorem, Tp then has one root less inside the circle than p. Hence
+ * the term with p*. By Rouche's theorem, Tp then has one root fewer inside the circle than p. Hence
  * all n roots of p are inside if and only if |c_0| < |c_n| and all n - 1 roots of Tp are inside. If
  * |c_0| >= |c_n|, at least one root is not inside, because |c_0 / c_n| is the product of the
- * |roots|. For a circle of radius r, each c_k is replaced by c_k r^k.
+ * magnitudes of all roots. For a circle of radius r, each c_k is replaced by c_k r^k.
  *
  * A bisection of r gives the largest |z|.
  */

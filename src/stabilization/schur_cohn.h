@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests and bounds for the roots of a polynomial with complex coefficients, without computing the
+/* Tests where the roots of a polynomial with complex coefficients are, without computing the
  * roots. */
 #ifndef BAUM_I_STABILIZATION_SCHUR_COHN_H
 #define BAUM_I_STABILIZATION_SCHUR_COHN_H
@@ -19,8 +19,8 @@ typedef struct baum_i_polynomial {
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
 /* Returns the largest |z| of all roots, or infinity on overflow. The relative error is below 1e-9
- * if no other root is as large. For a root of multiplicity m it is about 1e-16^(1/(m+1)), because
- * the test divides by the distance to the last root. c[degree] must be 1. */
+ * if no other root is as large. If the largest root has the multiplicity m, rounding causes a
+ * relative error of about 1e-16^(1/(m+1)). c[degree] must be 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

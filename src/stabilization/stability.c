@@ -24,7 +24,7 @@
 static const double SCAN_RATIO = 1.01; /* ratio of each b to the one before */
 static const double SCAN_END = 1e3;    /* no explicit method is stable for larger |mu| */
 static const double OVERDAMPED = 1e9;  /* the limits do not change for larger zeta */
-/* A ray that is stable only for smaller b is considered unstable. */
+/* A ray that is stable only for b below this is considered unstable. */
 static const double LEAST = 1e-18;
 static const double EQUAL = 1e-13; /* radii that differ by less are considered equal */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
@@ -52,7 +52,7 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* b at which the search begins; if it is stable, all smaller b are stable */
+  double begin; /* first b of the search; if the method is stable there, it is for all smaller b */
   double end;
 } ray;
 

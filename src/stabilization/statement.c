@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts that say with which gains violations decay, for each kind of method.
+/* Contains the texts that say with which gains violations decay, for each kind of method.
  *
  * Explicit methods with variable steps: outside of the region of stability, violations grow until
  * the error test reduces the step (Hairer, Wanner 1996, IV.2). For this reason gains.c limits the
