@@ -122,8 +122,8 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
 
 static int fail_effort(const baum_i_joint *joint, int k)
 {
-  (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: %s is a %s, but only drivers have an effort",
-                    k, baum_i_label(&joint->element).text, joint->type->definition.kind);
+  (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: %s is a %s, but only drivers have an effort", k,
+                    baum_i_label(&joint->element).text, joint->type->definition.kind);
   return -1;
 }
 

@@ -545,7 +545,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {bad_coordinate(parts.pin, (baum_joint_coordinate)17),
      "channel 1: coordinate is \"unknown\", but joint 1 \"pin\", a planar revolute joint, has "
      "\"angle\""},
-    {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "\"pin\", a planar|; only drivers"},
+    {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "\"pin\" is a planar|but only drivers"},
     {baum_channel_of(BAUM_DRIVE_EFFORT), "channel 1: joint is none or not of this mechanism"},
     {baum_channel_of_body(BAUM_BODY_ACCELERATION, BAUM_GROUND), "channel 1: ground has no pose"},
   };
