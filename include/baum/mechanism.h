@@ -143,8 +143,8 @@ typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *us
  *  displacement v. A displacement has `size` numbers, as a velocity has. */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** Computes the displacement dx (size) from one configuration to another. The function `move` of
- *  the same body, called with h = 1 and v = dx, must move `from` to `to`. */
+/** Computes the displacement dx (size) from one configuration to another. If the function `move` of
+ *  the same body starts at `from`, with h = 1 and v = dx, its result must be `to`. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest point of the configuration manifold, for example a quaternion by the

@@ -656,8 +656,8 @@ typedef struct baum_counters {
   int64_t rejected;
   /** [-] shorter steps that a fixed-step method took to reach a requested time off its grid. */
   int64_t short_steps;
-  /** [-] evaluations of the equations of motion: solutions of equation (7), or residuals of an
-   *  implicit method. */
+  /** [-] evaluations of the equations of motion. Most methods solve equation (7) of
+   *  docs/notation.md in each evaluation, and implicit methods compute a residual. */
   int64_t evaluations;
   /** [-] factorizations of the matrix in equation (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;

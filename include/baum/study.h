@@ -185,7 +185,7 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *  be as accurate as its setting suggests, or have a message or a warning that says why it is not.
  *  The option entry_limit bounds the CPU time of entries with tiny steps.
  *  @param study       unchanged on failure
- *  @param integrator  NULL: all integrators of this build that take a step or a tolerance
+ *  @param integrator  NULL: all integrators of this build with an option step or rtol
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
  *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
  *           baum_simulation_create() */

@@ -22,7 +22,8 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [ACROSS] = {"across", "kg m^2", "moment of inertia about a diameter", BAUM_I_POSITIVE},
   [AXIAL] = {"axial", "kg m^2", "moment of inertia about the axis", BAUM_I_POSITIVE},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
-  [TILT] = {"tilt", "rad", "of the axis above the plane, between -pi/2 and pi/2", BAUM_I_ACUTE},
+  [TILT] = {"tilt", "rad", "angle of the axis above the plane, between -pi/2 and pi/2",
+            BAUM_I_ACUTE},
   [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_NONZERO},
 };
 

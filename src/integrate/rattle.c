@@ -69,7 +69,8 @@ typedef struct rattle_run {
   double *q;      /* (nq) end of the step */
   double *v;      /* (nv) v', velocities after the first half of the step */
   double *mean;   /* (nv) velocities that move q; the same array as v unless bodies rotate */
-  /* (nv) they replace gyroscopic moments at the end of the step; NULL: no body rotates */
+  /* (nv) moments that replace the gyroscopic moments at the end of the step; NULL if no body
+   * rotates */
   double *moments;
 } rattle_run;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the nodes of mechanisms in space whose sides come from the blocks of J. With a0 = (x0,
+/* For mechanisms in space: computes the nodes whose sides come from the blocks of J. With a0 = (x0,
  * y0) for each body:
  *
  *   R = (columns of J for w') L^-T,   D = sum over sides of E E^T / m + R R^T,

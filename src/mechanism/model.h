@@ -203,8 +203,8 @@ typedef struct baum_i_point {
 /* Return the frame of a body in the design configuration at rest. May be called before freeze. */
 baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
-/* Create a point with the parameters and the initial inputs of the mechanism. Returns BAUM_OK or
- * BAUM_ERR_MEMORY. The point must be released even after a failure. */
+/* Create an evaluation point, with the parameters and the initial inputs of the mechanism. Returns
+ * BAUM_OK or BAUM_ERR_MEMORY. The point must be released even after a failure. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed point is allowed */
 

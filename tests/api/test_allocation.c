@@ -545,8 +545,9 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
     if (solver == BAUM_SOLVER_AUTO) {
       fail_every_allocation(simulate, &s);
     } else {
-      /* There are thousands of allocations at few places. Only the allocations of the solver differ
-       * from BAUM_SOLVER_AUTO, so it is enough to test one in fifty. */
+      /* A run makes thousands of allocations, but only a few places in the code make them. Only the
+       * allocations of the solver differ from BAUM_SOLVER_AUTO, so it is enough to test one in
+       * fifty. */
       fail_allocations(simulate, &s, 50);
     }
   }

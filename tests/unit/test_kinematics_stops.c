@@ -126,7 +126,8 @@ static void outputs_before_the_lock_up_are_computed(void **state)
   for (int k = 0; k < 3; k++) {
     double x[3];
     slider_crank_motion(&data, -times[k], x);
-    /* At 1e-6 rad, rounding errors are amplified 1e3 times. */
+    /* The last time is 1e-6 rad before the singular configuration, where rounding errors of x are
+     * amplified 1e3 times. */
     ASSERT_NEAR(q[k][SLIDER_X], x[0], 0.0, 1e-12);
   }
   close_run(run, mechanism);

@@ -108,8 +108,8 @@ class Counters(NamedTuple):
     rejected: [-] steps that were repeated, because an error test or an iteration failed.
     short_steps: [-] shorter steps that a fixed-step method took to reach a requested time off
         its grid.
-    evaluations: [-] evaluations of the equations of motion: solutions of equation (7), or
-        residuals of an implicit method.
+    evaluations: [-] evaluations of the equations of motion. Most methods solve equation (7) of
+        docs/notation.md in each evaluation, and implicit methods compute a residual.
     factorizations: [-] factorizations of the matrix in equation (7) and of the matrices of IDA
         and CVODE.
     full_factorizations: [-] factorizations that chose new pivots, which may allocate memory.
