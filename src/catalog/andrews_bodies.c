@@ -162,7 +162,8 @@ const baum_i_catalog_mechanism baum_i_andrews_a03 = {
   .name = "andrews_a03",
   .title = "Andrews' mechanism as 7 rigid bodies, started at beta = -0.062 rad and run for 0.05 s",
   .source = "IFToMM and A Coruna library of benchmarks, A03, with the data of the Bari test set",
-  .provenance = "extrapolation in 160-bit arithmetic; two tolerances agree to 15.5 digits",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 15.5 digits",
   .note = "the published result is only a plot",
   .defaults = (const double[COUNT]){-0.062, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
   .end = 0.05,

@@ -126,8 +126,8 @@ const baum_i_catalog_mechanism baum_i_car_axis = {
   .title = "car axis on a moving bump, given by user functions that depend on time",
   .source = "S. Schneider; Bari test set, caraxis (copy in cran/deTestSet)",
   .provenance =
-    "extrapolation in 160-bit arithmetic; two tolerances agree to 19 digits; the published values "
-    "at 3 s have 12 to 14 digits",
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 19 digits; "
+    "the published values at 3 s agree to 12 to 14 digits",
   .note = "coordinates xl, yl, xr, yr; multipliers have the opposite sign of those of the source",
   .end = 3.0,
   .build = build,

@@ -80,8 +80,8 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .title = "chain of three different uniform rods, from rest",
   .source = "chosen for this catalogue",
   .provenance =
-    "extrapolation in 160-bit arithmetic; two tolerances agree to 19 digits; another model in "
-    "double precision agrees to 14.1 digits",
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 19 digits; "
+    "another model in double precision agrees to 14.1 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS_3, build_3, state_3, "mmr", 3),
   .defaults = (const double[1]){9.81},
   .end = 2.0,

@@ -110,8 +110,8 @@ const baum_i_catalog_mechanism baum_i_flyball = {
   .source = "IFToMM and A Coruna library of benchmarks, A05, with the stiffness, damping and speed "
             "of the example of EXUDYN",
   .provenance =
-    "extrapolation in 160-bit arithmetic; two tolerances agree to 16.2 digits; another model in "
-    "double precision agrees to 12.5 digits",
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.2 digits; "
+    "another model in double precision agrees to 12.5 digits",
   .defaults =
     (const double[COUNT]){5.0, 4000.0, 200.0, 9.81, 0.5235987755982989, 1.0053096491487339},
   BAUM_I_CATALOG_STORED(FLYBALL, 14),
@@ -122,7 +122,8 @@ const baum_i_catalog_mechanism baum_i_flyball_stiff = {
   .name = "flyball_stiff",
   .title = "flyball governor with stiff springs and dampers",
   .source = "IFToMM and A Coruna library of benchmarks, A05",
-  .provenance = "extrapolation in 160-bit arithmetic; two tolerances agree to 14.5 digits",
+  .provenance =
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 14.5 digits",
   .note = "the dampers cause a decay rate of 8100 1/s: explicit methods need short steps",
   .defaults = (const double[COUNT]){5.0, 8e5, 4e4, 9.81, 0.5235987755982989, 6.283185307179586},
   BAUM_I_CATALOG_STORED(FLYBALL_STIFF, 12),

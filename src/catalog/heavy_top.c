@@ -48,9 +48,8 @@ const baum_i_catalog_mechanism baum_i_heavy_top = {
   .name = "heavy_top",
   .title = "heavy top, released with its axis level",
   .source = "O. Bruels, A. Cardona, M. Arnold, Mechanism and Machine Theory 48 (2012) 121",
-  .provenance =
-    "Taylor series of the equations for three angles in 30 digits; two tolerances agree "
-    "to 18.8 digits",
+  .provenance = "Taylor series of the equations for three angles in 30 digits; results with two "
+                "tolerances agree to 18.8 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 1),
   .defaults = (const double[COUNT]){15.0, 1.0, 0.25, 9.81, 150.0, -4.61538},
   .end = 1.0,

@@ -143,8 +143,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank = {
   .title = "centric slider-crank, the crank released at 150 rad/s",
   .source = FLORES,
   .provenance =
-    "extrapolation in 160-bit arithmetic; two tolerances agree to 18 digits; another model "
-    "in double precision agrees to 12.8 digits",
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 18 digits; "
+    "another model in double precision agrees to 12.8 digits",
   .defaults = CENTRIC,
 };
 
@@ -155,8 +155,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
   .title = "eccentric slider-crank, the crank released at 150 rad/s",
   .source = FLORES "; the eccentricity was chosen for this catalogue",
   .provenance =
-    "extrapolation in 160-bit arithmetic; two tolerances agree to 17 digits; another model "
-    "in double precision agrees to 12.8 digits",
+    "extrapolation in 160-bit arithmetic; results with two tolerances agree to 17 digits; "
+    "another model in double precision agrees to 12.8 digits",
   .defaults = baum_i_slider_crank_data,
 };
 

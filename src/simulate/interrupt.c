@@ -3,11 +3,11 @@
  * result of progress(), its time limit, too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
- * explicit method with a stiff force. After every 1e4 steps of a call, the mean length of these steps
- * is compared with the time 1/rate, in which the motion changes. If this time would take more than
- * 1e9 steps of the mean length (the default of max_steps), the run stops. A motion with high gains
- * or stiff forces, in which the method does not get stuck, needs far fewer steps for this time, for
- * example 1e6. */
+ * explicit method with a stiff force. After every 1e4 steps of a call, the mean length of these
+ * steps is compared with the time 1/rate, in which the motion changes. If this time would take
+ * more than 1e9 steps of the mean length (the default of max_steps), the run stops. A motion with
+ * high gains or stiff forces, in which the method does not get stuck, needs far fewer steps for
+ * this time, for example 1e6. */
 #include <math.h>
 
 #include "base/platform.h"

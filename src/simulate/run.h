@@ -53,7 +53,7 @@ struct baum_simulation {
   /* [s] time of the last check of the redundant rows if KLU or QR solves; see rows.c */
   double rows_looked_at;
   double judged_phi; /* max_phi when it was last compared with its limit */
-  /* max_phi_rate when it was last compared with the limit for rows of velocity level */
+  /* max_phi_rate when it was last compared with the limit for non-holonomic rows */
   double judged_phi_rate;
   int64_t near_singular_seen; /* workspace->near_singular at the last check */
   /* for each entry of `warnings`: number of occurrences that a status BAUM_WARNED has reported */

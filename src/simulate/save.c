@@ -393,7 +393,8 @@ static baum_status check_laws(const reader *r, const baum_mechanism *m)
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
   int64_t count = r->parts.count[BAUM_I_SAVED_PARAMETERS];
   if (count != 0 && count != m->parameter_count) {
-    return refuse("is damaged: it has %lld parameters", (long long)count);
+    return refuse("is damaged: its number of parameters is %lld, must be %d", (long long)count,
+                  m->parameter_count);
   }
   for (int k = 0; k < m->joint_count && count > 0; k++) {
     int at = m->joints[k]->element.parameter + BAUM_I_DRIVER_POLYNOMIAL;

@@ -26,8 +26,9 @@ void catalog_tally_add(catalog_tally *sum, const catalog_tally *of);
 /* Returns the number of entries that are wrong: the sum of the last four numbers of the tally. */
 int catalog_tally_wrong(const catalog_tally *of);
 
-/* Runs both studies of a catalogue entry with the settings of `grid`. Counts their entries, and
- * prints entries that are wrong. limit [s] is the option entry_limit of the studies. */
+/* Runs both studies of a catalogue entry with the settings of `grid`. Counts the entries of
+ * the studies, and prints those with wrong results. limit [s] is the option entry_limit of the
+ * studies. */
 baum_status catalog_grid_judge(const baum_catalog_entry *entry, const baum_study_grid *grid,
                                double limit, catalog_tally *out);
 
