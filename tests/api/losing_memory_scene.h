@@ -7,6 +7,7 @@
 
 #include "every_element.h"
 #include "models.h"
+#include "runs.h"
 
 /* ---- scenes, which contain the objects of a call ---- */
 
@@ -40,10 +41,8 @@ static baum_simulation_options rk4_options(double step)
 
 static baum_simulation *start(const scene *s)
 {
-  baum_simulation *run = NULL;
   const baum_simulation_options o = rk4_options(1e-3);
-  assert_int_equal(baum_simulation_create(s->parts.mechanism, &o, &run), BAUM_OK);
-  return run;
+  return create_run(s->parts.mechanism, &o);
 }
 
 static baum_status schedule(const scene *s, baum_simulation *run)

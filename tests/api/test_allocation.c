@@ -14,6 +14,7 @@
 
 #include "every_element.h"
 #include "failing_heap.h"
+#include "runs.h"
 #include "step_mode.h"
 
 #if BAUM_HAVE_SUNDIALS
@@ -114,20 +115,12 @@ static void run_a_while(baum_simulation *run, const every_element *parts,
   assert_int_equal(baum_simulation_get(run, channels, CHANNELS, rows), BAUM_OK);
 }
 
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters;
-}
-
 static void check_steady(const every_element *parts, const baum_simulation_options *o)
 {
   static double rows[SAMPLES * WIDTH_MAX];
   baum_channel channels[CHANNELS];
   (void)make_channels(parts, channels);
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts->mechanism, o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts->mechanism, o);
   run_a_while(run, parts, channels, rows);
   int64_t full = counters_of(run).full_factorizations;
   heap_watch();
@@ -174,8 +167,7 @@ static void jumps_of_inputs_allocate_nothing(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation_options o;
   for (int k = 0; find_pair(k, &o); k++) {
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(parts.mechanism, &o);
     assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, JUMPS),
                      BAUM_OK);
     assert_true(reached_the_end(baum_simulation_advance_to(run, times[4])));

@@ -15,6 +15,7 @@
 
 #include "every_element.h"
 #include "models.h"
+#include "runs.h"
 
 /* Byte positions of the numbers in the header of a buffer. */
 enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 48 };
@@ -38,8 +39,7 @@ static saved save(baum_simulation *run)
 static baum_simulation *start(const baum_mechanism *mechanism,
                               const baum_simulation_options *options, double t)
 {
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, options, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, options);
   assert_true(baum_simulation_advance_to(run, t) >= BAUM_OK);
   return run;
 }

@@ -13,6 +13,7 @@
 
 #include "every_element.h"
 #include "message.h"
+#include "runs.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 
@@ -151,8 +152,7 @@ static void reports_are_cut_to_the_callers_size(void **state)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_euler();
   o.step = 1e-3;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   const size_t size = 3 * sizeof(size_t);
   baum_mobility mobility;
   baum_report report;
@@ -438,10 +438,9 @@ static void outputs_of_a_run_may_not_be_null(void **state)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk2();
   o.step = 1e-3;
-  baum_simulation *run = NULL;
   baum_counters counters;
   baum_warning warning = {.text = "as is"};
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   ASSERT_SAYS(baum_simulation_counters(run, NULL, sizeof counters), BAUM_ERR_ARGUMENT,
               "out is NULL");
   ASSERT_SAYS(baum_simulation_counters(run, &counters, 0), BAUM_ERR_ARGUMENT,
@@ -467,11 +466,10 @@ static void a_run_and_a_workspace_keep_their_mechanism_alive(void **state)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk2();
   o.step = 1e-3;
-  baum_simulation *run = NULL;
   baum_workspace *w = NULL;
   double q[EVERY_NQ];
   double phi[EVERY_NC];
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);
   baum_mechanism_destroy(parts.mechanism);
   assert_int_equal(baum_simulation_advance_to(run, 0.01), BAUM_OK);

@@ -13,6 +13,7 @@
 
 #include "every_element.h"
 #include "message.h"
+#include "runs.h"
 
 static const baum_input_id NONE = {0, 0};
 static const baum_input_id SENTINEL = {77, 88};
@@ -25,9 +26,7 @@ static baum_simulation *start(const baum_mechanism *mechanism)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk2();
   o.step = 1e-3;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
-  return run;
+  return create_run(mechanism, &o);
 }
 
 /* ---- inputs of a mechanism ---- */

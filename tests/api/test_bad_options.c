@@ -15,6 +15,7 @@
 #include "assert_near.h"
 #include "every_element.h"
 #include "message.h"
+#include "runs.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 
@@ -182,8 +183,7 @@ static void check_pair(const baum_mechanism *mechanism, const baum_integrator *i
     if (!every_element_suits(integrator)) {
       return;
     }
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(mechanism, &o);
     baum_simulation_destroy(run);
     return;
   }
@@ -338,11 +338,9 @@ static void check_unstable(const baum_mechanism *mechanism, const baum_integrato
   check_refused(mechanism, &o, BAUM_ERR_UNSTABLE, message);
   read_nearest(good);
   o.gains = baum_gains_scaled(good[0], good[1]);
-  baum_simulation *run = NULL;
-  baum_counters counters;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  baum_counters counters = counters_of(run);
   assert_true(counters.max_phi < most_phi);
   baum_simulation_destroy(run);
 }
@@ -368,8 +366,7 @@ static void unstable_gains_run_when_allowed_and_warn(void **state)
   baum_simulation_options o = good_options();
   o.gains = baum_gains_scaled(0.5, 1.1);
   o.allow_unstable = true;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   baum_warning warning;
   assert_int_equal(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_OK);
   assert_non_null(strstr(warning.text, "UNSTABLE"));
@@ -384,8 +381,7 @@ static baum_simulation *make_run(const every_element *parts)
 {
   baum_simulation_options o = good_options();
   o.formulation = BAUM_FORMULATION_PROJECTION;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts->mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts->mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.05), BAUM_OK);
   return run;
 }

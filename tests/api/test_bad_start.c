@@ -14,6 +14,7 @@
 #include "assert_near.h"
 #include "every_element.h"
 #include "message.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
@@ -134,8 +135,7 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
   def.v[0] = (double)NAN;
   baum_mechanism *mechanism = make_bead(&def);
   baum_simulation_options o = euler_options();
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
@@ -210,8 +210,7 @@ static void given_velocities_that_fit_are_held_exactly(void **state)
   def.v[1] = 0.1;
   baum_mechanism *mechanism = make_bead(&def);
   baum_simulation_options o = euler_options();
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   assert_true(baum_simulation_v(run)[1] == 0.1);
   ASSERT_NEAR(baum_simulation_v(run)[0], 0.0, 0.0, 1e-15);
   baum_simulation_destroy(run);
@@ -278,10 +277,8 @@ static void drivers_may_begin_away_from_the_design(void **state)
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
-  baum_simulation *run = NULL;
-  baum_counters counters;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
+  baum_counters counters = counters_of(run);
   ASSERT_NEAR(counters.start_change, 0.0, 1e-12, 0.0);
   double x = 0.0;
   for (int k = 0; k < BARS; k++) {
@@ -337,11 +334,9 @@ static void a_rough_design_is_assembled_and_reported(void **state)
   def.length = 1.01;
   baum_mechanism *mechanism = make_bead(&def);
   baum_simulation_options o = euler_options();
-  baum_simulation *run = NULL;
-  baum_counters counters;
   double scale = 0.0;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
+  baum_counters counters = counters_of(run);
   assert_int_equal(baum_mechanism_get_characteristic_length(mechanism, &scale), BAUM_OK);
   ASSERT_NEAR(baum_simulation_q(run)[0], 1.01, 1e-10, 0.0);
   ASSERT_NEAR(counters.start_change, 0.01 / scale, 1e-6, 0.0);
@@ -358,8 +353,7 @@ static void a_start_as_given_uses_the_design_unchanged(void **state)
   baum_mechanism *mechanism = make_bead(&def);
   baum_simulation_options o = euler_options();
   o.start = BAUM_START_AS_GIVEN;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   assert_true(baum_simulation_q(run)[0] == 1.0);
   assert_true(baum_simulation_v(run)[0] == 0.0);
   assert_true(baum_simulation_v(run)[1] == -3.0);
@@ -399,10 +393,9 @@ static void check_readable(baum_simulation *run)
 {
   double q[EVERY_NQ];
   const baum_channel channel = baum_channel_of(BAUM_Q);
-  baum_counters counters;
   assert_int_equal(baum_simulation_get(run, &channel, 1, q), BAUM_OK);
   assert_memory_equal(q, baum_simulation_q(run), sizeof q);
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  baum_counters counters = counters_of(run);
   assert_true(counters.steps > 0);
 }
 
@@ -414,8 +407,7 @@ static void check_fault_on_the_way(step_mode mode, int f)
   baum_simulation_options o = start_options(mode);
   /* This ensures that rk8 has made at least one step before a step fails. */
   o.max_step = mode.fixed ? (double)NAN : 0.02;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].message);
   assert_non_null(strstr(baum_simulation_message(run), faults[f].message));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
@@ -464,8 +456,7 @@ static void check_fault_at_create(const baum_integrator *integrator, int f, baum
   bool fixed = baum_integrator_has_fixed_step(integrator);
   baum_simulation_options o = start_options((step_mode){integrator, fixed});
   o.start = start;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   baum_simulation_destroy(run);
   int64_t calls = fault.calls;
   fault.fails = true;
@@ -502,8 +493,7 @@ static void check_single_fault(step_mode mode, int f, int64_t n)
   every_element parts = every_element_make(&fault);
   baum_simulation_options o = start_options(mode);
   o.check_derivatives = false;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(parts.mechanism, &o);
   fault.fails = true;
   fault.from = fault.calls + n;
   baum_status status = baum_simulation_advance_to(run, 0.02);

@@ -16,20 +16,20 @@
 #include "asked.h"
 #include "check.h"
 #include "message.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { GOOD = 5, STEPS = 10, BYTES = 1 << 16 };
 
 static baum_simulation *start(asked *b, step_mode mode)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-6);
   baum_event_def event = baum_event_def_default();
   o.energy_account = true;
   o.progress = asked_progress;
   o.progress_interval = 0.0;
   o.user = b;
-  check(baum_simulation_create(b->mechanism, &o, &run));
+  baum_simulation *run = create_run(b->mechanism, &o);
   event.name = "gate";
   event.function = asked_gate;
   event.user = b;

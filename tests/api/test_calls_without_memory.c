@@ -17,6 +17,7 @@
 #include "every_element.h"
 #include "heap.h"
 #include "report_scene.h"
+#include "runs.h"
 
 enum { BYTES = 1 << 16, TEXT = 256, GRID = 4, WIDTH = 64, TIMES = 4096 };
 
@@ -266,14 +267,12 @@ static const call CALLS[] = {STATUS_CALLS(ROW) VALUE_CALLS(ROW)};
 
 static baum_simulation *start(const every_element *parts)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk4();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
   o.step = 1e-3;
   o.energy_account = true;
-  assert_int_equal(baum_simulation_create(parts->mechanism, &o, &run), BAUM_OK);
-  return run;
+  return create_run(parts->mechanism, &o);
 }
 
 static void make_scene(scene *s)

@@ -14,6 +14,7 @@
 #include "every_element.h"
 #include "message.h"
 #include "models.h"
+#include "runs.h"
 #include "user_models.h"
 
 static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
@@ -31,13 +32,6 @@ static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integ
     fail_msg("%s", baum_message());
   }
   return run;
-}
-
-static int64_t evaluations(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters.evaluations;
 }
 
 /* ---- acceleration ---- */
@@ -179,7 +173,7 @@ static int64_t cost_of(const every_element *parts, const baum_integrator *integr
   baum_simulation *run = run_of(parts->mechanism, integrator, 0.01);
   assert_int_equal(baum_simulation_sample(run, times, SAMPLES, channels, count, rows, NULL),
                    BAUM_OK);
-  int64_t sum = evaluations(run);
+  int64_t sum = counters_of(run).evaluations;
   baum_simulation_destroy(run);
   return sum;
 }
@@ -216,12 +210,12 @@ static void channels_that_follow_from_the_state_call_no_user_function(void **sta
   assert_int_equal(fault.calls, calls);
   const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   const baum_channel phi = baum_channel_of(BAUM_PHI);
-  int64_t solutions = evaluations(run);
+  int64_t solutions = counters_of(run).evaluations;
   calls = fault.calls;
   assert_int_equal(baum_simulation_get(run, &phi, 1, row), BAUM_OK);
   assert_int_equal(baum_simulation_get(run, &energy, 1, row), BAUM_OK);
   assert_true(fault.calls > calls);
-  assert_int_equal(evaluations(run), solutions);
+  assert_int_equal(counters_of(run).evaluations, solutions);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -14,6 +14,7 @@
 
 #include "check.h"
 #include "models.h"
+#include "runs.h"
 
 enum { STEPS = 10000 }; /* after this many steps, a run checks its progress */
 
@@ -49,18 +50,9 @@ static baum_simulation *open_run(const baum_mechanism *m, const baum_integrator 
                                  double rtol)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   o.rtol = rtol;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-  return run;
-}
-
-static int64_t steps_of(baum_simulation *run)
-{
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  return c.steps;
+  return create_run(m, &o);
 }
 
 /* For stability, explicit steps must be at most about 5 / rate = 5e-12 s. The motion takes about 1
@@ -76,7 +68,7 @@ static void a_run_whose_steps_are_too_short_to_reach_the_end_stops_with_a_messag
     const char *message = baum_simulation_message(run);
     assert_non_null(strstr(message, "hardly advances: the last 10000 steps"));
     assert_non_null(strstr(message, "\"pin\" bears the largest load"));
-    assert_true(steps_of(run) == STEPS);
+    assert_true(counters_of(run).steps == STEPS);
     assert_true(baum_simulation_time(run) > 0.0); /* the end of its last step */
     baum_simulation_destroy(run);
   }
@@ -110,7 +102,8 @@ static void a_run_next_to_a_singular_configuration_ends(void **state)
     baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
     baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
     assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
-    assert_true(steps_of(run) <= 2 * STEPS); /* a run that succeeds makes a few hundred steps */
+    assert_true(counters_of(run).steps <=
+                2 * STEPS); /* a run that succeeds makes a few hundred steps */
     baum_simulation_destroy(run);
   }
   model_destroy(&m);

@@ -13,14 +13,13 @@
 
 #include "heap.h"
 #include "pendulum_events.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static baum_simulation *open_mode(const swing *s, step_mode mode)
 {
   baum_simulation_options o = step_mode_options(mode, 0.01, 1e-6);
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(s->mechanism, &o, &run), BAUM_OK);
-  return run;
+  return create_run(s->mechanism, &o);
 }
 
 enum { HEALED = 2 };

@@ -14,6 +14,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "dynamics/dynamics.h"
+#include "runs.h"
 #include "step_mode.h"
 
 /* ---- a bead on a hoop, which is defined only by user functions ---- */
@@ -533,11 +534,10 @@ static void reading_from_a_run_fails_if_a_user_function_fails(void **state)
   fault f = {.from = 0};
   baum_mechanism *m = make_bead((variant){.hoops = 1}, &f);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = baum_rk4();
   o.step = 1e-3;
   o.energy_account = true;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_step(run, 3));
   for (int i = 0; i < 4; i++) {
     f.calls = 0;

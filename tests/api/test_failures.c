@@ -14,6 +14,7 @@
 
 #include "driven.h"
 #include "every_element.h"
+#include "runs.h"
 #include "step_mode.h"
 
 /* ---- a pendulum with a force that can go wrong ---- */
@@ -176,8 +177,7 @@ static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk4();
   o.step = 1e-3;
-  baum_simulation *next = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &next), BAUM_OK);
+  baum_simulation *next = create_run(mechanism, &o);
   if (baum_simulation_continue(next, run) != BAUM_OK) {
     fail_msg("%s", baum_message());
   }
@@ -198,8 +198,7 @@ static void check_failure(const baum_simulation_options *o, const expectation *e
   (void)snprintf(name, sizeof name, "%s %s %s", baum_integrator_name(o->integrator),
                  isnan(o->step) ? "variable" : "fixed", baum_formulation_name(o->formulation));
   baum_mechanism *m = e->fault == FAULT_COUNT ? locking_crank() : pendulum(&now);
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, o);
   now = e->fault;
   baum_status status = baum_simulation_advance_to(run, 2.0);
   double t = baum_simulation_time(run);
@@ -268,8 +267,7 @@ static void a_failure_that_a_method_overcomes_leaves_no_message(void **state)
     fault now = FAULT_NONE;
     baum_mechanism *m = pendulum(&now);
     baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-6);
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m, &o);
     now = FAULT_RETRIES_ONCE;
     assert_int_equal(baum_simulation_advance_to(NULL, 0.2), BAUM_ERR_ARGUMENT);
     if (baum_simulation_advance_to(run, 0.2) == BAUM_OK) {

@@ -14,6 +14,7 @@
 
 #include "message.h"
 #include "models.h"
+#include "runs.h"
 #include "simulate/run.h"
 #include "study_entries.h"
 
@@ -81,8 +82,7 @@ static void a_step_below_the_rounding_of_time_is_an_error(void **state)
   baum_mechanism *m = rod_on_a_pin(false);
   baum_simulation_options o = fixed_step(baum_rk4(), 1e-6);
   o.start_time = 1e12;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_STEP, "t = 1000000000000 s|1e-06 s|rounding");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -99,8 +99,7 @@ static void factors_that_hardly_damp_cause_a_warning(void **state)
   o.gains = baum_gains_scaled(1.0, 1.0);
   o.row_gains = factors;
   o.row_gain_count = 2;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   baum_warning warning = {0};
   assert_int_equal(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_OK);
   assert_int_equal(warning.code, BAUM_WARNING_GAINS);
@@ -125,8 +124,7 @@ static void messages_of_warnings_end_with_the_heading_of_their_entry(void **stat
   longest[sizeof longest - 1] = '\0';
   baum_mechanism *m = rod_on_a_pin(false);
   baum_simulation_options o = fixed_step(baum_euler(), 1e-3);
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   for (int k = 0; k < 2; k++) {
     baum_i_run_warn(run, BAUM_WARNING_SINGULAR_START, 0.25, BAUM_I_NO_JOINT, "short");
     baum_i_run_warn(run, BAUM_WARNING_BRANCH, 0.25, BAUM_I_NO_JOINT, "%s", longest);
@@ -158,8 +156,7 @@ static void a_step_to_infinity_is_an_error(void **state)
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   baum_simulation_options o = fixed_step(baum_euler(), 1e9);
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_NOT_FINITE, "t = 0 s|1e+09 s|not finite");
   assert_true(baum_simulation_time(run) == 0.0);
   baum_simulation_destroy(run);

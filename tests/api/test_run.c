@@ -14,6 +14,7 @@
 #include "assert_near.h"
 #include "every_element.h"
 #include "message.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double STEP = 0.01;
@@ -38,7 +39,7 @@ static baum_simulation_options options_for(const baum_integrator *integrator)
 static scene open_with(const baum_simulation_options *o)
 {
   scene s = {.parts = every_element_make(NULL)};
-  assert_int_equal(baum_simulation_create(s.parts.mechanism, o, &s.run), BAUM_OK);
+  s.run = create_run(s.parts.mechanism, o);
   return s;
 }
 
@@ -58,13 +59,6 @@ static void close_scene(scene *s)
 {
   baum_simulation_destroy(s->run);
   baum_mechanism_destroy(s->parts.mechanism);
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters;
 }
 
 /* Returns the k-th integrator and kind of step that suit this mechanism and are in this build. */

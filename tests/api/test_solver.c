@@ -13,6 +13,7 @@
 #include "check.h"
 #include "message.h"
 #include "models.h"
+#include "runs.h"
 #include "user_models.h"
 
 #define PI 3.14159265358979323846
@@ -29,13 +30,6 @@ static baum_simulation_options euler(baum_solver solver)
   o.step = 1e-6;
   o.solver = solver;
   return o;
-}
-
-static baum_simulation *start(const baum_mechanism *mechanism, const baum_simulation_options *o)
-{
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(mechanism, o, &run));
-  return run;
 }
 
 static void assert_explained(const baum_simulation *run, const char *line)
@@ -203,7 +197,7 @@ static void all_solvers_find_the_same_accelerations_and_multipliers(void **state
   double want[17];
   for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
     baum_simulation_options o = euler(SOLVERS[k]);
-    baum_simulation *run = start(m.mechanism, &o);
+    baum_simulation *run = create_run(m.mechanism, &o);
     double row[17];
     check(baum_simulation_step(run, 100));
     assert_int_equal(baum_channels_width(m.mechanism, channels, 2), 17);
@@ -233,7 +227,7 @@ static void explain_names_the_solver(void **state)
   check(model_slider_crank_build(data, &m));
   for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
     baum_simulation_options o = euler(SOLVERS[k]);
-    baum_simulation *run = start(m.mechanism, &o);
+    baum_simulation *run = create_run(m.mechanism, &o);
     assert_explained(run, lines[k]);
     baum_simulation_destroy(run);
   }
@@ -249,13 +243,13 @@ static void explain_names_the_solver_of_kinematics_and_ida(void **state)
   check(model_slider_crank_build(data, &m));
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
-  baum_simulation *run = start(m.mechanism, &o);
+  baum_simulation *run = create_run(m.mechanism, &o);
   assert_explained(run, "\nsolver        klu on the constraints\n");
   baum_simulation_destroy(run);
 #if BAUM_HAVE_SUNDIALS
   o.integrator = baum_ida();
   o.rtol = 1e-6;
-  run = start(m.mechanism, &o);
+  run = create_run(m.mechanism, &o);
   assert_explained(run, "\nsolver        klu on the Jacobian of the residual; start and "
                         "channels: blocks, 5 nodes");
   baum_simulation_destroy(run);
@@ -269,7 +263,7 @@ static void bodies_with_very_many_joints_are_named(void **state)
   baum_mechanism *m = make_hub(ARMS);
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_step(run, 10));
   assert_explained(run,
                    "\nsolver        klu on the whole system: body 1 \"hub\" has 61 joints, too "
@@ -287,7 +281,7 @@ static void forty_pins_on_a_body_are_accepted_for_blocks(void **state)
   baum_mechanism *m = make_hub(40);
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_step(run, 10));
   /* A node is the pair of rows of one pin. All 41 nodes share the hub, so that each is coupled with
    * every other one. These are 41 x 40 / 2 couplings. */
@@ -301,7 +295,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   (void)state;
   baum_mechanism *m = make_massless();
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   const baum_channel channel = baum_channel_of(BAUM_A);
   double a[2];
   check(baum_simulation_get(run, &channel, 1, a));
@@ -341,7 +335,7 @@ static void masses_unknown_in_the_design_configuration_are_reported(void **state
   o.start_time = 1.5;
   o.step = 0.5;
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   assert_explained(run, "\nsolver        klu on the whole system: mass or force cannot be "
                         "evaluated in the design configuration\n");
   check(baum_simulation_step(run, 1));
@@ -364,9 +358,8 @@ static void the_block_solver_alone_is_refused_close_to_a_singular_configuration(
   assert_refused(m.mechanism, &o, BAUM_ERR_SINGULAR,
                  "t = 0 s|pivots of the block solver are too small");
   o.solver = BAUM_SOLVER_AUTO;
-  baum_simulation *run = start(m.mechanism, &o);
-  baum_counters counters;
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_simulation *run = create_run(m.mechanism, &o);
+  baum_counters counters = counters_of(run);
   assert_true(counters.full_factorizations > 0); /* KLU made these factorizations */
   baum_simulation_destroy(run);
   model_destroy(&m);
@@ -386,7 +379,7 @@ static void a_mechanism_without_joints_has_no_nodes(void **state)
   o.integrator = baum_rk2();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
   o.step = 0.5;
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   assert_explained(run, "\nsolver        blocks, 0 nodes, 0 couplings");
   check(baum_simulation_step(run, 2));
   const double *q = baum_simulation_q(run);

@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "runs.h"
 
 enum { RUNS = 20, TIMES = 3, WIDTH = 6, SIZE = TIMES * WIDTH, BAD = 7 };
 
@@ -85,11 +86,10 @@ static baum_sweep_def sweep_of(arm *a)
 static void run_alone(arm *a, int k, double *rows)
 {
   baum_mechanism *copy = NULL;
-  baum_simulation *run = NULL;
   check(baum_mechanism_copy(a->mechanism, &copy));
   check(change_mass(copy, k, a));
   check(baum_mechanism_freeze(copy));
-  check(baum_simulation_create(copy, &a->options, &run));
+  baum_simulation *run = create_run(copy, &a->options);
   check(baum_simulation_sample(run, times, TIMES, a->channels, 2, rows, NULL));
   baum_simulation_destroy(run);
   baum_mechanism_destroy(copy);

@@ -9,6 +9,7 @@
 
 #include "check.h"
 #include "models.h"
+#include "runs.h"
 
 /* Sizes of arrays. The slider-cranks need the largest ones. */
 enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 };
@@ -53,7 +54,7 @@ static inline watched_run watch(const baum_mechanism *mechanism,
   watched_run out = {0};
   check(baum_mechanism_sizes(mechanism, &out.nq, NULL, &out.nc));
   assert_true(out.nq <= PHYSICS_NQ && out.nc <= PHYSICS_NC);
-  check(baum_simulation_create(mechanism, options, &out.run));
+  out.run = create_run(mechanism, options);
   check(baum_workspace_create(mechanism, &out.workspace));
   return out;
 }
@@ -62,13 +63,6 @@ static inline void unwatch(watched_run *watched)
 {
   baum_simulation_destroy(watched->run);
   baum_workspace_destroy(watched->workspace);
-}
-
-static inline baum_counters read_counters(const watched_run *watched)
-{
-  baum_counters out;
-  check(baum_simulation_counters(watched->run, &out, sizeof out));
-  return out;
 }
 
 static inline double largest_of(const double *values, int count)

@@ -16,6 +16,7 @@
 #include "joint_scenes.h"
 #include "physics_run.h"
 #include "point.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { SIZE = JOINT_SCENE_SIZE_MAX };
@@ -60,19 +61,17 @@ static double kinetic_energy(baum_simulation *run)
 static outcome run_scene(const joint_scene *scene, const baum_simulation_options *options)
 {
   outcome out = {0};
-  baum_counters counters;
-  baum_simulation *run = NULL;
   baum_mechanism *mechanism = joint_scene_make(scene);
   check(baum_mechanism_sizes(mechanism, NULL, &out.nv, NULL));
   assert_true(out.nv <= SIZE);
-  check(baum_simulation_create(mechanism, options, &run));
+  baum_simulation *run = create_run(mechanism, options);
   memcpy(out.start, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
   double kinetic = 0.0;
   for (int k = 1; k <= 10; k++) {
     check(baum_simulation_advance_to(run, 0.1 * k * END));
     kinetic = fmax(kinetic, kinetic_energy(run));
   }
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   memcpy(out.q, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
   out.max_phi = counters.max_phi;
   out.energy_change = fabs(counters.energy_change) / kinetic;
@@ -219,8 +218,7 @@ static void read_start(const baum_mechanism *m, int joint, double out[2])
   const baum_channel channel =
     baum_channel_of_joint(BAUM_JOINT_COORDINATE, baum_i_joint_id(m, joint));
   baum_simulation_options options = reference_options(1e-3);
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_get(run, &channel, 1, out));
   baum_simulation_destroy(run);
 }
@@ -251,9 +249,8 @@ static baum_mechanism *make_driven(const joint_scene *scene)
 static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation_options *options)
 {
   outcome out = {0};
-  baum_simulation *run = NULL;
   check(baum_mechanism_sizes(mechanism, NULL, &out.nv, NULL));
-  check(baum_simulation_create(mechanism, options, &run));
+  baum_simulation *run = create_run(mechanism, options);
   memcpy(out.start, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
   check(baum_simulation_advance_to(run, END));
   memcpy(out.q, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
@@ -303,8 +300,7 @@ static void open_balance(balance *b, const joint_scene *scene, double t)
 {
   baum_mechanism *mechanism = joint_scene_make(scene);
   baum_simulation_options options = reference_options(1e-3);
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   check(baum_simulation_advance_to(run, t));
   test_point_open(&b->p, mechanism);
   b->p.t = t;

@@ -16,6 +16,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { BREAKS = 3 };
@@ -97,9 +98,7 @@ static baum_mechanism *make(bool declared)
 static baum_simulation *open_run(const baum_mechanism *m, step_mode mode)
 {
   baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-  return run;
+  return create_run(m, &o);
 }
 
 static double error_now(const baum_simulation *run)
@@ -108,13 +107,6 @@ static double error_now(const baum_simulation *run)
   double rate = 0.0;
   exact(baum_simulation_time(run), &angle, &rate);
   return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters;
 }
 
 /* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
@@ -224,9 +216,8 @@ static void the_work_over_breaks_equals_the_energy(void **state)
     step_mode mode = step_mode_at(k);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
     o.energy_account = true;
-    baum_simulation *run = NULL;
     baum_energy_account account;
-    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m, &o);
     assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
     double angle = 0.0;
@@ -279,8 +270,7 @@ static void kinematics_crosses_breaks_in_both_directions(void **state)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
   o.check_derivatives = false; /* the law is not smooth */
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   const baum_channel channels[2] = {baum_channel_of_joint(BAUM_JOINT_COORDINATE, motor.joint),
                                     baum_channel_of_joint(BAUM_DRIVE_EFFORT, drive)};
   for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {

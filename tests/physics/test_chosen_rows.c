@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "locked_pair.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double STEP = 1e-3;
@@ -37,11 +38,10 @@ static double apart(const double *a, const double *b)
 static void find_motion(double exact[LOCKED_NV])
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   baum_mechanism *m = locked_pair_make(RATE, true);
   o.integrator = baum_rk8();
   o.rtol = 1e-12;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, END));
   memcpy(exact, baum_simulation_q(run), LOCKED_NV * sizeof *exact);
   baum_simulation_destroy(run);
@@ -52,11 +52,9 @@ static void find_motion(double exact[LOCKED_NV])
  * near-singular intervals, because KLU's pivots do not measure singularity accurately. */
 static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulation_options *o)
 {
-  baum_simulation *run = NULL;
-  baum_counters counters;
-  check(baum_simulation_create(m, o, &run));
+  baum_simulation *run = create_run(m, o);
   baum_status status = baum_simulation_advance_to(run, END);
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   int64_t looks = o->solver == BAUM_SOLVER_KLU ? counters.near_singular_intervals : 0;
   if (status < BAUM_OK || counters.warnings - looks != 1 || counters.branch_warnings != 0) {
     fail_msg("%s, %s, solver %d: %s", baum_integrator_name(o->integrator),
@@ -147,14 +145,12 @@ static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
   baum_mechanism *m = locked_pair_make(RATE, false);
   for (int k = 0; k < 2; k++) {
     baum_simulation_options o = baum_simulation_options_default();
-    baum_simulation *one = NULL;
-    baum_simulation *other = NULL;
     o.integrator = k == 0 ? baum_rk4() : baum_rk8();
     o.step = k == 0 ? STEP : (double)NAN;
     o.rtol = k == 0 ? (double)NAN : RTOL;
     o.energy_account = true;
-    check(baum_simulation_create(m, &o, &one));
-    check(baum_simulation_create(m, &o, &other));
+    baum_simulation *one = create_run(m, &o);
+    baum_simulation *other = create_run(m, &o);
     for (int at = 0; at < 5; at++) {
       size_t size = 0;
       check(baum_simulation_advance_to(one, 0.4 * at + 0.15));

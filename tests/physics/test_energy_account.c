@@ -13,6 +13,7 @@
 
 #include "account_scenes.h"
 #include "physics_run.h"
+#include "runs.h"
 
 enum { WIDTH = 12, KINETIC = 0, POTENTIAL = 1, GAINS = 10, RESIDUAL = 11, TIMES = 8, RUNGS = 3 };
 
@@ -30,7 +31,6 @@ static double close_run(const account_scene *scene, baum_simulation_options opti
   double rows[TIMES][WIDTH];
   double residual = 0.0;
   double size = 0.0;
-  baum_simulation *run = NULL;
   baum_mechanism *m = account_build(scene);
   assert_non_null(m);
   for (int k = 0; k < TIMES; k++) {
@@ -38,7 +38,7 @@ static double close_run(const account_scene *scene, baum_simulation_options opti
   }
   options.energy_account = true;
   options.start = scene->start;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_sample(run, times, TIMES, &channel, 1, rows[0], NULL));
   for (int k = 0; k < TIMES; k++) {
     residual = fmax(residual, fabs(rows[k][RESIDUAL]));
@@ -207,10 +207,9 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   motion out = {.error = 0.0};
   double kinetic = 0.0;
   int32_t nq = 0;
-  baum_simulation *run = NULL;
   options.energy_account = true;
   check(baum_mechanism_sizes(m, &nq, NULL, NULL));
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   for (int k = 0; k < TIMES; k++) {
     baum_energy_account a;
     check(baum_simulation_advance_to(run, account_scenes[ACCOUNT_QUIET].span * (k + 1) / TIMES));

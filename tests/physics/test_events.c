@@ -14,19 +14,13 @@
 #include "assert_near.h"
 #include "methods.h"
 #include "pendulum_events.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double RTOL = 1e-8;
 static const double STEP = 2e-3;
 
 /* ---- runs ---- */
-
-static baum_simulation *open_run(const swing *s, const baum_simulation_options *o)
-{
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(s->mechanism, o, &run), BAUM_OK);
-  return run;
-}
 
 static void close_all(baum_simulation *run, const swing *s)
 {
@@ -121,7 +115,7 @@ static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
   baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-  baum_simulation *run = open_run(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   (void)add_angle(run, &s, 0.0, 0, true);
   double worst = 0.0;
   for (int k = 0; k < 10; k++) {
@@ -191,7 +185,7 @@ static void directions_of_crossings_refer_to_increasing_time(void **state)
     for (int sign = -1; sign <= 1; sign += 2) {
       swing s = swing_make(1.2);
       baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-      baum_simulation *run = open_run(&s, &o);
+      baum_simulation *run = create_run(s.mechanism, &o);
       for (int direction = 0; direction < 3; direction++) {
         (void)add_angle(run, &s, 0.0, direction == 2 ? -1 : direction, false);
       }
@@ -213,7 +207,7 @@ static void simultaneous_events_are_all_reported(void **state)
     step_mode mode = step_mode_at(k);
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-    baum_simulation *run = open_run(&s, &o);
+    baum_simulation *run = create_run(s.mechanism, &o);
     (void)add_angle(run, &s, 0.0, 0, false);
     (void)add_angle(run, &s, 0.0, -1, true);
     (void)add_angle(run, &s, 1e-15, 0, true); /* its angle is reached 1e-15 rad earlier */
@@ -263,7 +257,7 @@ static void simultaneous_terminal_events_stop_the_run_once(void **state)
     baum_joint_id pins[2];
     swing s = {.mechanism = make_mirrored(1.2, pins)};
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-    baum_simulation *run = open_run(&s, &o);
+    baum_simulation *run = create_run(s.mechanism, &o);
     for (int i = 0; i < 2; i++) {
       baum_event_def def = baum_event_def_default();
       def.joint = pins[i];
@@ -288,7 +282,7 @@ static double event_time(step_mode mode)
 {
   swing s = swing_make(1.2);
   baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-  baum_simulation *run = open_run(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   (void)add_angle(run, &s, 0.0, 0, true);
   assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
   double t = baum_simulation_time(run);
@@ -305,7 +299,7 @@ static void an_event_at_the_time_of_an_output_is_found_and_sampled(void **state)
     for (int terminal = 0; terminal < 2; terminal++) {
       swing s = swing_make(1.2);
       baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-      baum_simulation *run = open_run(&s, &o);
+      baum_simulation *run = create_run(s.mechanism, &o);
       (void)add_angle(run, &s, 0.0, 0, terminal != 0);
       double times[4] = {0.3 * t, t, 1.0001 * t, 1.5 * t};
       double rows[12];
@@ -348,7 +342,7 @@ static void a_zero_at_the_start_is_only_reported_when_it_recurs(void **state)
     step_mode mode = step_mode_at(k);
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-    baum_simulation *run = open_run(&s, &o);
+    baum_simulation *run = create_run(s.mechanism, &o);
     /* The run starts 1e-16 rad before the lowest point. This is only a rounding error, so no event
      * may be reported at the start. */
     double v = -2.0 * sqrt(9.81 / 1.25) * sin(0.6);
@@ -373,7 +367,7 @@ static void reversing_at_an_event_does_not_report_it_again(void **state)
     step_mode mode = step_mode_at(k);
     swing s = swing_make(1.2);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-    baum_simulation *run = open_run(&s, &o);
+    baum_simulation *run = create_run(s.mechanism, &o);
     (void)add_angle(run, &s, 0.0, 0, true);
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
     assert_true(is_there(baum_simulation_advance_to(run, 0.0), mode));
@@ -421,7 +415,7 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
    * changes the times of events much less than the time between two events. */
   double h = baum_integrator_order(mode.integrator) == 1 ? 1e-4 : STEP;
   baum_simulation_options o = step_mode_options(mode, h, RANDOM_RTOL);
-  baum_simulation *run = open_run(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   (void)add_angle(run, &s, 0.0, 0, uniform(seed, 0.0, 1.0) < 0.5);
   (void)add_rest(run, 0);
   double end = (4.0 + uniform(seed, 0.1, 0.9)) * s.quarter;

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "physics_run.h"
+#include "runs.h"
 
 enum { NQ_MAX = 21, FORMULATION_COUNT = 5, LOOSEST = 6, TIGHTEST = 13 };
 
@@ -40,13 +41,12 @@ static end run_to(const model *m, const baum_simulation_options *options, double
 {
   end out = {0};
   int32_t nq = 0;
-  baum_simulation *run = NULL;
   check(baum_mechanism_sizes(m->mechanism, &nq, NULL, NULL));
   assert_true(nq <= NQ_MAX);
-  check(baum_simulation_create(m->mechanism, options, &run));
+  baum_simulation *run = create_run(m->mechanism, options);
   out.status = baum_simulation_advance_to(run, t);
   memcpy(out.q, baum_simulation_q(run), (size_t)nq * sizeof *out.q);
-  check(baum_simulation_counters(run, &out.counters, sizeof out.counters));
+  out.counters = counters_of(run);
   baum_simulation_destroy(run);
   return out;
 }

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "physics_run.h"
+#include "runs.h"
 
 enum { LINKS = 100000 / BAUM_TEST_PATIENCE, PER_LINK = 3 };
 
@@ -85,8 +86,7 @@ static void freezing_and_starting_a_run_take_linear_time(void **state)
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_semi_implicit_euler();
   options.step = 1e-4;
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(again, &options, &run));
+  baum_simulation *run = create_run(again, &options);
   baum_mechanism_destroy(again);
   model_destroy(&m);
   before = lap("simulation", before);
@@ -112,8 +112,7 @@ static void projection_works_for_a_straight_chain(void **state)
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk4();
   options.step = 1e-3;
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(m.mechanism, &options, &run));
+  baum_simulation *run = create_run(m.mechanism, &options);
   model_destroy(&m);
   double before = now();
   check(baum_simulation_step(run, 12));

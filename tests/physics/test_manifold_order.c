@@ -16,6 +16,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "manifold_scenes.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { SIZE = MANIFOLD_SIZE, RUNGS = 3 };
@@ -40,11 +41,10 @@ static double error_at(const manifold_scene *scene, const double *want,
 {
   int32_t nq;
   double error = 0.0;
-  baum_simulation *run = NULL;
   baum_mechanism *mechanism = manifold_scene_make(scene);
   options->step = END / steps;
   check(baum_mechanism_sizes(mechanism, &nq, NULL, NULL));
-  check(baum_simulation_create(mechanism, options, &run));
+  baum_simulation *run = create_run(mechanism, options);
   check(baum_simulation_advance_to(run, END));
   for (int i = 0; i < nq; i++) {
     error = fmax(error, fabs(baum_simulation_q(run)[i] - want[i]));

@@ -17,6 +17,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "manifold_scenes.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { SIZE = MANIFOLD_SIZE };
@@ -61,12 +62,11 @@ static baum_simulation_options options_of(const method *with)
 
 static baum_simulation *start(const manifold_scene *scene, const method *with, int32_t *nq)
 {
-  baum_simulation *run = NULL;
   baum_mechanism *mechanism = manifold_scene_make(scene);
   baum_simulation_options options = options_of(with);
   check(baum_mechanism_sizes(mechanism, nq, NULL, NULL));
   assert_true(*nq <= SIZE);
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   baum_mechanism_destroy(mechanism);
   return run;
 }
@@ -134,13 +134,12 @@ static void try_run(const manifold_scene *scene, const method *with, const void 
 {
   int32_t nq;
   baum_simulation *run = start(scene, with, &nq);
-  baum_counters counters;
   for (int k = 1; k <= 5; k++) {
     advance(run, scene, with, 0.2 * k * END);
     expect("the distance from the manifold", off_manifold(scene, baum_simulation_q(run)), 1e-15,
            scene, with);
   }
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   double most = allowed(with);
   expect("the error", apart(baum_simulation_q(run), want, nq), most, scene, with);
   bool projected = with->formulation == BAUM_FORMULATION_PROJECTION;
@@ -163,10 +162,9 @@ static void every_method_reproduces_the_motion_of_every_scene(void **state)
 
 static const double *twin_at(const manifold_scene *scene, const method *with, double *q)
 {
-  baum_simulation *run = NULL;
   baum_mechanism *mechanism = manifold_scene_make_twin(scene);
   baum_simulation_options options = options_of(with);
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   advance(run, scene, with, END);
   scene->translate(baum_simulation_q(run), q);
   baum_simulation_destroy(run);
@@ -208,16 +206,14 @@ static void steps_along_the_manifold_equal_those_of_the_twin(void **state)
 
 static double estimate_of(const baum_mechanism *mechanism)
 {
-  baum_simulation *run = NULL;
-  baum_counters counters;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_semi_implicit_euler();
   options.formulation = BAUM_FORMULATION_UNSTABILIZED;
   options.step = 1e-3;
   options.error_check = true;
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   check(baum_simulation_advance_to(run, END));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   baum_simulation_destroy(run);
   return counters.error_estimate;
 }
@@ -375,8 +371,7 @@ static void events_are_found(void **state)
 static double residual_of(const baum_mechanism *mechanism, const baum_simulation_options *options)
 {
   baum_energy_account account;
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(mechanism, options, &run));
+  baum_simulation *run = create_run(mechanism, options);
   check(baum_simulation_advance_to(run, END));
   check(baum_simulation_energy_account(run, &account, sizeof account));
   baum_simulation_destroy(run);
@@ -425,8 +420,7 @@ static void kinematics_follows_the_driver(void **state)
   baum_mechanism *mechanism = manifold_scene_make(scene);
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_kinematics();
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   for (int k = 1; k <= 40; k++) { /* 2.5 revolutions */
     double want[SIZE];
     check(baum_simulation_advance_to(run, 0.1 * k));
@@ -451,11 +445,10 @@ static crossed cross(const baum_mechanism *mechanism, const baum_simulation_opti
 {
   crossed out;
   int32_t nq;
-  baum_simulation *run = NULL;
   check(baum_mechanism_sizes(mechanism, &nq, NULL, NULL));
-  check(baum_simulation_create(mechanism, options, &run));
+  baum_simulation *run = create_run(mechanism, options);
   check(baum_simulation_advance_to(run, 1.0));
-  check(baum_simulation_counters(run, &out.counters, sizeof out.counters));
+  out.counters = counters_of(run);
   memcpy(out.q, baum_simulation_q(run), (size_t)nq * sizeof *out.q);
   baum_simulation_destroy(run);
   return out;

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { CRANK, ROD, SLIDER, BOB, BODIES, NUMBERS = 2 * 3 + 7, MOST = 32 };
@@ -172,11 +173,10 @@ static outcome run_to(bool spatial, bool driven, double end, const baum_simulati
 {
   outcome out;
   assembly s = make(spatial, driven);
-  baum_simulation *run = NULL;
   baum_channel reaction = baum_channel_of(BAUM_JOINT_REACTION);
   const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   reaction.joint = s.ball;
-  check(baum_simulation_create(s.mechanism, options, &run));
+  baum_simulation *run = create_run(s.mechanism, options);
   check(baum_simulation_advance_to(run, end));
   for (int k = 0; k < BODIES; k++) {
     int32_t first;
@@ -424,12 +424,11 @@ static double residual(const baum_mechanism *m, double t, const double *q, const
 
 static void check_kind(baum_mechanism *m, int kind)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk8();
   options.formulation = BAUM_FORMULATION_PROJECTION;
   options.rtol = 1e-9;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_advance_to(run, 0.3));
   double left = residual(m, 0.3, baum_simulation_q(run), baum_simulation_v(run));
   if (!(left <= 1e-10)) {

@@ -17,6 +17,7 @@
 #include "catalog/parts.h"
 #include "check.h"
 #include "quad_rows.h"
+#include "runs.h"
 
 enum { NV = 9 };
 
@@ -275,7 +276,6 @@ static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m
 {
   baum_i_parts parts = baum_i_parts_begin();
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   options.integrator = baum_rk8();
   options.rtol = 1e-8;
   for (int k = 0; k < 2; k++) {
@@ -287,8 +287,7 @@ static baum_simulation *start_pendulums(const double rate[2], baum_mechanism **m
     }
   }
   check(baum_i_parts_finish(&parts, m));
-  check(baum_simulation_create(*m, &options, &run));
-  return run;
+  return create_run(*m, &options);
 }
 
 static void velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large(void **state)
@@ -296,9 +295,8 @@ static void velocities_of_locked_bodies_warn_if_small_and_are_refused_if_large(v
   (void)state;
   baum_mechanism *m = NULL;
   baum_simulation *run = start_pendulums((double[2]){1.0, 1e-4}, &m);
-  baum_counters counters;
   baum_warning warning;
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   assert_int_equal(counters.warnings, 2); /* the second warning says that one row is redundant */
   check(baum_simulation_warning(run, 0, &warning, sizeof warning));
   assert_int_equal(warning.code, BAUM_WARNING_LOOSE_VELOCITIES);
@@ -326,7 +324,6 @@ static void velocities_of_locked_bodies_count_as_rest_if_they_are_rounding(void 
     baum_i_parts parts = baum_i_parts_begin();
     baum_simulation_options options = baum_simulation_options_default();
     baum_mechanism *m = NULL;
-    baum_simulation *run = NULL;
     options.integrator = baum_rk8();
     options.rtol = 1e-8;
     baum_body_id rod =
@@ -337,7 +334,7 @@ static void velocities_of_locked_bodies_count_as_rest_if_they_are_rounding(void 
     }
     check(baum_mechanism_set_gravity(parts.mechanism, 0.0, with_gravity * -9.81, 0.0));
     check(baum_i_parts_finish(&parts, &m));
-    check(baum_simulation_create(m, &options, &run));
+    baum_simulation *run = create_run(m, &options);
     baum_simulation_destroy(run);
     baum_mechanism_destroy(m);
   }

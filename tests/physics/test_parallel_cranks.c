@@ -15,6 +15,7 @@
 
 #include "check.h"
 #include "models.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { NV = 12 };
@@ -75,10 +76,8 @@ static double swing(double span)
 static baum_simulation *start(const model *m, step_mode mode, baum_formulation formulation)
 {
   baum_simulation_options options = step_mode_options(mode, STEP, RTOL);
-  baum_simulation *run = NULL;
   options.formulation = formulation;
-  check(baum_simulation_create(m->mechanism, &options, &run));
-  return run;
+  return create_run(m->mechanism, &options);
 }
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
@@ -99,9 +98,8 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
 {
   model m = make(false);
   baum_simulation *run = start(&m, mode, formulation);
-  baum_counters counters;
   check(baum_simulation_advance_to(run, END));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   double error = fabs(baum_simulation_q(run)[2] - want);
   printf("%-20s %-8s %-12s error %.1e, violation %.1e\n", baum_integrator_name(mode.integrator),
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
@@ -132,15 +130,13 @@ static void every_stabilized_method_makes_full_revolutions(void **state)
 
 static void goes_on_a_second(const model *m, baum_solver solver)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
-  baum_counters counters;
   options.integrator = baum_rk4();
   options.step = STEP;
   options.solver = solver;
-  check(baum_simulation_create(m->mechanism, &options, &run));
+  baum_simulation *run = create_run(m->mechanism, &options);
   check(baum_simulation_advance_to(run, 1.0));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   assert_true(fabs(baum_simulation_q(run)[2] - swing(1.0)) <= 1e-9);
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
@@ -178,11 +174,10 @@ static void setting_a_state_chooses_again_which_rows_are_omitted(void **state)
   baum_simulation *from = start(&there, rk8, BAUM_FORMULATION_PROJECTION);
   baum_simulation *to = start(&here, rk8, BAUM_FORMULATION_PROJECTION);
   for (double t = 0.05; t < 0.8; t += 0.05) {
-    baum_counters counters;
     check(baum_simulation_advance_to(from, t));
     check(baum_simulation_set_state(to, t, baum_simulation_q(from), baum_simulation_v(from)));
     check(baum_simulation_advance_to(to, t + 0.2));
-    check(baum_simulation_counters(to, &counters, sizeof counters));
+    baum_counters counters = counters_of(to);
     /* The limit is 100 rtol. */
     assert_true(fabs(baum_simulation_q(to)[2] - swing(t + 0.2)) <= 1e-6);
     assert_int_equal(counters.near_singular_intervals, 0);
@@ -199,19 +194,16 @@ static void changing_the_omitted_rows_keeps_a_given_violation(void **state)
   (void)state;
   model m = make(false);
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
-  baum_counters counters;
   double q[NV];
   options.integrator = baum_rk4();
   options.step = STEP;
   options.formulation = BAUM_FORMULATION_UNSTABILIZED;
   options.start = BAUM_START_AS_GIVEN;
-  check(baum_simulation_create(m.mechanism, &options, &run));
+  baum_simulation *run = create_run(m.mechanism, &options);
   memcpy(q, baum_simulation_q(run), sizeof q);
   q[0] += 1e-6;
   check(baum_simulation_set_state(run, 0.0, q, baum_simulation_v(run)));
   check(baum_simulation_advance_to(run, 0.3)); /* a third of a revolution */
-  check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(fabs(baum_simulation_q(run)[0] - cos(baum_simulation_q(run)[2]) / 2) > 1e-7);
   assert_true(fabs(baum_simulation_q(run)[2] - swing(0.3)) <= 1e-3);
   baum_simulation_destroy(run);
@@ -221,12 +213,10 @@ static void changing_the_omitted_rows_keeps_a_given_violation(void **state)
 static baum_simulation *start_with_account(const model *m, const baum_integrator *integrator)
 {
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   options.integrator = integrator;
   options.rtol = RTOL;
   options.energy_account = true;
-  check(baum_simulation_create(m->mechanism, &options, &run));
-  return run;
+  return create_run(m->mechanism, &options);
 }
 
 /* A buffer is restored in a run that omits other rows than the saved run. This run must then omit

@@ -24,6 +24,7 @@
 
 #include "check.h"
 #include "models.h"
+#include "runs.h"
 
 enum { WIDEST = 21, STEPS = 400, PARTS = 4000, SAMPLES = 37 };
 
@@ -126,9 +127,8 @@ static void assert_kept(const baum_mechanism *mechanism, const scene *of,
   o.integrator = integrator;
   o.formulation = BAUM_FORMULATION_PROJECTION;
   *(fixed ? &o.step : &o.rtol) = fixed ? of->span / PARTS : 1e-6;
-  baum_simulation *run = NULL;
   looked_on at = look_on(mechanism, of);
-  check(baum_simulation_create(mechanism, &o, &run));
+  baum_simulation *run = create_run(mechanism, &o);
   step_through(&at, run);
   sample_through(&at, run, 0.2 * of->span);
   printf("%-22s %-20s %-4s %10.3f %10.3f\n", of->name, baum_integrator_name(integrator),

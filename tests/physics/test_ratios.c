@@ -14,6 +14,7 @@
 
 #include "base/rotation.h"
 #include "check.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double PITCH = -0.05;       /* [m] */
@@ -160,13 +161,11 @@ static double ratio_error(baum_simulation *run, const train *t)
 
 static baum_simulation *start(const train *t, const baum_integrator *integrator, double step)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   o.formulation = BAUM_FORMULATION_PROJECTION;
   o.step = step;
-  check(baum_simulation_create(t->mechanism, &o, &run));
-  return run;
+  return create_run(t->mechanism, &o);
 }
 
 /* The train makes a whole oscillation. The run is saved and restored several times. */
@@ -261,11 +260,10 @@ static void check_method(step_mode mode, baum_formulation formulation)
 {
   static const double speed = 4.0, end = 1.0;
   train t = make(speed);
-  baum_simulation *run = NULL;
   baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-8);
   double x[READ];
   o.formulation = formulation;
-  check(baum_simulation_create(t.mechanism, &o, &run));
+  baum_simulation *run = create_run(t.mechanism, &o);
   check(baum_simulation_advance_to(run, end));
   read(run, &t, x);
   double error = fabs(x[0] - speed / frequency() * sin(frequency() * end));
@@ -326,10 +324,9 @@ static void rates_are_equal_at_any_angle(void **state)
     motor.rate = 3.0;
     check(baum_mechanism_add_driver(m, &motor, NULL));
     check(baum_mechanism_freeze(m));
-    baum_simulation *run = NULL;
     baum_simulation_options o = baum_simulation_options_default();
     o.integrator = baum_kinematics();
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     for (int i = 1; i <= 20; i++) {
       double both[2];
       const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, bearings[1]);

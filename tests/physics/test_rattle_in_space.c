@@ -16,6 +16,7 @@
 #include "check.h"
 #include "message.h"
 #include "rotation.h"
+#include "runs.h"
 #include "spatial_scenes.h"
 
 /* ---- mechanisms ---- */
@@ -81,21 +82,13 @@ static baum_mechanism *make(build_fn *build)
 
 static baum_simulation *start(build_fn *build, const baum_integrator *integrator, double step)
 {
-  baum_simulation *run = NULL;
   baum_mechanism *m = make(build);
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = integrator;
   options.step = step;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   baum_mechanism_destroy(m);
   return run;
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters out;
-  check(baum_simulation_counters(run, &out, sizeof out));
-  return out;
 }
 
 static double apart(const double *a, const double *b, int count)
@@ -367,12 +360,11 @@ static void build_framed_rssr(baum_mechanism *m)
 static void end_of(build_fn *build, baum_solver solver, double *q)
 {
   baum_mechanism *m = make(build);
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rattle();
   options.step = 2e-3;
   options.solver = solver;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_advance_to(run, 0.5));
   memcpy(q, baum_simulation_q(run), SPATIAL_RSSR_NQ * sizeof *q);
   baum_simulation_destroy(run);
@@ -469,13 +461,12 @@ static void fast_gyroscopes_precess_steadily(void **state)
 static double residual_at(double step)
 {
   baum_mechanism *m = make(spatial_build_rssr);
-  baum_simulation *run = NULL;
   baum_energy_account account;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rattle();
   options.step = step;
   options.energy_account = true;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_advance_to(run, 0.5));
   check(baum_simulation_energy_account(run, &account, sizeof account));
   baum_simulation_destroy(run);

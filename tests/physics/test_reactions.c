@@ -12,6 +12,7 @@
 
 #include "check.h"
 #include "redundant_mechanism.h"
+#include "runs.h"
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
@@ -22,11 +23,9 @@ static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 static baum_simulation *run_bracket(const baum_mechanism *m)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = baum_rk4();
   o.step = 1e-3;
-  check(baum_simulation_create(m, &o, &run));
-  return run;
+  return create_run(m, &o);
 }
 
 /* Checks that the reaction of the joint balances the weight of the heavy body, 9.81 N, and its

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "posed.h"
+#include "runs.h"
 
 enum { POSES = 8 };
 
@@ -166,13 +167,12 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
     .which = MODEL_TWO_CRANKS, .angle = 1.0, .doubled = doubled};
   const baum_channel channel = baum_channel_of(BAUM_LAMBDA);
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   model m;
   options.integrator = baum_rk4();
   options.step = 1e-3;
   options.solver = solver;
   check(model_parallelogram_build_of(&data, &m));
-  check(baum_simulation_create(m.mechanism, &options, &run));
+  baum_simulation *run = create_run(m.mechanism, &options);
   check(baum_simulation_step(run, 10));
   check(baum_simulation_get(run, &channel, 1, lambda));
   check(baum_simulation_unique_multipliers(run, unique));
@@ -282,12 +282,10 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
     options.integrator = baum_rk4();
     options.formulation = BAUM_FORMULATION_PROJECTION;
     options.step = 1e-3;
-    baum_simulation *run = NULL;
-    baum_counters counters;
     model m = tell_apart(k, NULL);
-    check(baum_simulation_create(m.mechanism, &options, &run));
+    baum_simulation *run = create_run(m.mechanism, &options);
     check(baum_simulation_advance_to(run, 0.1));
-    check(baum_simulation_counters(run, &counters, sizeof counters));
+    baum_counters counters = counters_of(run);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
     /* For this motion, th'^2 / 2 + k sin th is constant. If the run starts in a flat configuration,
@@ -348,7 +346,6 @@ static void a_coupling_of_both_hinges_of_a_door_is_redundant(void **state)
   double q[2][7];
   for (int k = 0; k < 2; k++) {
     baum_mobility mobility;
-    baum_simulation *run = NULL;
     baum_simulation_options o = baum_simulation_options_default();
     baum_mechanism *m = make_door(k == 1);
     check(baum_mechanism_mobility(m, &mobility, sizeof mobility));
@@ -356,7 +353,7 @@ static void a_coupling_of_both_hinges_of_a_door_is_redundant(void **state)
     assert_int_equal(mobility.redundant_rows, 5 + k);
     o.integrator = baum_rk8();
     o.rtol = 1e-10;
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     check(baum_simulation_advance_to(run, 1.0));
     memcpy(q[k], baum_simulation_q(run), sizeof q[k]);
     baum_simulation_destroy(run);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "physics_run.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { NV = 12 };
@@ -109,8 +110,7 @@ static double apart(const double a[NV], const double b[NV])
 
 static void run_alone(comparison *c, const baum_simulation_options *options)
 {
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(c->without.mechanism, options, &run));
+  baum_simulation *run = create_run(c->without.mechanism, options);
   check(baum_simulation_advance_to(run, END));
   memcpy(c->alone, baum_simulation_q(run), sizeof c->alone);
   c->own = apart(c->alone, c->exact);
@@ -132,11 +132,9 @@ static void compare(const method *with, void *context)
   if (with->solver == SOLVERS[0]) {
     run_alone(c, &options);
   }
-  baum_simulation *run = NULL;
-  baum_counters counters;
-  check(baum_simulation_create(c->with.mechanism, &options, &run));
+  baum_simulation *run = create_run(c->with.mechanism, &options);
   check(baum_simulation_advance_to(run, END));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   double off = apart(baum_simulation_q(run), c->alone);
   if (with->solver == SOLVERS[0]) {
     printf("%-20s %-8s %-12s error %.1e, apart %.1e\n", baum_integrator_name(options.integrator),
@@ -208,11 +206,9 @@ static void part(const method *with, void *context)
   const baum_mechanism *const *mechanisms = context;
   for (int k = 0; k < 2; k++) {
     baum_simulation_options options = options_of(with);
-    baum_simulation *run = NULL;
-    baum_counters counters;
-    check(baum_simulation_create(mechanisms[k], &options, &run));
+    baum_simulation *run = create_run(mechanisms[k], &options);
     check(baum_simulation_advance_to(run, END));
-    check(baum_simulation_counters(run, &counters, sizeof counters));
+    baum_counters counters = counters_of(run);
     bool warned =
       warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "the warning about a violated row is missing or unjustified",

@@ -14,6 +14,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "quad.h"
+#include "runs.h"
 #include "step_mode.h"
 
 /* ---- reduced equations ----
@@ -211,12 +212,10 @@ static double difference_from(const baum_simulation *run, const double want[STAT
 
 static baum_simulation *create(const baum_mechanism *m, double rtol)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk8();
   options.rtol = rtol;
-  check(baum_simulation_create(m, &options, &run));
-  return run;
+  return create_run(m, &options);
 }
 
 /* ---- general motion ---- */
@@ -230,13 +229,12 @@ static void general_motion_follows_the_reduced_equations(void **state)
   static const double rims[LEGS] = {0.0, 0.1};
   for (int k = 0; k < LEGS; k++) {
     double want[STATE], coarse[STATE];
-    baum_counters counters;
     reduce(GENERAL, 10.0, STEPS, rims[k], want);
     reduce(GENERAL, 10.0, STEPS / 2, rims[k], coarse);
     baum_mechanism *m = make_disc(GENERAL, rims[k]);
     baum_simulation *run = create(m, 1e-12);
     check(baum_simulation_advance_to(run, 10.0));
-    check(baum_simulation_counters(run, &counters, sizeof counters));
+    baum_counters counters = counters_of(run);
     /* the error of `coarse` is 32 times that of `want` */
     ASSERT_NEAR(difference_from(run, coarse), 0.0, 0.0, 1e-8);
     ASSERT_NEAR(difference_from(run, want), 0.0, 0.0, 1e-9);
@@ -264,10 +262,9 @@ static double allowed(step_mode mode, baum_formulation formulation)
 static void roll(const baum_mechanism *m, step_mode mode, baum_formulation formulation,
                  const double want[STATE])
 {
-  baum_simulation *run = NULL;
   baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-8);
   options.formulation = formulation;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(step_mode_advance(mode, run, 1.0));
   double error = difference_from(run, want);
   if (!(error <= allowed(mode, formulation))) {

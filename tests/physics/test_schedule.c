@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { JUMPS = 3 };
@@ -81,10 +82,8 @@ static void schedule(baum_simulation *run, const disc *d)
 static baum_simulation *open_mode(const disc *d, step_mode mode, bool account)
 {
   baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
-  baum_simulation *run = NULL;
   o.energy_account = account;
-  assert_int_equal(baum_simulation_create(d->mechanism, &o, &run), BAUM_OK);
-  return run;
+  return create_run(d->mechanism, &o);
 }
 
 static void close_all(baum_simulation *run, disc *d)
@@ -144,13 +143,6 @@ static double allowed(step_mode mode)
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
   bool first = baum_integrator_order(mode.integrator) == 1;
   return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters;
 }
 
 /* ---- the free disc ---- */
@@ -319,8 +311,7 @@ static void kinematics_gives_the_effort_for_the_present_input(void **state)
   disc d = make(true);
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(d.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(d.mechanism, &o);
   schedule(run, &d);
   const baum_channel channels[2] = {baum_channel_of_joint(BAUM_DRIVE_EFFORT, d.motor),
                                     baum_channel_of_joint(BAUM_JOINT_COORDINATE, d.pin)};

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "runs.h"
 #include "singular_scenes.h"
 
 /* [rad] If the error of a run is larger than this, the run is on another branch. Branches differ by
@@ -123,15 +124,13 @@ static void near_singular_intervals_report_time_joint_and_branch(void **state)
   model_n_four_bar data = model_n_four_bar_a02(1);
   assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   options.integrator = baum_rk4();
   options.step = 5e-3;
   options.formulation = BAUM_FORMULATION_PROJECTION;
-  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &options);
   assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_WARNED);
-  baum_counters c;
   baum_near_singular entry;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   assert_int_equal(c.near_singular_intervals, 1);
   assert_int_equal(c.branch_warnings, 0);
   assert_int_equal(baum_simulation_near_singular(run, 0, &entry, sizeof entry), BAUM_OK);
@@ -161,16 +160,14 @@ static void near_singular_intervals_report_time_joint_and_branch(void **state)
 static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
                    double rtol, double *angle)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = method;
   options.formulation = formulation;
   options.rtol = rtol;
   options.max_steps = 10000;
-  assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m->mechanism, &options);
   baum_status status = baum_simulation_advance_to(run, 10.0);
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   *angle = baum_simulation_q(run)[2];
   baum_simulation_destroy(run);
   return status >= BAUM_OK && c.doubts == 0;
@@ -208,8 +205,6 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
                           double end)
 {
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
-  baum_counters c;
   assert_int_equal(built, BAUM_OK);
   options.integrator = method;
   options.formulation = BAUM_FORMULATION_PROJECTION;
@@ -218,9 +213,9 @@ static void assert_silent(baum_status built, model *m, const baum_integrator *me
   } else {
     options.rtol = 1e-6;
   }
-  assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m->mechanism, &options);
   assert_true(baum_simulation_advance_to(run, end) >= BAUM_OK); /* the run may give a warning */
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   assert_int_equal(c.near_singular_intervals, 0);
   assert_int_equal(c.branch_warnings, 0);
   assert_int_equal(c.forced_steps, 0);
@@ -290,11 +285,9 @@ static baum_mechanism *build_taut_rod(double mass, double direction)
 static baum_counters run_taut_rod(double mass, double direction, const baum_simulation_options *o)
 {
   baum_mechanism *m = build_taut_rod(mass, direction);
-  baum_simulation *run = NULL;
-  baum_counters c;
-  assert_int_equal(baum_simulation_create(m, o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, o);
   assert_true(baum_simulation_advance_to(run, 1.5) >= BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
   return c;

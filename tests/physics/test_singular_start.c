@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "models.h"
+#include "runs.h"
 
 /* The largest allowed number of accepted and rejected steps together. A run leaves the singular
  * configuration in a few steps, or it ends after 10 unsuccessful attempts. The largest number that
@@ -25,24 +26,21 @@ static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 static baum_simulation *create(const model *m, const baum_integrator *integrator, double rtol)
 {
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   options.integrator = integrator;
   options.formulation = BAUM_FORMULATION_PROJECTION;
   options.rtol = rtol;
-  assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
-  return run;
+  return create_run(m->mechanism, &options);
 }
 
 /* Advances to `end`. Checks that the run needs only few steps to reach `end` or to stop with a
  * message. */
 static baum_status run_to(baum_simulation *run, double end)
 {
-  baum_counters c;
   baum_status status = baum_simulation_advance_to(run, end);
   if (status < BAUM_OK) {
     assert_non_null(strstr(baum_simulation_message(run), "at the last good step"));
   }
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   assert_true(c.steps + c.rejected <= MOST_TRIES);
   return status;
 }

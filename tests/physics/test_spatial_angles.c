@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "runs.h"
 
 static const double RATE = 40.0;
 
@@ -49,7 +50,6 @@ static baum_mechanism *make(bool driven, baum_joint_id *bearing)
 
 static baum_simulation *start(const baum_mechanism *m, const baum_integrator *integrator)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   if (integrator == baum_rk4() || integrator == baum_generalized_alpha()) {
@@ -57,8 +57,7 @@ static baum_simulation *start(const baum_mechanism *m, const baum_integrator *in
   } else if (integrator != baum_kinematics()) {
     o.rtol = 1e-7;
   }
-  check(baum_simulation_create(m, &o, &run));
-  return run;
+  return create_run(m, &o);
 }
 
 /* [N m/rad] Stiffness of a torsion spring. The rotor winds it up by up to 20 rad. */
@@ -184,11 +183,9 @@ static void revolutions_of_a_set_state_are_counted_from_the_present_angle(void *
   o.integrator = baum_rk4();
   o.step = 1e-3 / RATE;
   for (int k = 0; k < 6; k++) {
-    baum_simulation *run = NULL;
-    baum_simulation *ahead = NULL;
     double from = (0.5 + 0.017 * k) / RATE;
-    check(baum_simulation_create(m, &o, &run));
-    check(baum_simulation_create(m, &o, &ahead));
+    baum_simulation *run = create_run(m, &o);
+    baum_simulation *ahead = create_run(m, &o);
     check(baum_simulation_advance_to(run, from));
     check(baum_simulation_advance_to(ahead, from + AHEAD / RATE));
     check(baum_simulation_set_state(run, from, baum_simulation_q(ahead), baum_simulation_v(ahead)));
@@ -256,16 +253,14 @@ static void check_energies(winding which)
 {
   baum_joint_id bearing;
   baum_mechanism *m = make_wound(which, 0.5, &bearing);
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
-  baum_counters counters;
   baum_energy_account account;
   double energy[2];
   o.integrator = baum_rk4();
   o.step = 0.01;
   o.energy_account = true;
   o.error_check = true;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, 0.8));
   double angle = angle_of(run, bearing);
   assert_true(angle > 10.0);
@@ -276,7 +271,7 @@ static void check_energies(winding which)
   check(baum_simulation_energy_account(run, &account, sizeof account));
   assert_true(account.dampers < -0.9 * 0.5 * RATE * RATE);
   assert_true(fabs(account.residual) < 1e-5 * 0.5 * RATE * RATE); /* the error of rk4 */
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   assert_true(counters.error_estimate < 1e-3);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

@@ -15,6 +15,7 @@
 
 #include "base/rotation.h"
 #include "check.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { SIX = 6 };
@@ -203,7 +204,6 @@ static void small_motions_are_those_of_the_linear_equations(void **state)
   for (int n = 0; n < 2; n++) {
     const double amplitude = amplitudes[n];
     baum_mechanism *m = NULL;
-    baum_simulation *run = NULL;
     double q[7] = {0.0};
     double v[SIX];
     double y[2 * SIX];
@@ -224,7 +224,7 @@ static void small_motions_are_those_of_the_linear_equations(void **state)
     baum_simulation_options o = baum_simulation_options_default();
     o.integrator = baum_rk8();
     o.step = 1e-3;
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     check(baum_simulation_set_state(run, 0.0, q, v));
     check(baum_simulation_advance_to(run, 2.0));
     linear_motion(2.0, y);
@@ -284,11 +284,10 @@ enum { NQ = 14 };
 static double run_pair(bool damped, const baum_simulation_options *given, double q[NQ])
 {
   baum_mechanism *m = make_pair(damped);
-  baum_simulation *run = NULL;
   baum_energy_account account;
   baum_simulation_options o = *given;
   o.energy_account = true;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, 0.5));
   check(baum_simulation_energy_account(run, &account, sizeof account));
   memcpy(q, baum_simulation_q(run), NQ * sizeof *q);
@@ -360,7 +359,6 @@ static int warning_of(double angle, double stiffness, bool fixed)
 {
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};
   baum_mechanism *m = NULL;
-  baum_simulation *run = NULL;
   baum_warning warning = {.code = (baum_warning_code)0};
   double v[SIX] = {0.0};
   const double q[7] = {0.0, 0.0, 0.0, 1.0};
@@ -378,7 +376,7 @@ static int warning_of(double angle, double stiffness, bool fixed)
   o.step = fixed ? 1e-2 : (double)NAN;
   o.rtol = fixed ? (double)NAN : 1e-8;
   baum_i_add_scaled3(angle * sqrt(4.0 / 0.5), n, v + 3);
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_set_state(run, 0.0, q, v));
   baum_status status = baum_simulation_advance_to(run, 5.0);
   assert_true(status == BAUM_OK || status == BAUM_WARNED);

@@ -21,6 +21,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double G = 9.81;
@@ -78,14 +79,13 @@ static void try_method(const task *given, step_mode mode, baum_formulation formu
 {
   int32_t nq;
   double error = 0.0;
-  baum_simulation *run = NULL;
   baum_energy_account account;
   baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-8);
   o.formulation = formulation;
   o.energy_account = true;
   check(baum_mechanism_sizes(given->m, &nq, NULL, NULL));
   assert_true(nq <= NQ_MAX);
-  check(baum_simulation_create(given->m, &o, &run));
+  baum_simulation *run = create_run(given->m, &o);
   check(step_mode_advance(mode, run, END));
   check(baum_simulation_energy_account(run, &account, sizeof account));
   for (int i = 0; i < nq; i++) {
@@ -121,13 +121,12 @@ static void try_every_method(const task *given)
 static void run_fine(const baum_mechanism *m, double step, double q[NQ_MAX])
 {
   int32_t nq;
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk8();
   o.formulation = BAUM_FORMULATION_PROJECTION;
   o.step = step;
   check(baum_mechanism_sizes(m, &nq, NULL, NULL));
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, END));
   memcpy(q, baum_simulation_q(run), (size_t)nq * sizeof *q);
   baum_simulation_destroy(run);
@@ -194,12 +193,11 @@ static void the_reaction_of_the_helix_has_its_closed_form(void **state)
 {
   (void)state;
   baum_mechanism *m = make_helix();
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   double got[6];
   o.integrator = baum_rk8();
   o.step = 1e-3;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, END));
   const baum_channel channel =
     baum_channel_of_joint(BAUM_JOINT_REACTION, baum_mechanism_joint_at(m, 0));
@@ -473,7 +471,6 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   (void)state;
   baum_body_id weight;
   baum_mechanism *m = make_drop(0.0, &weight);
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   const double fall = sqrt(2.0 * 0.5 / G);
   const double w = sqrt(200.0);
@@ -482,14 +479,13 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   const double on_cable = 2.0 / w * (0.5 * 3.14159265358979324 + atan(G / w / speed));
   o.integrator = baum_dp5();
   o.rtol = 1e-10;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, 0.9 * fall));
   assert_true(fabs(baum_simulation_q(run)[2] + 0.5 + 0.5 * G * 0.81 * fall * fall) <= 1e-9);
   check(baum_simulation_advance_to(run, 2.0 * fall + on_cable));
   assert_true(fabs(baum_simulation_q(run)[2] + 0.5) <= 1e-7);
   assert_true(fabs(baum_simulation_v(run)[2]) <= 1e-6);
-  baum_counters counters;
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   assert_true(fabs(counters.energy_change) <= 1e-7);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -502,14 +498,13 @@ static void the_energy_residual_stays_small_across_slack(void **state)
   baum_body_id weight;
   baum_mechanism *m = make_drop(5.0, &weight);
   for (int fixed = 0; fixed < 2; fixed++) {
-    baum_simulation *run = NULL;
     baum_energy_account account;
     baum_simulation_options o = baum_simulation_options_default();
     o.integrator = baum_dp5();
     o.rtol = fixed ? (double)NAN : 1e-9;
     o.step = fixed ? 1e-4 : (double)NAN;
     o.energy_account = true;
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     check(baum_simulation_advance_to(run, 3.0));
     check(baum_simulation_energy_account(run, &account, sizeof account));
     assert_true(account.dampers < -1.0);

@@ -22,6 +22,7 @@
 
 #include "check.h"
 #include "rotation.h"
+#include "runs.h"
 
 static const double MASS = 1.0;     /* [kg] */
 static const double GRAVITY = 9.81; /* [m/s^2] */
@@ -80,11 +81,10 @@ static baum_mechanism *make_top(void)
 static double error_of(const baum_integrator *integrator, double rtol)
 {
   baum_mechanism *m = make_top();
-  baum_simulation *s = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   o.rtol = rtol;
-  check(baum_simulation_create(m, &o, &s));
+  baum_simulation *s = create_run(m, &o);
   check(baum_simulation_advance_to(s, REVOLUTIONS));
   double p[4];
   double apart[4];

@@ -78,7 +78,7 @@ static void compare_state(const watched_run *watched, const motion *with, deviat
   double rows[2 * PHYSICS_NC];
   double gamma[PHYSICS_NC];
   double h = with->step;
-  baum_counters c = read_counters(watched);
+  baum_counters c = counters_of(watched->run);
   check(baum_simulation_get(watched->run, channels, 2, rows));
   check(baum_workspace_gamma(watched->workspace, baum_simulation_time(watched->run),
                              baum_simulation_q(watched->run), baum_simulation_v(watched->run),
@@ -106,7 +106,7 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
  * roots have the modulus 0.94, an overshoot of 90 % was measured. */
 static void compare_counters(const watched_run *watched, physics_mechanism which)
 {
-  baum_counters c = read_counters(watched);
+  baum_counters c = counters_of(watched->run);
   printf("   max|Phi| %.3e predicted %.3e   max|Phi'| %.3e predicted %.3e\n", c.max_phi,
          c.predicted_phi, c.max_phi_rate, c.predicted_phi_rate);
   double most = which == PENDULUM ? 1.0 + TOLERANCE : 2.0;

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "physics_run.h"
+#include "runs.h"
 
 enum { COORDINATES = 6 };
 
@@ -81,12 +82,11 @@ static stiff_run run_to_the_end(const baum_mechanism *mechanism, const baum_inte
   options.integrator = integrator;
   options.formulation = formulation;
   options.rtol = rtol;
-  baum_simulation *run = NULL;
   stiff_run out;
-  check(baum_simulation_create(mechanism, &options, &run));
+  baum_simulation *run = create_run(mechanism, &options);
   check(baum_simulation_advance_to(run, END));
   memcpy(out.q, baum_simulation_q(run), sizeof out.q);
-  check(baum_simulation_counters(run, &out.counters, sizeof out.counters));
+  out.counters = counters_of(run);
   baum_simulation_destroy(run);
   return out;
 }

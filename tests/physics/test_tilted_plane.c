@@ -14,6 +14,7 @@
 #include <baum/catalog.h>
 
 #include "check.h"
+#include "runs.h"
 #include "tilt.h"
 
 enum { MOST_BODIES = 7 };
@@ -76,7 +77,6 @@ static void tilted_mechanisms_move_like_planar_mechanisms(void **state)
   for (size_t k = 0; k < sizeof ENTRIES / sizeof *ENTRIES; k++) {
     const baum_catalog_choice choice = {.name = ENTRIES[k].entry};
     baum_mechanism *m = build(choice.name);
-    baum_simulation *run = NULL;
     baum_catalog_entry entry;
     double times[32];
     double length = 0.0;
@@ -88,7 +88,7 @@ static void tilted_mechanisms_move_like_planar_mechanisms(void **state)
     check(baum_catalog_find(choice.name, &entry, sizeof entry));
     check(baum_catalog_times(choice.name, times));
     check(baum_mechanism_get_characteristic_length(m, &length));
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     for (int i = 0; i < entry.sample_count; i++) {
       check(baum_simulation_advance_to(run, times[i]));
       worst = fmax(worst, error_at(&choice, run, baum_mechanism_body_count(m), times[i], length));
@@ -106,13 +106,12 @@ static void qr_solves_rows_that_contain_only_rounding(void **state)
 {
   (void)state;
   baum_mechanism *m = build("four_bar");
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rattle();
   o.formulation = BAUM_FORMULATION_INDEX3;
   o.solver = BAUM_SOLVER_QR;
   o.step = 1e-3;
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   /* The warning is about redundant rows. */
   assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_WARNED);
   assert_true(baum_simulation_time(run) == 2.0);
@@ -122,24 +121,22 @@ static void qr_solves_rows_that_contain_only_rounding(void **state)
 
 /* ---- singular configurations ---- */
 
-static baum_counters counters_of(const baum_catalog_choice *choice,
+static baum_counters counters_at(const baum_catalog_choice *choice,
                                  const baum_integrator *integrator, double end, baum_status *status)
 {
   baum_mechanism *planar = NULL;
   baum_mechanism *m = NULL;
-  baum_simulation *run = NULL;
-  baum_counters counters;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   o.rtol = 1e-7;
   check(baum_catalog_build(choice, &planar));
   check(model_tilt(planar, 0.0, &m));
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   *status = baum_simulation_advance_to(run, end);
   if (*status < BAUM_OK) {
     assert_non_null(strstr(baum_simulation_message(run), "singular"));
   }
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
   baum_mechanism_destroy(planar);
@@ -164,7 +161,7 @@ static void crossings_are_reported_where_the_omitted_rows_change(void **state)
                                               {"speed", 6.0}};
   const baum_catalog_choice choice = {"slider_crank", data, sizeof data / sizeof *data};
   baum_status status = BAUM_OK;
-  baum_counters counters = counters_of(&choice, baum_rk8(), 0.6374, &status);
+  baum_counters counters = counters_at(&choice, baum_rk8(), 0.6374, &status);
   check(status);
   assert_int_equal(counters.near_singular_intervals, 1);
 }
@@ -179,7 +176,7 @@ static void a_branch_of_singular_configurations_is_reported(void **state)
   static const baum_catalog_setting data[] = {{"windows", 4}, {"angle", 1.0}, {"rate", -2.0}};
   const baum_catalog_choice choice = {"n_four_bar", data, 3};
   baum_status status = BAUM_OK;
-  baum_counters counters = counters_of(&choice, baum_cvode_adams(), 0.932395316, &status);
+  baum_counters counters = counters_at(&choice, baum_cvode_adams(), 0.932395316, &status);
   /* On such a branch, rounding errors decide whether the run can continue. If the initial angular
    * velocity is changed by multiples of 1e-13, about a third of the runs stop. A run that stops
    * must return BAUM_ERR_STEP or BAUM_ERR_SINGULAR, and must have reported the first interval. */

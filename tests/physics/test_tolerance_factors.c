@@ -14,6 +14,7 @@
 #include "a01_pendulum_reference.h"
 #include "physics_run.h"
 #include "reference.h"
+#include "runs.h"
 
 /* The first two seconds of the motion, which are about one swing. */
 static const reference SWING = {.name = "pendulum",
@@ -63,8 +64,7 @@ static void the_explanation_of_a_run_names_the_factors(void **state)
   options.integrator = baum_rk8();
   options.rtol = 1e-6;
   options.tolerance_v = 20.0;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &options);
   assert_non_null(strstr(baum_simulation_explain(run), "rtol 1e-06, tolerance_v 20; positions"));
   baum_simulation_destroy(run);
   model_destroy(&m);

@@ -19,6 +19,7 @@
 
 #include "check.h"
 #include "rotation.h"
+#include "runs.h"
 
 /* The body rotates almost about its middle principal axis. Rotation about this axis is unstable, so
  * the body tumbles from time to time. It makes about one revolution per second. */
@@ -145,12 +146,11 @@ static errors run(const baum_integrator *integrator, double step, double rtol,
                   const long double p[4])
 {
   baum_mechanism *m = make_body();
-  baum_simulation *s = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   o.step = step;
   o.rtol = rtol;
-  check(baum_simulation_create(m, &o, &s));
+  baum_simulation *s = create_run(m, &o);
   check(baum_simulation_advance_to(s, REVOLUTIONS));
   const double *q = baum_simulation_q(s);
   const double *v = baum_simulation_v(s);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "posed.h"
+#include "runs.h"
 
 static const double TURNS = 1e4;
 /* The sum TURN + TURN_REST is 2 pi. With both parts, TURNS revolutions can be subtracted without
@@ -89,8 +90,7 @@ static void configurations_after_many_revolutions_keep_twelve_digits(void **stat
 
 static baum_simulation *start_run(const posed *p, const baum_simulation_options *options)
 {
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(p->m.mechanism, options, &run));
+  baum_simulation *run = create_run(p->m.mechanism, options);
   check(baum_simulation_set_state(run, 0.0, p->q, p->v));
   return run;
 }

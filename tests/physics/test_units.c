@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "posed.h"
+#include "runs.h"
 
 enum { CASES = 6, LINKS = 10 };
 
@@ -54,13 +55,11 @@ typedef struct pair {
 static baum_simulation *run_in(const model *m, const model_units *units,
                                const baum_simulation_options *options, double end, int64_t *steps)
 {
-  baum_simulation *run = NULL;
-  baum_counters counters;
   baum_simulation_options scaled = *options;
   scaled.step *= units ? units->time : 1.0;
-  check(baum_simulation_create(m->mechanism, &scaled, &run));
+  baum_simulation *run = create_run(m->mechanism, &scaled);
   check(baum_simulation_advance_to(run, end * (units ? units->time : 1.0)));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   *steps = counters.steps;
   return run;
 }

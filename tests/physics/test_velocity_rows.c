@@ -15,6 +15,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "runs.h"
 #include "step_mode.h"
 
 /* ---- Chaplygin's sleigh, which is in the catalogue ---- */
@@ -94,13 +95,11 @@ static void expect(const char *what, double got, double most, step_mode mode,
 static void slide(const baum_mechanism *m, step_mode mode, baum_formulation formulation)
 {
   baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-9);
-  baum_simulation *run = NULL;
-  baum_counters counters;
   options.formulation = formulation;
   options.energy_account = true;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(step_mode_advance(mode, run, END));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   const double *q = baum_simulation_q(run);
   const double *v = baum_simulation_v(run);
   double want_q[3];
@@ -172,11 +171,10 @@ static baum_simulation_options with_alpha(const baum_integrator *integrator, dou
 static double growth_of(const baum_mechanism *m, const baum_integrator *integrator, double alpha_h)
 {
   baum_simulation_options options = with_alpha(integrator, alpha_h);
-  baum_simulation *run = NULL;
   double violation[2] = {0.0, 0.0};
   const baum_channel channel = baum_channel_of(BAUM_PHI_RATE);
   options.allow_unstable = true;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   const double q[3] = {0.0, 0.0, ANGLE};
   const double v[3] = {cos(ANGLE) - ACROSS * sin(ANGLE), sin(ANGLE) + ACROSS * cos(ANGLE), 0.0};
   check(baum_simulation_set_state(run, 0.0, q, v));
@@ -252,9 +250,8 @@ static void unstable_gains_are_refused(void **state)
         baum_stability_velocity_limit(integrator, &limit) != BAUM_OK) {
       continue;
     }
-    baum_simulation *run = NULL;
     baum_simulation_options options = with_alpha(integrator, 0.99 * limit);
-    check(baum_simulation_create(m, &options, &run));
+    baum_simulation *run = create_run(m, &options);
     assert_non_null(strstr(baum_simulation_explain(run), "rows of velocity level: alpha h"));
     baum_simulation_destroy(run);
     options = with_alpha(integrator, 1.01 * limit);
@@ -267,7 +264,7 @@ static void unstable_gains_are_refused(void **state)
     options.row_gain_count = 1;
     assert_int_equal(baum_simulation_create(m, &options, &run), BAUM_ERR_UNSTABLE);
     options.gains = baum_gains_fixed(0.6 * limit / STEP, 0.0);
-    check(baum_simulation_create(m, &options, &run));
+    run = create_run(m, &options);
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
@@ -290,16 +287,14 @@ static void default_gains_are_stable(void **state)
   check(baum_mechanism_freeze(m));
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
-    baum_counters counters;
-    baum_simulation *run = NULL;
     baum_simulation_options options = step_mode_options(mode, 1e-2, 1e-6);
     options.formulation = BAUM_FORMULATION_BAUMGARTE;
     if (!baum_integrator_offers(mode.integrator, options.formulation)) {
       continue;
     }
-    check(baum_simulation_create(m, &options, &run));
+    baum_simulation *run = create_run(m, &options);
     check(step_mode_advance(mode, run, 1.0));
-    check(baum_simulation_counters(run, &counters, sizeof counters));
+    baum_counters counters = counters_of(run);
     assert_true(!(counters.spectral_radius > 1.0 - 1e-5));
     baum_simulation_destroy(run);
   }
@@ -442,17 +437,15 @@ static void a_prescribed_velocity_does_work(void **state)
   check(baum_mechanism_freeze(m));
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
-    baum_simulation *run = NULL;
     baum_energy_account account;
-    baum_counters counters;
     baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-8);
     options.energy_account = true;
     if (mode.integrator == baum_rattle()) {
       continue;
     }
-    check(baum_simulation_create(m, &options, &run));
+    baum_simulation *run = create_run(m, &options);
     check(step_mode_advance(mode, run, 1.0));
-    check(baum_simulation_counters(run, &counters, sizeof counters));
+    baum_counters counters = counters_of(run);
     check(baum_simulation_energy_account(run, &account, sizeof account));
     double across_end = 0.4 * sin(3.0);
     double most = mode.fixed && baum_integrator_order(mode.integrator) == 1 ? 2e-3 : 1e-6;
@@ -473,13 +466,11 @@ static void a_restored_run_continues_identically(void **state)
   static unsigned char bytes[BYTES];
   size_t size = 0;
   baum_mechanism *m = make_sleigh();
-  baum_simulation *run = NULL;
-  baum_simulation *other = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk8();
   options.rtol = 1e-7;
-  check(baum_simulation_create(m, &options, &run));
-  check(baum_simulation_create(m, &options, &other));
+  baum_simulation *run = create_run(m, &options);
+  baum_simulation *other = create_run(m, &options);
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_save(run, bytes, BYTES, &size));
   check(baum_simulation_restore(other, bytes, size));

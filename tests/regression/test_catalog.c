@@ -20,6 +20,7 @@
 #include "a01_pendulum_reference.h"
 #include "assert_near.h"
 #include "n_four_bar_reference.h"
+#include "runs.h"
 #include "slider_crank_driven_reference.h"
 #include "sundials_pendulum_reference.h"
 
@@ -156,11 +157,10 @@ static baum_catalog_error run(const known *k, double rtol)
   double *q = calloc(n * nq, sizeof *q);
   double *v = calloc(n * nv, sizeof *v);
   assert_true(rows && q && v);
-  baum_simulation *simulation = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk8();
   options.rtol = rtol;
-  check(baum_simulation_create(k->mechanism, &options, &simulation));
+  baum_simulation *simulation = create_run(k->mechanism, &options);
   check(baum_simulation_sample(simulation, k->t, (int64_t)n, channels, 2, rows, NULL));
   for (size_t i = 0; i < n; i++) {
     memcpy(q + i * nq, rows + i * (nq + nv), nq * sizeof *q);

@@ -18,6 +18,7 @@
 #include "check.h"
 #include "double_wishbone_reference.h"
 #include "rotation.h"
+#include "runs.h"
 #include "step_mode.h"
 
 enum { Q = 7, V = 6 }; /* coordinates and velocities of a body */
@@ -31,12 +32,10 @@ static baum_mechanism *build(const char *name)
 
 static baum_simulation *start(const baum_mechanism *m, const baum_integrator *integrator)
 {
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   o.rtol = integrator == baum_kinematics() ? o.rtol : 1e-11; /* kinematics has no tolerance */
-  check(baum_simulation_create(m, &o, &run));
-  return run;
+  return create_run(m, &o);
 }
 
 static double largest(const double *a, const double *b, int count)
@@ -205,13 +204,12 @@ static void the_mean_speed_of_the_wheels_equals_the_speed_of_the_carrier(void **
   int tried = 0;
   for (int k = 0; step_mode_at(k).integrator; k++) {
     const step_mode mode = step_mode_at(k);
-    baum_simulation *run = NULL;
     baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-8);
     o.formulation = BAUM_FORMULATION_PROJECTION;
     if (!baum_integrator_offers(mode.integrator, o.formulation)) {
       continue;
     }
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     for (int i = 1; i <= 10; i++) {
       check(baum_simulation_advance_to(run, 0.1 * i));
       worst = fmax(worst, ratio_error(run));

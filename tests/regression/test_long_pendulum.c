@@ -19,6 +19,7 @@
 #include "a01_pendulum_reference.h"
 #include "assert_near.h"
 #include "models.h"
+#include "runs.h"
 
 enum { MEANS = 8, ROWS = 5 };
 
@@ -64,10 +65,9 @@ static void the_closed_form_agrees_with_the_table(void **state)
  * error, the error grows like t. If the energy drifts, it grows like t^2. */
 static double follow(const model *m, const baum_simulation_options *o)
 {
-  baum_simulation *run = NULL;
   double error = 0.0;
   double first = 0.0;
-  assert_int_equal(baum_simulation_create(m->mechanism, o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m->mechanism, o);
   printf("%s, rtol %.0e:", baum_integrator_name(o->integrator), o->rtol);
   for (int k = 0; k < ROWS; k++) {
     double q[2];

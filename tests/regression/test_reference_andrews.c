@@ -13,6 +13,7 @@
 #include "assert_near.h"
 #include "catalog/data/andrews.h"
 #include "reference_test.h"
+#include "runs.h"
 
 static const reference ANGLES = {.name = "Andrews, 7 angles",
                                  .samples = ANDREWS_SAMPLES,
@@ -110,9 +111,8 @@ static void multipliers_have_the_sign_of_the_equations(void **state)
   options.integrator = baum_rk4();
   options.formulation = BAUM_FORMULATION_PROJECTION;
   options.step = 0.03 / 8192;
-  baum_simulation *run = NULL;
   double rows[ANDREWS_SAMPLES * ROW];
-  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &options);
   assert_int_equal(baum_simulation_sample(run, ANDREWS_T, ANDREWS_SAMPLES, channels, 2, rows, NULL),
                    BAUM_OK);
   for (int i = 0; i < ANDREWS_SAMPLES; i++) {

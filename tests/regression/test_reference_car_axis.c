@@ -12,6 +12,7 @@
 #include "assert_near.h"
 #include "catalog/data/car_axis.h"
 #include "reference_test.h"
+#include "runs.h"
 
 static const reference AXIS = {.name = "car axis",
                                .samples = CAR_AXIS_SAMPLES,
@@ -66,9 +67,8 @@ static void multipliers_are_the_negative_of_the_test_set(void **state)
   options.integrator = baum_rk4();
   options.formulation = BAUM_FORMULATION_PROJECTION;
   options.step = 1e-4;
-  baum_simulation *run = NULL;
   double rows[CAR_AXIS_SAMPLES * ROW];
-  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &options);
   assert_int_equal(
     baum_simulation_sample(run, CAR_AXIS_T, CAR_AXIS_SAMPLES, channels, 2, rows, NULL), BAUM_OK);
   for (int i = 0; i < CAR_AXIS_SAMPLES; i++) {

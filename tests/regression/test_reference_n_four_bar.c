@@ -11,6 +11,7 @@
 
 #include "n_four_bar_reference.h"
 #include "reference_test.h"
+#include "runs.h"
 
 enum { LOOPS = 40 };
 
@@ -55,10 +56,9 @@ static const reference TO_FLAT = {.name = "four-bar N = 40",
 static double apart_after(const model *m, int loops, double rtol, double end)
 {
   baum_simulation_options options = ggl_options();
-  baum_simulation *run = NULL;
   double apart = 0.0;
   options.rtol = rtol;
-  assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(m->mechanism, &options);
   for (int i = 1; i <= 100; i++) {
     baum_status status = baum_simulation_advance_to(run, 0.01 * i * end);
     assert_true(status >= BAUM_OK);

@@ -15,6 +15,7 @@
 #include "assert_near.h"
 #include "catalog/data/slider_crank_eccentric.h"
 #include "reference_test.h"
+#include "runs.h"
 #include "slider_crank_driven_reference.h"
 
 static const char COLUMNS[] = "mmrmmrmmr";
@@ -143,13 +144,12 @@ static void velocities_agree_with_the_references(void **state)
     options.integrator = baum_rk4();
     options.formulation = BAUM_FORMULATION_PROJECTION;
     options.step = 1e-5;
-    baum_simulation *run = NULL;
     double rows[SIZE];
     double want[SIZE];
     for (int i = 0; i < SLIDER_CRANK_DRIVEN_SAMPLES; i++) {
       read_sample(driven, i, NULL, want + (ptrdiff_t)i * SLIDER_CRANK_DRIVEN_WIDTH);
     }
-    assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+    baum_simulation *run = create_run(m.mechanism, &options);
     assert_int_equal(baum_simulation_sample(run, SLIDER_CRANK_DRIVEN_T, SLIDER_CRANK_DRIVEN_SAMPLES,
                                             &velocities, 1, rows, NULL),
                      BAUM_OK);
@@ -171,15 +171,13 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
     baum_simulation_options options = baum_simulation_options_default();
     options.integrator = baum_rk4();
     options.step = 1e-5;
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+    baum_simulation *run = create_run(m.mechanism, &options);
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
     double want_q[SLIDER_CRANK_DRIVEN_WIDTH];
     double want_v[SLIDER_CRANK_DRIVEN_WIDTH];
     read_sample(driven, 0, want_q, want_v);
-    baum_counters counters;
-    assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+    baum_counters counters = counters_of(run);
     printf(
       "\n%s: start at %.17g rad/s, |Phi| %.1e, |Phi'| %.1e, change of the design configuration "
       "%.2g of the scale\n",

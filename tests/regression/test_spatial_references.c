@@ -15,6 +15,7 @@
 #include <baum/catalog.h>
 
 #include "check.h"
+#include "runs.h"
 
 static const char *const ENTRIES[] = {"spatial_slider_crank",
                                       "bricard",
@@ -35,7 +36,6 @@ static double run(const char *entry, const baum_simulation_options *o)
   const baum_channel positions = baum_channel_of(BAUM_Q);
   baum_catalog_entry about;
   baum_mechanism *m = NULL;
-  baum_simulation *s = NULL;
   baum_catalog_error error;
   int32_t nq = 0;
   double times[32];
@@ -46,7 +46,7 @@ static double run(const char *entry, const baum_simulation_options *o)
   check(baum_mechanism_sizes(m, &nq, NULL, NULL));
   double *q = calloc((size_t)about.sample_count * (size_t)nq, sizeof *q);
   assert_non_null(q);
-  check(baum_simulation_create(m, o, &s));
+  baum_simulation *s = create_run(m, o);
   if (baum_simulation_sample(s, times, about.sample_count, &positions, 1, q, NULL) < BAUM_OK) {
     fail_msg("%s: %s", entry, baum_simulation_message(s));
   }

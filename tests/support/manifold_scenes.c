@@ -14,6 +14,7 @@
 #include "manifold_bodies.h"
 #include "manifold_tops.h"
 #include "rotation.h"
+#include "runs.h"
 #include "spatial_scenes.h"
 
 enum { SIZE = MANIFOLD_SIZE };
@@ -525,12 +526,11 @@ void manifold_scene_solve(const manifold_scene *scene, double t, double *q)
     return;
   }
   baum_mechanism *twin = manifold_scene_make_twin(scene);
-  baum_simulation *run = NULL;
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk8();
   options.formulation = BAUM_FORMULATION_PROJECTION;
   options.step = 1e-3;
-  check(baum_simulation_create(twin, &options, &run));
+  baum_simulation *run = create_run(twin, &options);
   check(baum_simulation_advance_to(run, t));
   scene->translate(baum_simulation_q(run), q);
   baum_simulation_destroy(run);

@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "models.h"
+#include "runs.h"
 
 enum { SIZE = 64 };
 
@@ -156,12 +157,11 @@ static void reactions_on_the_rod_balance_inertia_and_weight(void **state)
 {
   (void)state;
   model m;
-  baum_simulation *s = NULL;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &m), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk4();
   o.step = 1e-4;
-  assert_int_equal(baum_simulation_create(m.mechanism, &o, &s), BAUM_OK);
+  baum_simulation *s = create_run(m.mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(s, 0.0123), BAUM_OK);
   const baum_channel channels[] = {
     baum_channel_of(BAUM_A),

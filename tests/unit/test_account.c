@@ -16,6 +16,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "message.h"
+#include "runs.h"
 #include "user_models.h"
 
 /* At rtol 1e-12 the errors of rk8 after one second are about 1e-12. */
@@ -41,23 +42,15 @@ static baum_energy_account read_account(baum_simulation *run)
   return out;
 }
 
-static double residual_in_counters(baum_simulation *run)
-{
-  baum_counters out;
-  check(baum_simulation_counters(run, &out, sizeof out));
-  return out.energy_residual;
-}
-
 /* Runs a frozen mechanism to t = 1 s, then destroys the run and the mechanism. */
 static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options options)
 {
-  baum_simulation *run = NULL;
   check(baum_mechanism_freeze(m));
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_advance_to(run, 1.0));
   baum_energy_account out = read_account(run);
   ASSERT_NEAR(out.residual, 0.0, 0.0, CLOSE);
-  assert_true(residual_in_counters(run) == out.residual);
+  assert_true(counters_of(run).energy_residual == out.residual);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
   return out;
@@ -318,10 +311,9 @@ static void inputs_continue_and_states_restart(void **state)
   (void)state;
   baum_input_id input;
   baum_mechanism *m = make_pushed(&input);
-  baum_simulation *run = NULL;
   baum_simulation_options o = account_options();
   o.max_step = 0.3; /* so that no step ends at 1 s */
-  check(baum_simulation_create(m, &o, &run));
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_set_input(run, input, 4.0));
   ASSERT_NEAR(read_account(run).loads, 2.0, 0.0, CLOSE);
@@ -351,14 +343,13 @@ static void samples_change_neither_the_account_nor_the_motion(void **state)
   baum_input_id input;
   baum_mechanism *m = make_pushed(&input);
   for (int k = 0; k < 2; k++) {
-    baum_simulation *run = NULL;
     baum_simulation_options o = account_options();
     o.integrator = baum_rk4();
     o.rtol = (double)NAN;
     o.max_step = (double)NAN;
     o.step = 0.01;
     o.energy_account = k == 0;
-    check(baum_simulation_create(m, &o, &run));
+    baum_simulation *run = create_run(m, &o);
     if (k == 0) {
       check(baum_simulation_sample(run, times, N, &channel, 1, rows[0], NULL));
       ASSERT_NEAR(read_account(run).loads, 2.0 * 0.09, 0.0, CLOSE);
@@ -380,12 +371,11 @@ static void runs_without_an_account_refuse_to_return_one(void **state)
   (void)state;
   baum_input_id input;
   baum_mechanism *m = make_pushed(&input);
-  baum_simulation *run = NULL;
   baum_simulation_options o = account_options();
   baum_energy_account out;
   o.energy_account = false;
-  check(baum_simulation_create(m, &o, &run));
-  assert_true(isnan(residual_in_counters(run)));
+  baum_simulation *run = create_run(m, &o);
+  assert_true(isnan(counters_of(run).energy_residual));
   ASSERT_SAYS(baum_simulation_energy_account(run, &out, sizeof out), BAUM_ERR_STATE,
               "energy_account");
   ASSERT_SAYS(baum_simulation_energy_account(NULL, &out, sizeof out), BAUM_ERR_ARGUMENT,

@@ -13,6 +13,7 @@
 #include "integrator_run.h"
 #include "message.h"
 #include "one_coordinate.h"
+#include "runs.h"
 
 typedef const baum_integrator *method_fn(void);
 static method_fn *const METHODS[] = {baum_ab2, baum_ab3, baum_ab4};
@@ -143,12 +144,10 @@ static baum_simulation *start_run(const baum_mechanism *mechanism,
                                   const baum_integrator *integrator, double step)
 {
   baum_simulation_options options = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   options.integrator = integrator;
   options.formulation = BAUM_FORMULATION_UNSTABILIZED;
   options.step = step;
-  check(baum_simulation_create(mechanism, &options, &run));
-  return run;
+  return create_run(mechanism, &options);
 }
 
 /* A function that makes a run with a fixed step and returns the error at the end of the run. */
@@ -180,8 +179,7 @@ static double error_with_jump(const baum_integrator *integrator, double step)
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_set_input(run, u, 3.0));
   check(baum_simulation_advance_to(run, 3.0));
-  baum_counters c;
-  check(baum_simulation_counters(run, &c, sizeof c));
+  baum_counters c = counters_of(run);
   assert_int_equal(c.restarts, 1);
   double want = 3.0 + (cos(1.0) - 3.0) * cos(2.0) - sin(1.0) * sin(2.0);
   double error = fabs(baum_simulation_q(run)[0] - want);
@@ -206,8 +204,7 @@ static double error_with_short_steps(const baum_integrator *integrator, double s
   check(baum_simulation_advance_to(run, 1.0 + step / 3.0));
   check(baum_simulation_advance_to(run, 2.0 + 0.4 * step));
   check(baum_simulation_advance_to(run, 3.0 + 0.4 * step));
-  baum_counters c;
-  check(baum_simulation_counters(run, &c, sizeof c));
+  baum_counters c = counters_of(run);
   assert_int_equal(c.short_steps, 2);
   assert_int_equal(c.restarts, 2);
   double error = fabs(baum_simulation_q(run)[0] - cos(3.0 + 0.4 * step));

@@ -9,6 +9,8 @@
 
 #include <baum/baum.h>
 
+#include "runs.h"
+
 /* Makes a body at rest whose pin is about 0.3 m from its centre. */
 static baum_mechanism *make_swing(double gravity)
 {
@@ -34,16 +36,14 @@ static void swing(const baum_integrator *integrator, double gravity, double step
 {
   baum_mechanism *m = make_swing(gravity);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
-  baum_counters counters;
   o.integrator = integrator;
   o.step = step;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   if (baum_simulation_step(run, 1000) != BAUM_OK) {
     fail_msg("%s, step %g s, gravity %g: %s", baum_integrator_name(integrator), step, gravity,
              baum_message());
   }
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  baum_counters counters = counters_of(run);
   assert_true(counters.max_phi <= 4e-16); /* rounding error of the arm */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

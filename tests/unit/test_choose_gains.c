@@ -10,6 +10,7 @@
 
 #include "assert_near.h"
 #include "models.h"
+#include "runs.h"
 
 /* A pilot run makes 5 steps with 3 evaluations each. The first of these evaluations, at the initial
  * state, has already been made. */
@@ -31,17 +32,10 @@ static baum_simulation *start_run(const baum_mechanism *m, const baum_integrator
   return run;
 }
 
-static baum_counters count(baum_simulation *run)
-{
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  return c;
-}
-
 static double auto_alpha(const baum_mechanism *m, const baum_integrator *integrator)
 {
   baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_auto());
-  double alpha = count(run).alpha;
+  double alpha = counters_of(run).alpha;
   baum_simulation_destroy(run);
   return alpha;
 }
@@ -95,8 +89,9 @@ static void the_pilot_run_costs_14_evaluations_which_are_counted(void **state)
   assert_int_equal(model_four_bar(&m), BAUM_OK);
   baum_simulation *with = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
   baum_simulation *without = start_run(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
-  assert_int_equal(count(with).evaluations - count(without).evaluations, PILOT_EVALUATIONS);
-  assert_int_equal(count(with).steps, 0);
+  assert_int_equal(counters_of(with).evaluations - counters_of(without).evaluations,
+                   PILOT_EVALUATIONS);
+  assert_int_equal(counters_of(with).steps, 0);
   assert_true(baum_simulation_time(with) == 0.0);
   assert_memory_equal(baum_simulation_q(with), baum_simulation_q(without), 9 * sizeof(double));
   assert_memory_equal(baum_simulation_v(with), baum_simulation_v(without), 9 * sizeof(double));
@@ -167,8 +162,8 @@ static void a_failure_in_the_pilot_run_does_not_fail_the_creation(void **state)
   force.user = &limit;
   baum_mechanism *m = pendulum_at(1.6, &force);
   baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_auto());
-  assert_true(count(run).alpha > 0.0);
-  assert_int_equal(count(run).warnings, 0);
+  assert_true(counters_of(run).alpha > 0.0);
+  assert_int_equal(counters_of(run).warnings, 0);
   assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.35), BAUM_ERR_CALLBACK);
   baum_simulation_destroy(run);
@@ -203,7 +198,7 @@ static void steps_of_explicit_methods_stay_in_the_stability_region(void **state)
     baum_simulation *run = start_run(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
     assert_non_null(strstr(baum_simulation_explain(run), "variable step, at most "));
     assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
-    assert_true((double)count(run).steps >= END * ALPHA / limit);
+    assert_true((double)counters_of(run).steps >= END * ALPHA / limit);
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);
@@ -216,18 +211,18 @@ static void counters_report_the_effective_damping(void **state)
   (void)state;
   baum_mechanism *m = pendulum_at(1.6, NULL);
   baum_simulation *run = start_run(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
-  baum_counters c = count(run);
+  baum_counters c = counters_of(run);
   /* If alpha = beta, the characteristic equation has the double root s = -alpha. A step of rk4
    * multiplies Phi by exp(-alpha h), with an error of about (alpha h)^5 / 120. */
   ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
   ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
   baum_simulation_destroy(run);
   run = start_run(m, baum_euler(), 1e-3, baum_gains_deadbeat());
-  c = count(run);
+  c = counters_of(run);
   assert_true(c.spectral_radius == 0.0 && isinf(c.damping));
   baum_simulation_destroy(run);
   run = start_run(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
-  c = count(run);
+  c = counters_of(run);
   assert_true(isnan(c.spectral_radius) && isnan(c.damping));
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -279,8 +274,7 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
   baum_mechanism *m = two_long_rods();
   for (int k = 0; k < 3; k++) {
     baum_simulation_options o = with_factors(factors, 2, solvers[k]);
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m, &o);
     /* The acceleration along each rod is a = -(beta f)^2 Phi, where f is the factor of its row. Phi
      * depends on how the rows are scaled, so the test compares only the ratio of the two
      * velocities. Across the rods the velocities are zero. */
@@ -322,8 +316,7 @@ static void solvers_agree_on_factors(void **state)
     baum_simulation_options o = with_factors(factors, 8, solvers[k]);
     o.step = 1e-4;
     o.gains = baum_gains_fixed(500.0, 500.0);
-    baum_simulation *run = NULL;
-    assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m.mechanism, &o);
     assert_true(baum_simulation_step(run, 20) >= BAUM_OK);
     memcpy(ends[k], baum_simulation_v(run), sizeof ends[k]);
     baum_simulation_destroy(run);

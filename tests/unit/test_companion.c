@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "models.h"
+#include "runs.h"
 
 static const double SPAN = 2.0; /* [s] about one swing of the pendulum A01 */
 
@@ -20,16 +21,14 @@ static const double SPAN = 2.0; /* [s] about one swing of the pendulum A01 */
 static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
 {
   model m;
-  baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
-  baum_counters c;
   int64_t found = 0;
   o.integrator = integrator;
   o.step = step;
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
-  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &o);
   assert_true(baum_simulation_advance_to(run, SPAN) >= BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   for (int64_t k = 0; k < c.warnings; k++) {
     baum_warning warning;
     assert_int_equal(baum_simulation_warning(run, k, &warning, sizeof warning), BAUM_OK);
@@ -80,15 +79,12 @@ static baum_counters run_pendulum(baum_simulation_options o, double *error)
 {
   enum { TIMES = 40 };
   model m;
-  baum_simulation *run = NULL;
-  baum_simulation *exact = NULL;
-  baum_counters c;
   baum_simulation_options fine = baum_simulation_options_default();
   fine.integrator = baum_rk8();
   fine.rtol = 1e-12;
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
-  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
-  assert_int_equal(baum_simulation_create(m.mechanism, &fine, &exact), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &o);
+  baum_simulation *exact = create_run(m.mechanism, &fine);
   *error = 0.0;
   for (int k = 1; k <= TIMES; k++) {
     assert_true(baum_simulation_advance_to(run, k * SPAN / TIMES) >= BAUM_OK);
@@ -97,7 +93,7 @@ static baum_counters run_pendulum(baum_simulation_options o, double *error)
       *error = fmax(*error, fabs(baum_simulation_q(run)[i] - baum_simulation_q(exact)[i]));
     }
   }
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   baum_simulation_destroy(run);
   baum_simulation_destroy(exact);
   model_destroy(&m);
@@ -163,8 +159,6 @@ static void estimates_include_samples_inside_steps(void **state)
   double rows[TIMES][2];
   int64_t done = 0;
   model m;
-  baum_simulation *run = NULL;
-  baum_counters c;
   baum_simulation_options o = baum_simulation_options_default();
   const baum_channel channel = baum_channel_of(BAUM_Q);
   double error = 0.0;
@@ -177,10 +171,10 @@ static void estimates_include_samples_inside_steps(void **state)
     times[k] = (k + 1) * SPAN / TIMES;
   }
   assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
-  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m.mechanism, &o);
   assert_int_equal(baum_simulation_sample(run, times, TIMES, &channel, 1, rows[0], &done), BAUM_OK);
   assert_int_equal(done, TIMES);
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   ASSERT_NEAR(c.error_estimate, one_by_one.error_estimate, 0.0, 0.0);
   ASSERT_NEAR(c.error_estimate, error, 0.2, 0.0);
   baum_simulation_destroy(run);
@@ -210,8 +204,6 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
   enum { TURNS = 50 };
   for (int k = 0; baum_integrator_at(k); k++) {
     model m;
-    baum_simulation *run = NULL;
-    baum_counters c;
     baum_simulation_options o = baum_simulation_options_default();
     o.integrator = baum_integrator_at(k);
     if (!baum_integrator_has_variable_step(o.integrator)) {
@@ -220,12 +212,12 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
     o.rtol = 1e-4;
     o.error_check = true;
     assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
-    assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m.mechanism, &o);
     for (int i = 1; i <= TURNS; i++) {
       assert_int_equal(baum_simulation_advance_to(run, SPAN * i / TURNS), BAUM_OK);
       assert_int_equal(baum_simulation_advance_to(run, SPAN * (i - 0.3) / TURNS), BAUM_OK);
     }
-    assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+    baum_counters c = counters_of(run);
     assert_true(c.error_estimate > 0.0);
     baum_simulation_destroy(run);
     model_destroy(&m);
@@ -283,15 +275,13 @@ static void runs_that_miss_a_short_event_warn(void **state)
   baum_mechanism *m = make_taut_rod();
   for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
     for (int f = BAUM_FORMULATION_BAUMGARTE; f <= BAUM_FORMULATION_PROJECTION; f++) {
-      baum_simulation *run = NULL;
-      baum_counters c;
       baum_simulation_options o = baum_simulation_options_default();
       o.integrator = baum_rk4();
       o.formulation = (baum_formulation)f;
       o.step = steps[k];
-      assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+      baum_simulation *run = create_run(m, &o);
       baum_status status = baum_simulation_advance_to(run, 1.5);
-      assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+      baum_counters c = counters_of(run);
       assert_true(status < BAUM_OK || c.doubts > 0);
       baum_simulation_destroy(run);
     }
@@ -331,15 +321,13 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
   assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
-    baum_simulation *run = NULL;
-    baum_counters c;
     baum_simulation_options o = baum_simulation_options_default();
     o.integrator = methods[k];
     o.step = 1e-3;
     o.error_check = true;
-    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(m, &o);
     assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
-    assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+    baum_counters c = counters_of(run);
     assert_true(c.error_estimate < 0.01);
     baum_simulation_destroy(run);
   }
@@ -354,8 +342,6 @@ static void stiff_runs_abandon_their_companion(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
-  baum_simulation *run = NULL;
-  baum_counters c;
   baum_body_id body;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_spring_def spring = baum_planar_spring_def_default();
@@ -374,9 +360,9 @@ static void stiff_runs_abandon_their_companion(void **state)
   o.integrator = baum_generalized_alpha();
   o.step = 1e-3;
   o.error_check = true;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   assert_true(isnan(c.error_estimate));
   assert_int_equal(c.doubts, 0);
   baum_simulation_destroy(run);

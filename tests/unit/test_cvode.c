@@ -15,6 +15,7 @@
 #include "check.h"
 #include "integrator_run.h"
 #include "models.h"
+#include "runs.h"
 
 /* ---- accuracy ---- */
 
@@ -271,8 +272,7 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
   options.integrator = integrator;
   options.rtol = 1e-10;
   options.start_time = start;
-  baum_simulation *run = NULL;
-  assert_int_equal(baum_simulation_create(mechanism, &options, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &options);
   assert_int_equal(baum_simulation_advance_to(run, start + 3.0), BAUM_OK);
   memcpy(q, baum_simulation_q(run), 2 * sizeof *q);
   baum_simulation_destroy(run);

@@ -16,6 +16,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "dynamics/block_path.h"
+#include "runs.h"
 #include "simulate/run.h"
 
 #define PI 3.14159265358979323846
@@ -100,13 +101,6 @@ static baum_simulation_options fixed_step(void)
   return o;
 }
 
-static baum_simulation *start(const baum_mechanism *m, const baum_simulation_options *o)
-{
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(m, o, &run));
-  return run;
-}
-
 static int omitted_bodies(const baum_simulation *run)
 {
   const baum_i_block_path *path = run->workspace->motion;
@@ -117,7 +111,7 @@ static int omitted_bodies(const baum_simulation *run)
 static baum_simulation *start_whole(const baum_mechanism *m, baum_simulation_options o)
 {
   o.solver = BAUM_SOLVER_KLU;
-  return start(m, &o);
+  return create_run(m, &o);
 }
 
 static void assert_same(const baum_simulation *run, const baum_simulation *want, double tolerance)
@@ -133,7 +127,7 @@ static void assert_same(const baum_simulation *run, const baum_simulation *want,
 static void assert_same_motion(const baum_mechanism *m, int count)
 {
   baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   baum_simulation *whole = start_whole(m, o);
   assert_int_equal(omitted_bodies(run), count);
   assert_int_equal(omitted_bodies(whole), 0);
@@ -151,7 +145,7 @@ static void welded_frames_are_fixed_and_the_motion_is_the_same(void **state)
   (void)state;
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *run = create_run(it.mechanism, &o);
   assert_non_null(
     strstr(baum_simulation_explain(run), "blocks, 2 nodes, 1 coupling; 2 fixed bodies omitted;"));
   baum_simulation_destroy(run);
@@ -217,7 +211,7 @@ static void a_fixed_body_may_have_any_number_of_joints(void **state)
   }
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   assert_non_null(
     strstr(baum_simulation_explain(run), "blocks, 60 nodes, 0 couplings; 1 fixed body omitted;"));
   baum_simulation_destroy(run);
@@ -268,7 +262,7 @@ static void rows_that_fix_a_body_are_kept(void **state)
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.formulation = BAUM_FORMULATION_PROJECTION;
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   int32_t first = 0;
   check(baum_mechanism_rows(m, foot, &first, NULL));
   const unsigned char *omitted = run->workspace->rows.omitted + first;
@@ -296,7 +290,7 @@ static void fixed_bodies_do_not_move_by_a_digit(void **state)
       o.formulation = integrator->formulations[f];
       o.step = baum_integrator_has_fixed_step(integrator) ? 1e-3 : (double)NAN;
       o.rtol = baum_integrator_has_fixed_step(integrator) ? (double)NAN : 1e-6;
-      baum_simulation *run = start(it.mechanism, &o);
+      baum_simulation *run = create_run(it.mechanism, &o);
       double q[3 * FRAMES];
       memcpy(q, baum_simulation_q(run), sizeof q);
       check(baum_simulation_advance_to(run, 0.2));
@@ -317,7 +311,7 @@ static void results_of_fixed_bodies_are_right(void **state)
   (void)state;
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *run = create_run(it.mechanism, &o);
   baum_simulation *whole = start_whole(it.mechanism, o);
   const baum_channel channels[] = {baum_channel_of_joint(BAUM_JOINT_REACTION, it.foot),
                                    baum_channel_of_joint(BAUM_JOINT_REACTION, it.shoulder),
@@ -350,7 +344,7 @@ static void rows_between_fixed_bodies_stay_satisfied(void **state)
   (void)state;
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *run = create_run(it.mechanism, &o);
   check(baum_simulation_advance_to(run, 0.2));
   for (int i = 0; i < 3 * FRAMES; i++) {
     /* Assembly leaves rounding errors of lengths that are about 1 m. */
@@ -370,7 +364,7 @@ static void displaced_frames_are_put_back(void **state)
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
   o.start = BAUM_START_AS_GIVEN;
-  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *run = create_run(it.mechanism, &o);
   double q[3 * BODIES];
   double v[3 * BODIES];
   memcpy(q, baum_simulation_q(run), sizeof q);
@@ -401,7 +395,7 @@ static void a_displaced_design_is_put_in_place(void **state)
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.start = BAUM_START_AS_GIVEN;
-  baum_simulation *run = start(m, &o);
+  baum_simulation *run = create_run(m, &o);
   check(baum_simulation_advance_to(run, 0.5));
   ASSERT_NEAR(baum_simulation_q(run)[0], 1.001, 0.0, 1e-15);
   ASSERT_NEAR(baum_simulation_q(run)[2], 0.3, 0.0, 1e-15);
@@ -415,7 +409,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
   o.start = BAUM_START_EXACT;
-  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *run = create_run(it.mechanism, &o);
   double q[3 * BODIES];
   double v[3 * BODIES];
   memcpy(q, baum_simulation_q(run), sizeof q);
@@ -428,8 +422,7 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
   /* The next step must not count the violations of the refused state. */
   check(baum_simulation_step(run, 1));
-  baum_counters counters;
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   assert_true(counters.max_phi < 1e-9);
   assert_true(counters.max_phi_rate < 1e-9);
   baum_simulation_destroy(run);

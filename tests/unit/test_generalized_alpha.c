@@ -17,6 +17,7 @@
 #include "message.h"
 #include "models.h"
 #include "one_coordinate.h"
+#include "runs.h"
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -24,21 +25,6 @@ static baum_simulation_options options_with(const baum_integrator *integrator, d
   options.integrator = integrator;
   options.step = step;
   return options;
-}
-
-static baum_simulation *start(const baum_mechanism *mechanism,
-                              const baum_simulation_options *options)
-{
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(mechanism, options, &run));
-  return run;
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters out;
-  check(baum_simulation_counters(run, &out, sizeof out));
-  return out;
 }
 
 static model make_crank(model_slider_crank with)
@@ -79,7 +65,7 @@ static void modes_that_are_too_fast_decay_by_rho_per_step(void **state)
   oscillator o = {.w = 1e6};
   baum_mechanism *mechanism = make_oscillating(&o);
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
-  baum_simulation *run = start(mechanism, &options);
+  baum_simulation *run = create_run(mechanism, &options);
   check(baum_simulation_step(run, 100));
   double before = baum_simulation_q(run)[0];
   check(baum_simulation_step(run, 1));
@@ -100,7 +86,7 @@ static void a_stiff_damper_needs_no_small_steps(void **state)
   oscillator o = {.w = 10.0, .d = 500.0};
   baum_mechanism *mechanism = make_oscillating(&o);
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
-  baum_simulation *run = start(mechanism, &options);
+  baum_simulation *run = create_run(mechanism, &options);
   check(baum_simulation_advance_to(run, 10.0));
   double slow = o.w * (o.d - sqrt(o.d * o.d - 1.0));
   ASSERT_NEAR(baum_simulation_q(run)[0], exp(-10.0 * slow), 1e-3, 0.0);
@@ -187,7 +173,7 @@ static void positions_satisfy_the_constraints_to_rounding(void **state)
   (void)state;
   model m = make_crank((model_slider_crank){0});
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
-  baum_simulation *run = start(m.mechanism, &options);
+  baum_simulation *run = create_run(m.mechanism, &options);
   check(baum_simulation_step(run, 1000));
   baum_counters c = counters_of(run);
   assert_true(c.max_phi <= 1e-14);     /* rounding errors of lengths of 1 m and of angles */
@@ -203,7 +189,7 @@ static void positions_satisfy_the_constraints_to_rounding(void **state)
 
 static void end_of(const model *m, baum_simulation_options *options, double *q)
 {
-  baum_simulation *run = start(m->mechanism, options);
+  baum_simulation *run = create_run(m->mechanism, options);
   check(baum_simulation_advance_to(run, 0.03));
   memcpy(q, baum_simulation_q(run), 9 * sizeof *q);
   baum_simulation_destroy(run);
@@ -236,7 +222,7 @@ static void a_start_off_the_constraints_is_projected(void **state)
   baum_mechanism *mechanism = make_pendulum();
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
   options.start = BAUM_START_AS_GIVEN;
-  baum_simulation *run = start(mechanism, &options);
+  baum_simulation *run = create_run(mechanism, &options);
   const double q[2] = {1.01, 0.0};
   const double v[2] = {0.3, 1.0};
   check(baum_simulation_set_state(run, 0.0, q, v));
@@ -261,8 +247,8 @@ static void samples_between_grid_points_change_nothing(void **state)
   oscillator o = {.w = 1.0};
   baum_mechanism *mechanism = make_oscillating(&o);
   baum_simulation_options options = options_with(baum_generalized_alpha(), step);
-  baum_simulation *sampled = start(mechanism, &options);
-  baum_simulation *plain = start(mechanism, &options);
+  baum_simulation *sampled = create_run(mechanism, &options);
+  baum_simulation *plain = create_run(mechanism, &options);
   double error[2] = {0.0, 0.0};
   for (int i = 0; i < SAMPLES; i++) {
     times[i] = step * (i + 1) / 3.0;
@@ -301,8 +287,8 @@ static void samples_in_the_first_step_change_nothing(void **state)
   double rows[27];
   model m = make_crank((model_slider_crank){0});
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
-  baum_simulation *sampled = start(m.mechanism, &options);
-  baum_simulation *plain = start(m.mechanism, &options);
+  baum_simulation *sampled = create_run(m.mechanism, &options);
+  baum_simulation *plain = create_run(m.mechanism, &options);
   check(baum_simulation_sample(sampled, times, 3, &channel, 1, rows, NULL));
   check(baum_simulation_advance_to(plain, times[2]));
   assert_memory_equal(baum_simulation_q(sampled), baum_simulation_q(plain), 9 * sizeof(double));
@@ -317,7 +303,7 @@ static void a_step_that_does_not_converge_leaves_the_state(void **state)
   (void)state;
   baum_mechanism *mechanism = one_coordinate(1.0, 0.0, jump, NULL, NULL);
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
-  baum_simulation *run = start(mechanism, &options);
+  baum_simulation *run = create_run(mechanism, &options);
   ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_CONVERGENCE,
               "t = 0 s: generalized_alpha|the step is too large");
   assert_true(baum_simulation_time(run) == 0.0);
@@ -419,7 +405,7 @@ static void the_iteration_accepts_rounding_errors_of_a_small_coordinate(void **s
     baum_mechanism *m = link_with_gauge(&k);
     for (double h = 1e-6; h < 1e-4; h *= 4.0) {
       baum_simulation_options options = options_with(baum_generalized_alpha(), h);
-      baum_simulation *run = start(m, &options);
+      baum_simulation *run = create_run(m, &options);
       check(baum_simulation_step(run, 100));
       assert_true(counters_of(run).max_phi < 1e-14);
       assert_true(counters_of(run).nonlinear_iterations <= 600);

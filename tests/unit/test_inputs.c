@@ -12,6 +12,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "runs.h"
 #include "step_mode.h"
 
 /* ---- functions that record their inputs ---- */
@@ -272,24 +273,13 @@ static void user_coordinates_and_their_check_receive_inputs(void **state)
 static baum_simulation *start_in(const baum_mechanism *mechanism, step_mode mode)
 {
   baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-9);
-  baum_simulation *run = NULL;
-  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
-    fail_msg("%s: %s", baum_integrator_name(mode.integrator), baum_message());
-  }
-  return run;
+  return create_run(mechanism, &o);
 }
 
 /* Starts a run, with a fixed step if the integrator has one. */
 static baum_simulation *start(const baum_mechanism *mechanism, const baum_integrator *integrator)
 {
   return start_in(mechanism, (step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
-}
-
-static int64_t restarts_of(baum_simulation *run)
-{
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  return c.restarts;
 }
 
 /* Returns the largest allowed error of x and v. For variable steps, this is 100 rtol times the size
@@ -345,9 +335,10 @@ static void check_run(step_mode mode)
   }
   /* The first value equals the initial value, so it causes no restart. */
   int64_t changes = step_mode_remembers(mode) ? CHANGES : 0;
-  assert_true(restarts_of(run) >= changes);
+  assert_true(counters_of(run).restarts >= changes);
   assert_true(step_mode_is_adams(mode) ||
-              restarts_of(run) == changes); /* Adams methods also restart after short steps */
+              counters_of(run).restarts ==
+                changes); /* Adams methods also restart after short steps */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
@@ -419,7 +410,7 @@ static void a_change_of_an_input_that_fails_is_undone(void **state)
                       "force 1 \"force1\": force() returned -1 (stop)");
   assert_true(baum_simulation_input(run, s.push) == 0.5);
   assert_true(baum_simulation_time(run) == 0.4);
-  assert_int_equal(restarts_of(run), 0);
+  assert_int_equal(counters_of(run).restarts, 0);
   /* The run continues with the old input. The first of the following times lie inside the last
    * step. At these times, too, the motion must follow the old input. */
   for (double t = 0.401; t < 1.0; t += 0.0999) {

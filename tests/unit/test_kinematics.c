@@ -16,6 +16,7 @@
 #include "message.h"
 #include "methods.h"
 #include "models.h"
+#include "runs.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -28,12 +29,8 @@ static const double EXACT = 1e-13;
 static baum_simulation *open_run(const baum_mechanism *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = baum_kinematics();
-  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-  return run;
+  return create_run(mechanism, &o);
 }
 
 static void advance(baum_simulation *run, double t)
@@ -43,13 +40,6 @@ static void advance(baum_simulation *run, double t)
     fail_msg("%s: %s", baum_status_name(status), baum_message());
   }
   assert_true(baum_simulation_time(run) == t);
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters counters;
-  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  return counters;
 }
 
 static void close_run(baum_simulation *run, baum_mechanism *mechanism)
@@ -263,9 +253,8 @@ static void a_third_crank_is_redundant_and_changes_nothing(void **state)
   const drive motor = {.angle = 1.55, .law = swing};
   baum_mechanism *mechanism = parallelogram_make(&motor);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = baum_kinematics();
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   for (int k = 1; k <= 60; k++) {
     double t = 0.31 * k;
     double s[3];
@@ -367,10 +356,9 @@ static void outputs_are_right_where_steps_may_pass_over_a_motion(void **state)
     slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.3, .law = bump}};
     baum_mechanism *mechanism = slider_crank_make(&data);
     baum_simulation_options o = baum_simulation_options_default();
-    baum_simulation *run = NULL;
     o.integrator = baum_kinematics();
     o.max_step = kind == 0 ? (double)NAN : 0.05;
-    assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(mechanism, &o);
     for (int k = 0; k <= 50; k++) {
       double t = 4.9 + 0.01 * k;
       double s[3];
@@ -486,10 +474,9 @@ static baum_counters cost_of(const baum_mechanism *mechanism, const baum_integra
                              double rtol)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   o.rtol = rtol;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   advance(run, 10.0);
   baum_counters counters = counters_of(run);
   baum_simulation_destroy(run);

@@ -16,6 +16,7 @@
 #include "message.h"
 #include "methods.h"
 #include "models.h"
+#include "runs.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -29,11 +30,7 @@ static baum_simulation_options kinematic_options(void)
 static baum_simulation *open_run(const baum_mechanism *mechanism)
 {
   baum_simulation_options o = kinematic_options();
-  baum_simulation *run = NULL;
-  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-  return run;
+  return create_run(mechanism, &o);
 }
 
 static void close_run(baum_simulation *run, baum_mechanism *mechanism)
@@ -320,12 +317,11 @@ static void a_start_off_the_constraints_is_corrected_or_refused(void **state)
   baum_mechanism *mechanism = slider_crank_make(&data);
   for (int far = 0; far < 2; far++) {
     baum_simulation_options o = kinematic_options();
-    baum_simulation *run = NULL;
     double q[SLIDER_NV];
     double v[SLIDER_NV] = {0.0};
     double x[3];
     o.start = BAUM_START_AS_GIVEN;
-    assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+    baum_simulation *run = create_run(mechanism, &o);
     memcpy(q, baum_simulation_q(run), sizeof q);
     q[SLIDER_X] += far ? 1.0 : 0.01;
     baum_status status = baum_simulation_set_state(run, 0.0, q, v);
@@ -350,12 +346,11 @@ static void a_restart_that_fails_changes_nothing(void **state)
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
   baum_mechanism *mechanism = slider_crank_make(&data);
   baum_simulation_options o = kinematic_options();
-  baum_simulation *run = NULL;
   double q[SLIDER_NV];
   double v[SLIDER_NV];
   double x[3];
   o.start = BAUM_START_AS_GIVEN;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   memcpy(q, baum_simulation_q(run), sizeof q);
   memcpy(v, baum_simulation_v(run), sizeof v);
   assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
@@ -386,9 +381,8 @@ static void a_singular_state_cannot_be_set(void **state)
   memset(v, 0, sizeof v);
   baum_workspace_destroy(w);
   baum_simulation_options o = kinematic_options();
-  baum_simulation *run = NULL;
   o.start = BAUM_START_AS_GIVEN;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(mechanism, &o);
   ASSERT_SAYS(baum_simulation_set_state(run, 0.8, q, v), BAUM_ERR_SINGULAR,
               "t = 0.8 s: kinematics: the start configuration is singular");
   assert_true(baum_simulation_advance_to(run, 0.5) >= BAUM_OK);
@@ -424,7 +418,7 @@ static void kinematics_is_explained_and_other_integrators_suggest_it(void **stat
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk4();
   o.step = 1e-3;
-  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  run = create_run(mechanism, &o);
   text = baum_simulation_explain(run);
   assert_non_null(strstr(text, "kinematics gives it exactly"));
   assert_non_null(strstr(text, "integrator    rk4"));

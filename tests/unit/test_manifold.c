@@ -19,6 +19,7 @@
 #include "every_element.h"
 #include "manifold_bodies.h"
 #include "manifold_scenes.h"
+#include "runs.h"
 
 /* Sizes of the largest tested mechanism, which has every kind of element. WIDE includes the
  * multipliers lambda and mu of GGL. */
@@ -497,14 +498,13 @@ static void states_off_the_manifold_are_refused(void **state)
   (void)state;
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
   baum_mechanism *m = NULL;
-  baum_simulation *run = NULL;
   check(baum_mechanism_create(&m));
   (void)manifold_add_angle(m, &body, 0.2, NULL);
   check(baum_mechanism_freeze(m));
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk4();
   options.step = 1e-3;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   const double far[2] = {0.0, 1.1};
   const double near[2] = {0.0, 1.0 + 1e-9};
   const double v[1] = {0.5};

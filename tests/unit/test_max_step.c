@@ -12,6 +12,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "runs.h"
 
 /* A force of 5 N along x, which acts from 5.0 s to 5.2 s. */
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
@@ -51,7 +52,6 @@ static double pushed_position(const baum_mechanism *m, const baum_integrator *in
                               double max_step)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *s = NULL;
   o.integrator = integrator;
   if (isnan(max_step)) {
     o.step = 1e-3;
@@ -59,7 +59,7 @@ static double pushed_position(const baum_mechanism *m, const baum_integrator *in
     o.rtol = 1e-6;
     o.max_step = max_step;
   }
-  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+  baum_simulation *s = create_run(m, &o);
   assert_int_equal(baum_simulation_advance_to(s, 5.5), BAUM_OK);
   double x = baum_simulation_q(s)[0];
   baum_simulation_destroy(s);
@@ -89,12 +89,10 @@ static void gravity_determines_alpha_at_rest(void **state)
   }
   baum_mechanism *m = hanging_pendulum();
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *s = NULL;
-  baum_counters c;
   o.integrator = baum_cvode_adams();
   o.rtol = 1e-6;
-  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
-  assert_int_equal(baum_simulation_counters(s, &c, sizeof c), BAUM_OK);
+  baum_simulation *s = create_run(m, &o);
+  baum_counters c = counters_of(s);
   ASSERT_NEAR(c.alpha, 0.25 * sqrt(9.81), 1e-12, 0.0); /* 1/4 of sqrt(g / L) */
   baum_simulation_destroy(s);
   baum_mechanism_destroy(m);

@@ -12,6 +12,7 @@
 #include "check.h"
 #include "dynamics/dynamics.h"
 #include "models.h"
+#include "runs.h"
 
 static baum_body_id add_rod(baum_i_parts *parts, double x, double y, double angle, double inertia)
 {
@@ -105,13 +106,11 @@ static void a_light_slider_causes_few_near_singular_intervals(void **state)
   baum_i_parts_guide(&parts, NULL, light, 0.0, 0.0);
   check(baum_i_parts_finish(&parts, &m));
   baum_simulation_options options = baum_simulation_options_default();
-  baum_counters counters;
-  baum_simulation *run = NULL;
   options.integrator = baum_semi_implicit_euler();
   options.step = 0.005;
-  check(baum_simulation_create(m, &options, &run));
+  baum_simulation *run = create_run(m, &options);
   check(baum_simulation_step(run, 600));
-  check(baum_simulation_counters(run, &counters, sizeof counters));
+  baum_counters counters = counters_of(run);
   /* Estimates from KLU's pivots differ by a factor of 25 between configurations. If KLU kept its
    * first pivots, 12 near-singular intervals would be reported falsely. */
   assert_true(counters.near_singular_intervals <= 2);

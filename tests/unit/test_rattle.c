@@ -14,6 +14,7 @@
 #include "check.h"
 #include "message.h"
 #include "models.h"
+#include "runs.h"
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -21,20 +22,6 @@ static baum_simulation_options options_with(const baum_integrator *integrator, d
   options.integrator = integrator;
   options.step = step;
   return options;
-}
-
-static baum_simulation *start(const model *m, const baum_simulation_options *options)
-{
-  baum_simulation *run = NULL;
-  check(baum_simulation_create(m->mechanism, options, &run));
-  return run;
-}
-
-static baum_counters counters_of(baum_simulation *run)
-{
-  baum_counters out;
-  check(baum_simulation_counters(run, &out, sizeof out));
-  return out;
 }
 
 static model make_pendulum(void)
@@ -56,7 +43,7 @@ static model make_crank(model_slider_crank with)
 static void check_rows(const model *m, double step, double speed)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
-  baum_simulation *run = start(m, &options);
+  baum_simulation *run = create_run(m->mechanism, &options);
   check(baum_simulation_step(run, 5000));
   baum_counters c = counters_of(run);
   /* The tolerances are rounding errors of coordinates below 1 m and of velocities below `speed`. */
@@ -107,7 +94,7 @@ static band energy_band(baum_simulation *run, int steps, double unit)
 static void check_band(const model *m, double step, double unit)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
-  baum_simulation *run = start(m, &options);
+  baum_simulation *run = create_run(m->mechanism, &options);
   band first = energy_band(run, 5000, unit);
   check(baum_simulation_step(run, 90000));
   band last = energy_band(run, 5000, unit);
@@ -119,7 +106,7 @@ static void check_band(const model *m, double step, double unit)
   baum_simulation_destroy(run);
 
   options.integrator = baum_semi_implicit_euler();
-  run = start(m, &options);
+  run = create_run(m->mechanism, &options);
   check(baum_simulation_step(run, 95000));
   band other = energy_band(run, 5000, unit);
   print_message("semi-implicit Euler: in [%.6e, %.6e]\n", other.least, other.most);
@@ -147,7 +134,7 @@ static void steps_backward_return_to_the_start(void **state)
   model m = {0};
   check(model_chain_3(&m));
   baum_simulation_options options = options_with(baum_rattle(), 5e-3);
-  baum_simulation *run = start(&m, &options);
+  baum_simulation *run = create_run(m.mechanism, &options);
   double q[9];
   memcpy(q, baum_simulation_q(run), sizeof q);
   check(baum_simulation_advance_to(run, 2.5));
@@ -183,7 +170,7 @@ static double area_factor(const baum_integrator *integrator)
   const double d = 1e-4; /* the truncation error is d^2 times third derivatives, about 1e-7 */
   model m = make_pendulum();
   baum_simulation_options options = options_with(integrator, 0.1);
-  baum_simulation *run = start(&m, &options);
+  baum_simulation *run = create_run(m.mechanism, &options);
   double derivative[2][2];
   for (int k = 0; k < 2; k++) {
     double up[2] = {-1.0, 2.0};
@@ -213,7 +200,7 @@ static void areas_in_phase_space_are_conserved(void **state)
 
 static void end_of(const model *m, const baum_simulation_options *options, double t, double *q)
 {
-  baum_simulation *run = start(m, options);
+  baum_simulation *run = create_run(m->mechanism, options);
   check(baum_simulation_advance_to(run, t));
   memcpy(q, baum_simulation_q(run), 9 * sizeof *q);
   assert_true(counters_of(run).max_phi <= 1e-14); /* rounding errors of the solver */
@@ -274,7 +261,7 @@ static void a_step_without_a_solution_is_refused_and_keeps_the_state(void **stat
   model m = {0};
   check(model_pendulum_rod(&data, &m));
   baum_simulation_options options = options_with(baum_rattle(), 0.5);
-  baum_simulation *run = start(&m, &options);
+  baum_simulation *run = create_run(m.mechanism, &options);
   ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_CONVERGENCE,
               "t = 0 s: rattle|the step is too large");
   assert_true(baum_simulation_time(run) == 0.0);

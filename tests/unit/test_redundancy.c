@@ -13,6 +13,7 @@
 #include "dynamics/dynamics.h"
 #include "message.h"
 #include "models.h"
+#include "runs.h"
 
 /* ---- mechanisms ---- */
 
@@ -357,7 +358,6 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   double angle[4];
   for (int k = 0; k < 4; k++) {
     baum_simulation_options o = baum_simulation_options_default();
-    baum_simulation *s = NULL;
     baum_warning warning;
     o.integrator = integrators[k];
     if (baum_integrator_has_fixed_step(o.integrator)) {
@@ -369,7 +369,7 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
       angle[k] = angle[0];
       continue;
     }
-    assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+    baum_simulation *s = create_run(m, &o);
     assert_int_equal(baum_simulation_advance_to(s, 0.3), BAUM_WARNED);
     assert_int_equal(baum_simulation_warning(s, 0, &warning, sizeof warning), BAUM_OK);
     assert_int_equal(warning.code, BAUM_WARNING_REDUNDANT_ROWS);
@@ -406,13 +406,11 @@ static baum_mechanism *driven_twice(double acceleration)
 static int64_t warnings_after(const baum_mechanism *m, double t)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *s = NULL;
-  baum_counters c;
   o.integrator = baum_rk4();
   o.step = 1e-3;
-  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+  baum_simulation *s = create_run(m, &o);
   assert_int_equal(baum_simulation_advance_to(s, t), BAUM_WARNED);
-  assert_int_equal(baum_simulation_counters(s, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(s);
   baum_simulation_destroy(s);
   return c.warnings;
 }
@@ -523,12 +521,11 @@ static void a_diverging_run_causes_warnings(void **state)
   (void)state;
   baum_mechanism *m = pendulum_with_pins(1);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *s = NULL;
   baum_warning warning;
   o.integrator = baum_euler();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
   o.step = 0.1; /* the step is much too long, so it causes violations */
-  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+  baum_simulation *s = create_run(m, &o);
   assert_int_equal(baum_simulation_advance_to(s, 3.0), BAUM_WARNED);
   assert_int_equal(baum_simulation_warning(s, 0, &warning, sizeof warning), BAUM_OK);
   assert_int_equal(warning.code, BAUM_WARNING_VIOLATION);

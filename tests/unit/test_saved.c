@@ -11,6 +11,7 @@
 
 #include "base/digest.h"
 #include "pendulum_events.h"
+#include "runs.h"
 #include "simulate/saved.h"
 
 /* The checksums cover the sizes of all parts that a run saves. Never change a row of this table. If
@@ -46,12 +47,11 @@ static void the_list_of_parts_agrees_with_the_version(void **state)
   swing s = swing_make(1.0);
   baum_simulation_options o = baum_simulation_options_default();
   baum_event_def event = baum_event_def_default();
-  baum_simulation *run = NULL;
   o.integrator = baum_rk4();
   o.step = 1e-3;
   o.energy_account = true;
   event.joint = s.pin;
-  assert_int_equal(baum_simulation_create(s.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(s.mechanism, &o);
   assert_int_equal(baum_simulation_add_event(run, &event, NULL), BAUM_OK);
   baum_i_saved_list(run, &list);
   assert_non_null(run->account);

@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "runs.h"
 #include "step_mode.h"
 
 static const double RATE = 2.0; /* [rad/s] angular velocity in the definition of the motor */
@@ -155,15 +156,6 @@ static baum_simulation_options options_of(const baum_integrator *integrator)
   return step_mode_options((step_mode){integrator, fixed}, 1e-3, 1e-9);
 }
 
-static baum_simulation *start(const scene *s, const baum_simulation_options *o)
-{
-  baum_simulation *run = NULL;
-  if (baum_simulation_create(s->mechanism, o, &run) != BAUM_OK) {
-    fail_msg("%s: %s", baum_integrator_name(o->integrator), baum_message());
-  }
-  return run;
-}
-
 /* Value and velocity of the coordinate of a joint. */
 typedef struct motion {
   double value;
@@ -176,13 +168,6 @@ static motion motion_of(baum_simulation *run, baum_joint_id joint)
   const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, joint);
   assert_int_equal(baum_simulation_get(run, &channel, 1, row), BAUM_OK);
   return (motion){row[0], row[1]};
-}
-
-static int64_t restarts_of(baum_simulation *run)
-{
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
-  return c.restarts;
 }
 
 static void check_within(baum_simulation *run, baum_joint_id joint, double t, motion want,
@@ -234,7 +219,7 @@ static void check_laws(step_mode mode)
   faults f = {0};
   scene s = make_scene(&f);
   baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-9);
-  baum_simulation *run = start(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   motion off = allowed(mode);
   check_within(run, s.pin, 0.3, (motion){RATE * 0.3, RATE}, off);
   motion now = motion_of(run, s.pin);
@@ -248,10 +233,10 @@ static void check_laws(step_mode mode)
   assert_int_equal(baum_simulation_set_driver(run, s.motor, now.value, now.rate, 0.0), BAUM_OK);
   check_within(run, s.pin, 1.0, (motion){now.value + 0.3 * now.rate, now.rate}, off);
   int64_t changes = step_mode_remembers(mode) ? 2 : 0;
-  assert_true(restarts_of(run) >= changes);
+  assert_true(counters_of(run).restarts >= changes);
   /* Shortened steps also cause restarts. */
   bool by_short_steps = mode.fixed && step_mode_remembers(mode);
-  assert_true(by_short_steps || restarts_of(run) == changes);
+  assert_true(by_short_steps || counters_of(run).restarts == changes);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
 }
@@ -274,8 +259,8 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   faults f = {0};
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
-  baum_simulation *run = start(&s, &o);
-  baum_simulation *other = start(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
+  baum_simulation *other = create_run(s.mechanism, &o);
   check_at(run, s.guide, 0.2, (motion){0.1 * sin(0.6), 0.3 * cos(0.6)}, 1e-12); /* rounding */
   motion now = motion_of(run, s.guide);
   assert_int_equal(baum_simulation_set_driver(run, s.winch, now.value, now.rate, -1.0), BAUM_OK);
@@ -287,7 +272,7 @@ static void a_law_that_is_set_replaces_a_users_law_in_this_run_only(void **state
   baum_simulation_destroy(run);
   baum_simulation_destroy(other);
   /* The definition in the mechanism must be unchanged, so that a new run uses the user's law. */
-  run = start(&s, &o);
+  run = create_run(s.mechanism, &o);
   check_at(run, s.guide, 0.1, (motion){0.1 * sin(0.3), 0.3 * cos(0.3)}, 1e-12);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(s.mechanism);
@@ -299,7 +284,7 @@ static void a_law_that_is_set_replaces_a_spline(void **state)
   faults f = {.along_spline = true};
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
-  baum_simulation *run = start(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* rounding */
   assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
   check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
@@ -314,7 +299,7 @@ static void the_time_of_a_law_counts_from_its_setting_in_both_directions(void **
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());
   o.start_time = -0.1;
-  baum_simulation *run = start(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   check_at(run, s.pin, 0.2, (motion){0.4, RATE}, 1e-12);
   assert_int_equal(baum_simulation_set_driver(run, s.motor, 0.4, RATE, 3.0), BAUM_OK);
   check_at(run, s.pin, 0.3, (motion){0.4 + 0.2 + 0.015, RATE + 0.3}, 1e-12);
@@ -352,7 +337,7 @@ static baum_simulation *jump(const scene *s, baum_formulation formulation, baum_
   baum_simulation_options o = options_of(baum_rk4());
   o.formulation = formulation;
   o.gains = gains;
-  baum_simulation *run = start(s, &o);
+  baum_simulation *run = create_run(s->mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
   motion now = motion_of(run, s->pin);
   assert_int_equal(baum_simulation_set_driver(run, s->motor, now.value + JUMP, now.rate, 0.0),
@@ -370,8 +355,7 @@ static void with_projection_the_next_step_jumps_to_the_law(void **state)
   baum_simulation *run = jump(&s, BAUM_FORMULATION_PROJECTION, none);
   assert_int_equal(baum_simulation_step(run, 1), BAUM_OK);
   ASSERT_NEAR(motion_of(run, s.pin).value, RATE * 0.101 + JUMP, 0.0, 1e-12); /* rounding */
-  baum_counters c;
-  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_counters c = counters_of(run);
   ASSERT_NEAR(c.max_phi, JUMP, 0.0, 1e-12); /* the violation at the start of this step */
   assert_memory_equal(&c.max_phi_joint, &s.motor, sizeof s.motor);
   baum_simulation_destroy(run);
@@ -423,13 +407,13 @@ static void a_law_is_not_set_if_the_restart_fails(void **state)
   faults f = {0};
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_ida());
-  baum_simulation *run = start(&s, &o);
+  baum_simulation *run = create_run(s.mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.2), BAUM_OK);
   for (int k = 0; k < 2; k++) {
     f.force_fails = true;
     assert_int_equal(baum_simulation_set_driver(run, s.motor, 3.0, 0.0, 0.0), BAUM_ERR_CALLBACK);
     f.force_fails = false;
-    assert_int_equal(restarts_of(run), 0);
+    assert_int_equal(counters_of(run).restarts, 0);
     check_at(run, s.pin, 0.3 + 0.1 * k, (motion){RATE * (0.3 + 0.1 * k), RATE}, 1e-6);
   }
   baum_simulation_destroy(run);

@@ -14,6 +14,7 @@
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
+#include "runs.h"
 
 static baum_joint_id pin_between(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
@@ -256,11 +257,10 @@ static void a_run_follows_the_spline_until_its_law_is_replaced(void **state)
   assert_int_equal(baum_mechanism_add_spline_driver(scene.mechanism, &def, &cam), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_OK);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run;
   o.integrator = baum_rk4();
   o.formulation = BAUM_FORMULATION_PROJECTION;
   o.step = 0.01;
-  assert_int_equal(baum_simulation_create(scene.mechanism, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(scene.mechanism, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
   /* Projection satisfies the driver to rounding. */
   ASSERT_NEAR(coordinate_of(run, pin), -0.7, 1e-12, 0.0);

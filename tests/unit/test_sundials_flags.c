@@ -20,6 +20,7 @@
 
 #include "integrate/sundials_driver.h"
 #include "message.h"
+#include "runs.h"
 
 /* ---- flag by flag ---- */
 
@@ -181,11 +182,10 @@ static void provoke(const baum_integrator *integrator, int k)
   fault now = FAULT_NONE;
   baum_mechanism *m = make_thrown(&now);
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   o.rtol = 1e-6;
   o.max_step = 0.01;
-  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  baum_simulation *run = create_run(m, &o);
   assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
   now = PROVOKED[k].fault;
   ASSERT_SAYS(baum_simulation_advance_to(run, 1.0), PROVOKED[k].status, PROVOKED[k].words);
