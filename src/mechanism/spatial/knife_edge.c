@@ -285,19 +285,13 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
   }
 }
 
-static int velocity_rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spatial_knife_edge, "spatial knife edge", fields),
                  .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = 1,
-  .velocity_rows = velocity_rows,
+  .velocity_row_count = 1,
   .lower = lower,
   .extent = extent,
   .evaluate = baum_i_evaluate_each,

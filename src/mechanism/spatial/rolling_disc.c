@@ -39,7 +39,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/spatial/spatial.h"
 
-enum { ROWS = 3, VELOCITY_ROWS = 2, COLUMNS = BAUM_I_PAIR_COLUMNS };
+enum { ROWS = 3, COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* Parameters: k, e_1, e_2 and the offset k . s_a on body_a; centre and n on body_b; R - t and t. */
 enum { VECTORS = 0, OFFSET = 9, CENTRE = 10, AXIS = 13, RADIUS = 16, RIM = 17, PARAMETER_COUNT };
@@ -485,19 +485,13 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
   }
 }
 
-static int velocity_rows(const void *def)
-{
-  (void)def;
-  return VELOCITY_ROWS;
-}
-
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spatial_rolling_disc, "spatial rolling disc", fields),
                  .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = ROWS,
-  .velocity_rows = velocity_rows,
+  .velocity_row_count = 2,
   .lower = lower,
   .extent = extent,
   .evaluate = baum_i_evaluate_each,
