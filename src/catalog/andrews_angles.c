@@ -205,12 +205,8 @@ const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .source = ANDREWS_SOURCE,
   .provenance = ANDREWS_PROVENANCE,
   .note = "angular velocities up to 1500 rad/s within 0.03 s",
-  .parameter_count = 1,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "uuuuuuu", 1),
   .defaults = (const double[1]){ANDREWS_START},
   .end = 0.03,
-  .build = build,
-  .units = "uuuuuuu",
-  .bodies = 1,
   BAUM_I_CATALOG_STORED(ANDREWS, 15),
 };

@@ -66,7 +66,7 @@ typedef struct baum_i_catalog_mechanism {
   baum_i_body_state (*state)(const double *p, const double *q, const double *v, int body);
 } baum_i_catalog_mechanism;
 
-/* Sets the members that describe a mechanism with a constant number of bodies. */
+/* Sets the members that describe a mechanism. BODIES is 0 if count() returns the number. */
 #define BAUM_I_CATALOG_MODEL(PARAMETERS, BUILD, STATE, UNITS, BODIES)                  \
   .parameter_count = sizeof PARAMETERS / sizeof *PARAMETERS, .parameters = PARAMETERS, \
   .build = BUILD, .state = STATE, .units = UNITS, .bodies = BODIES

@@ -118,11 +118,8 @@ const baum_i_catalog_mechanism baum_i_chain_of_n = {
   .source = "chosen for this catalogue",
   .provenance = "",
   .note = "chaotic: errors grow with time",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "mmr", 0),
+  .count = count,
   .defaults = (const double[COUNT]){10.0, 1.0, 1.0, 0.0, 0.0, 9.81},
   .end = 1.0,
-  .build = build,
-  .units = "mmr",
-  .count = count,
 };

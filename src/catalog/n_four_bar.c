@@ -93,14 +93,10 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
                 "agrees to 13 digits with extrapolation in 160-bit arithmetic for N = 1, 2, 40",
   .note = "twice per revolution, the rank of J falls by N; the reference is the branch of "
           "parallel cranks",
-  .parameter_count = COUNT,
-  .parameters = PARAMETERS,
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 0),
+  .count = count,
   .defaults = (const double[COUNT]){2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81},
   .end = 10.0,
   .branches = true,
-  .build = build,
-  .units = "mmr",
-  .count = count,
   BAUM_I_CATALOG_COMPUTED(solution, 21, 1, 11),
-  .state = state,
 };

@@ -123,8 +123,9 @@ static void place_joint(baum_i_element *element, const baum_i_totals *before)
   joint->row = (int)before->rows;
   joint->jacobian = (int)before->blocks;
   joint->square = (int)before->squares;
+  const baum_i_joint_type *type = joint->type;
   joint->velocity_rows =
-    joint->type->velocity_rows ? joint->type->velocity_rows(joint->element.def) : 0;
+    type->velocity_rows ? type->velocity_rows(joint->element.def) : type->velocity_row_count;
 }
 
 static void close_joint_list(baum_mechanism *mechanism, const baum_i_totals *all)

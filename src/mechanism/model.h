@@ -411,8 +411,9 @@ struct baum_i_joint_type {
   int row_count;
   /* returns the number of rows of a joint; NULL if row_count is not 0 */
   int (*rows)(const void *def);
-  /* Return the number of velocity-level rows of a joint. They are its last rows, and their Phi is
-   * 0. NULL if joints of the type have no such rows. */
+  /* Number of velocity-level rows, in the same two forms. They are the last rows of the joint, and
+   * their Phi is 0. */
+  int velocity_row_count;
   int (*velocity_rows)(const void *def);
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or
    * BAUM_ERR_ARGUMENT after setting the message. */

@@ -4,21 +4,13 @@
 import math
 import unittest
 
-import baum
-
-
-def pendulum():
-    m = baum.Mechanism()
-    m.planar_particle("bob", mass=1.0, position=(1, 0))
-    m.distance("rod", "ground", "bob", point_a=(0, 0), point_b=(0, 0))
-    m.freeze()
-    return m
+from mechanisms import rod_pendulum
 
 
 class EnergyAccount(unittest.TestCase):
     def test_it_closes(self):
         times = [0.0, 0.5, 1.0]
-        run = pendulum().simulate(
+        run = rod_pendulum().simulate(
             times, "rk4", step=1e-3, energy_account=True, record=["energy_account"]
         )
         account = run.energy_account
@@ -31,7 +23,7 @@ class EnergyAccount(unittest.TestCase):
         self.assertGreater(account.evaluations, 0)
 
     def test_without_the_option_there_is_none(self):
-        run = pendulum().simulate([0.0, 0.1], "rk4", step=1e-2)
+        run = rod_pendulum().simulate([0.0, 0.1], "rk4", step=1e-2)
         self.assertIsNone(run.energy_account)
         self.assertTrue(math.isnan(run.counters.energy_residual))
 

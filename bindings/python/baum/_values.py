@@ -83,6 +83,15 @@ def vector(value: Any, size: int | None, label: str) -> Array:
     return array
 
 
+def point(value: Any, label: str) -> tuple[float, float, float]:
+    """Convert two or three numbers to x, y, z. If z is missing, it is 0."""
+    given = vector(value, None, label).tolist()
+    if len(given) not in (2, 3):
+        raise ValueError(f"{label}: 2 or 3 numbers are wanted, not {len(given)}")
+    x, y, z = (given + [0.0])[:3]
+    return x, y, z
+
+
 def address(array: Any) -> Any:
     """Return the address of the numbers of an array; None for None."""
     return None if array is None else array.ctypes.data

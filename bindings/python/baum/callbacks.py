@@ -161,20 +161,9 @@ def _shell_force_of(inputs: Sequence[int]) -> Callable[..., Shell]:
 
 
 def _shell_law(function: Function, write: Write, nq: int, nv: int) -> Shell:
-    def shell(t: float, s: int, user: Any) -> int:
+    def shell(x: float, out: int, user: Any) -> int:
         try:
-            write(s, function(t))
-            return FINE
-        except BaseException as error:
-            return _answer(error)
-
-    return shell
-
-
-def _shell_coupling(function: Function, write: Write, nq: int, nv: int) -> Shell:
-    def shell(x: float, f: int, user: Any) -> int:
-        try:
-            write(f, function(x))
+            write(out, function(x))
             return FINE
         except BaseException as error:
             return _answer(error)
@@ -276,8 +265,7 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
     _abi.baum_q_fn: _shell_q,
     _abi.baum_qv_fn: _shell_qv,
     _abi.baum_force_fn: _shell_force,
-    _abi.baum_law_fn: _shell_law,
-    _abi.baum_coupling_fn: _shell_coupling,
+    _abi.baum_law_fn: _shell_law,  # of a driver, or of a coupling
     _abi.baum_spring_fn: _shell_spring,
     _abi.baum_curve_fn: _shell_curve,
     _abi.baum_rate_fn: _shell_rate,

@@ -15,7 +15,7 @@ import numpy as np
 from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings, fmu
 from ._lib import lib, text
 from ._motion import TraceLike
-from ._values import number, numbers, there_are, vector
+from ._values import number, numbers, point, there_are, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel, has
@@ -302,10 +302,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @gravity.setter
     def gravity(self, value: ArrayLike) -> None:
-        given = vector(value, None, "gravity").tolist()
-        if len(given) not in (2, 3):
-            raise ValueError(f"gravity: 2 or 3 numbers are wanted, not {len(given)}")
-        _calls.make(lib.baum_mechanism_set_gravity, self.handle, *(given + [0.0])[:3])
+        _calls.make(lib.baum_mechanism_set_gravity, self.handle, *point(value, "gravity"))
 
     @property
     def characteristic_length(self) -> float:

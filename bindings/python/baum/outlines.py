@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _abi, _calls, _mesh_files, _svg_path
 from ._lib import default, lib
-from ._values import address, number, numbers, vector
+from ._values import address, number, numbers, point
 from .typing import Array, ArrayLike, Scalar
 
 if TYPE_CHECKING:
@@ -28,15 +28,6 @@ def _numbers(value: Any) -> Array:
     if np.asarray(value).dtype.kind not in "biufO":
         raise TypeError
     return np.array(value, dtype=np.float64, order="C")
-
-
-def _point(value: ArrayLike, label: str) -> tuple[float, float, float]:
-    """Convert two or three numbers to x, y, z."""
-    given = vector(value, None, label).tolist()
-    if len(given) not in (2, 3):
-        raise ValueError(f"{label}: 2 or 3 numbers are wanted, not {len(given)}")
-    x, y, z = (given + [0.0])[:3]
-    return x, y, z
 
 
 def _table(value: Any, widths: Sequence[int], label: str) -> Array:
@@ -108,12 +99,12 @@ class Circle(Outline):
 
     def __init__(self, radius: Scalar, center: ArrayLike = ZERO, color: str | None = None) -> None:
         self.radius = number(radius, "radius")
-        self.center = _point(center, "center")
+        self.center = point(center, "center")
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.radius = Form.BAUM_OUTLINE_CIRCLE, number(self.radius, "radius")
-        struct.center = (ctypes.c_double * 3)(*_point(self.center, "center"))
+        struct.center = (ctypes.c_double * 3)(*point(self.center, "center"))
         return []
 
 
@@ -138,14 +129,14 @@ class Box(Outline):
     """
 
     def __init__(self, size: ArrayLike, center: ArrayLike = ZERO, color: str | None = None) -> None:
-        self.size = _point(size, "size")
-        self.center = _point(center, "center")
+        self.size = point(size, "size")
+        self.center = point(center, "center")
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
         struct.form = Form.BAUM_OUTLINE_BOX
-        struct.size = (ctypes.c_double * 3)(*_point(self.size, "size"))
-        struct.center = (ctypes.c_double * 3)(*_point(self.center, "center"))
+        struct.size = (ctypes.c_double * 3)(*point(self.size, "size"))
+        struct.center = (ctypes.c_double * 3)(*point(self.center, "center"))
         return []
 
 
@@ -160,14 +151,14 @@ class Cylinder(Outline):
         self, radius: Scalar, start: ArrayLike, end: ArrayLike, color: str | None = None
     ) -> None:
         self.radius = number(radius, "radius")
-        self.start = _point(start, "start")
-        self.end = _point(end, "end")
+        self.start = point(start, "start")
+        self.end = point(end, "end")
         self.color = color
 
     def _fill(self, struct: Any) -> list[Any]:
         struct.form, struct.radius = Form.BAUM_OUTLINE_CYLINDER, number(self.radius, "radius")
-        struct.start = (ctypes.c_double * 3)(*_point(self.start, "start"))
-        struct.end = (ctypes.c_double * 3)(*_point(self.end, "end"))
+        struct.start = (ctypes.c_double * 3)(*point(self.start, "start"))
+        struct.end = (ctypes.c_double * 3)(*point(self.end, "end"))
         return []
 
 

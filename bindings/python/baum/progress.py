@@ -7,7 +7,9 @@ import collections
 import itertools
 import sys
 import time
-from typing import Any, Sequence, TextIO
+from typing import Sequence, TextIO
+
+from . import drawings
 
 INTERVAL = 0.2  # [s] between two updates
 BAR = 20  # characters
@@ -16,9 +18,7 @@ BAR = 20  # characters
 def stream() -> TextIO | None:
     """Return the stream on which to show progress: standard output in a notebook, standard error in
     a terminal, otherwise None."""
-    ipython: Any = sys.modules.get("IPython")
-    shell = ipython and ipython.get_ipython()
-    if shell is not None and hasattr(shell, "kernel"):
+    if drawings.is_notebook():
         return sys.stdout
     return sys.stderr if sys.stderr is not None and sys.stderr.isatty() else None
 

@@ -14,7 +14,7 @@ import numpy as np
 from . import _abi, _calls, _html
 from ._lib import default, lib, text
 from ._records import StudyEntry, StudyMethod, StudyReference
-from ._values import address, integer, number, numbers, there_are, truth, vector
+from ._values import address, integer, number, numbers, there_are, truth, vector, word
 from .channels import Channel
 from .errors import Status, Warning, as_status, warn
 from .gains import Gains
@@ -39,7 +39,7 @@ WHY_SIZE = 2048  # [byte] size of the buffer for the reason of a recommendation
 
 
 def _swap(words: Mapping[str, int]) -> dict[int, str]:
-    return {value: word for word, value in words.items()}
+    return {value: name for name, value in words.items()}
 
 
 class ReferenceSamples(NamedTuple):
@@ -106,12 +106,6 @@ def _value(name: str, value: Any) -> Any:
     if name == "origin":
         return _swap(names(_abi.baum_study_origin, "BAUM_STUDY_"))[value]
     return as_status(value) if name == "status" else value
-
-
-def _cost(word: str) -> int:
-    if word not in COSTS:
-        raise ValueError(f"no cost {word!r}; {there_are(COSTS, word)}")
-    return COSTS[word]
 
 
 # ---- studies -------------------------------------------------------------------------------------
@@ -329,10 +323,7 @@ class Study(_calls.Closing):
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
             struct.integrator = lookup(integrator).address
-        if formulation not in FORMULATIONS:
-            known = there_are(FORMULATIONS, formulation)
-            raise ValueError(f"no formulation {formulation!r}; {known}")
-        struct.formulation = FORMULATIONS[formulation]
+        struct.formulation = word(FORMULATIONS, formulation, "formulation")
         struct.settings = integer(settings, "settings")
         struct.constants = integer(constants, "constants")
         if coarsest is not None:
@@ -454,7 +445,8 @@ class Study(_calls.Closing):
         """
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
-        self._owner.call(lib.baum_study_front, _cost(cost), len(self), entries, ctypes.byref(count))
+        how = word(COSTS, cost, "cost")
+        self._owner.call(lib.baum_study_front, how, len(self), entries, ctypes.byref(count))
         return list(entries[: count.value])
 
     def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
@@ -464,7 +456,7 @@ class Study(_calls.Closing):
         cost: "work" gives evaluations, "cpu" gives CPU time [s].
         """
         out = ctypes.c_double()
-        given = integer(method, "method"), number(error, "error"), _cost(cost)
+        given = integer(method, "method"), number(error, "error"), word(COSTS, cost, "cost")
         self._owner.call(lib.baum_study_cost_at, *given, ctypes.byref(out))
         return out.value
 
@@ -472,7 +464,7 @@ class Study(_calls.Closing):
         """Return the cost of method a divided by the cost of method b, for the same error [-]. a
         and b are indices."""
         out = ctypes.c_double()
-        given = integer(a, "a"), integer(b, "b"), number(error, "error"), _cost(cost)
+        given = integer(a, "a"), integer(b, "b"), number(error, "error"), word(COSTS, cost, "cost")
         self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
@@ -480,7 +472,8 @@ class Study(_calls.Closing):
         """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
         stays within this limit also from perturbed starts and over twice the time span. If not,
         `why` says so. Raises baum.Error if there is no such setting."""
-        return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
+        given = number(error, "error"), word(COSTS, cost, "cost")
+        return self._answer(lib.baum_study_recommend, *given)
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
         """Return the most accurate setting whose run takes at most this CPU time [s] on this
@@ -554,10 +547,10 @@ def _title(title: str | None) -> bytes | None:
     return None if title is None else title.encode()
 
 
-def _form(word: str) -> int:
-    if word not in FORMS:
-        raise ValueError(f"no form {word!r} of a report; {there_are(FORMS, word)}")
-    return FORMS[word]
+def _form(name: str) -> int:
+    if name not in FORMS:
+        raise ValueError(f"no form {name!r} of a report; {there_are(FORMS, name)}")
+    return FORMS[name]
 
 
 study = Study

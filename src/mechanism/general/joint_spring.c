@@ -58,10 +58,7 @@ typedef struct spring {
 
 static spring spring_at(const baum_i_force *force, const baum_i_point *point)
 {
-  const baum_joint_spring_def *def = force->element.def;
-  spring s = {.of = sprung(point->mechanism, force),
-              .law = baum_i_spring_law_of(force, (const void *)&def->stiffness,
-                                          point->parameters + force->element.parameter)};
+  spring s = {.of = sprung(point->mechanism, force), .law = baum_i_spring_law_of(force, point)};
   baum_i_coordinate_at(&s.of, point, &s.c);
   return s;
 }

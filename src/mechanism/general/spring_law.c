@@ -39,22 +39,9 @@ baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point
 
 /* ---- members of types ---- */
 
-static const baum_i_spring_def *def_of(const baum_i_force *force)
-{
-  const char *bytes = force->element.def;
-  return (const baum_i_spring_def *)(const void *)(bytes + force->type->spring_fields);
-}
-
-static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
-{
-  int first = force->element.definition->parameter_count - BAUM_I_SPRING_NUMBERS;
-  return baum_i_spring_law_of(force, def_of(force),
-                              point->parameters + force->element.parameter + first);
-}
-
 void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers)
 {
-  const baum_i_spring_def *def = def_of(force);
+  const baum_i_spring_def *def = baum_i_spring_def_of(force);
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
   numbers[BAUM_I_DAMPING] = def->damping;
   numbers[BAUM_I_FREE_LENGTH] = isnan(def->free_length) ? design : def->free_length;
@@ -62,13 +49,13 @@ void baum_i_spring_lower(const baum_i_force *force, double design, double *numbe
 
 bool baum_i_spring_depends(const baum_i_force *force)
 {
-  const baum_i_spring_def *def = def_of(force);
+  const baum_i_spring_def *def = baum_i_spring_def_of(force);
   return def->law ? def->depends_on_velocity : def->damping != 0.0;
 }
 
 baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *point, double *sum)
 {
-  const baum_i_spring_law s = law_of(force, point);
+  const baum_i_spring_law s = baum_i_spring_law_of(force, point);
   double stretch = force->type->stretch(force, point).length - s.numbers[BAUM_I_FREE_LENGTH];
   *sum += s.law ? 0.0 : 0.5 * s.numbers[BAUM_I_STIFFNESS] * stretch * stretch;
   return BAUM_OK;
@@ -77,7 +64,7 @@ baum_status baum_i_spring_potential(const baum_i_force *force, baum_i_point *poi
 baum_status baum_i_spring_power(const baum_i_force *force, baum_i_point *point,
                                 double sum[BAUM_I_POWERS])
 {
-  const baum_i_spring_law s = law_of(force, point);
+  const baum_i_spring_law s = baum_i_spring_law_of(force, point);
   const baum_i_stretch now = force->type->stretch(force, point);
   if (now.no_direction) {
     return BAUM_OK;
@@ -110,7 +97,7 @@ static baum_status tension_field(const void *spring, const baum_i_local *at, dou
 baum_status baum_i_spring_check(const void *force, baum_i_point *point)
 {
   const baum_i_force *element = force;
-  const baum_i_spring_law spring = law_of(element, point);
+  const baum_i_spring_law spring = baum_i_spring_law_of(element, point);
   const baum_i_stretch now = element->type->stretch(element, point);
   if (!spring.law || now.no_direction) {
     return BAUM_OK;

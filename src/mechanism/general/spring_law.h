@@ -74,14 +74,21 @@ static inline baum_status baum_i_tension_at(const baum_i_spring_law *spring, bau
   return BAUM_OK;
 }
 
-/* Return the law of a spring. `numbers` points to the numbers of the linear spring, which are the
- * last BAUM_I_SPRING_NUMBERS parameters of the element. */
-static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
-                                                     const baum_i_spring_def *def,
-                                                     const double *numbers)
+static inline const baum_i_spring_def *baum_i_spring_def_of(const baum_i_force *force)
 {
+  const char *bytes = force->element.def;
+  return (const baum_i_spring_def *)(const void *)(bytes + force->type->spring_fields);
+}
+
+/* Return the law of a spring. The numbers of the linear spring are the last BAUM_I_SPRING_NUMBERS
+ * parameters of the element. */
+static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
+                                                     const baum_i_point *point)
+{
+  const baum_i_spring_def *def = baum_i_spring_def_of(force);
+  int first = force->type->definition.parameter_count - BAUM_I_SPRING_NUMBERS;
   return (baum_i_spring_law){.element = &force->element,
-                             .numbers = numbers,
+                             .numbers = point->parameters + force->element.parameter + first,
                              .law = def->law,
                              .user = def->user,
                              .depends_on_rate = def->depends_on_velocity};

@@ -160,12 +160,6 @@ static void place(const baum_i_joint *joint, const baum_i_point *point, double a
 
 /* ---- type ---- */
 
-static int velocity_rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 BAUM_I_PLANAR_EVALUATE(edge, 1, edge_phi, edge_jacobian, edge_gamma)
 BAUM_I_PLANAR_LINEARIZE(edge, edge_second)
 
@@ -180,7 +174,7 @@ static const baum_i_joint_type type = {
   .width = BAUM_I_PLANE,
   .scleronomic = true,
   .row_count = 1,
-  .velocity_rows = velocity_rows,
+  .velocity_row_count = 1,
   .lower = lower,
   .extent = extent,
   .place = place,

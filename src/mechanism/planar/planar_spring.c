@@ -71,13 +71,6 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   return s;
 }
 
-static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
-{
-  const baum_planar_spring_def *def = force->element.def;
-  return baum_i_spring_law_of(force, (const void *)&def->stiffness,
-                              point->parameters + force->element.parameter + LAW);
-}
-
 static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
 {
   const spring s = spring_at(force, point);
@@ -143,7 +136,7 @@ static baum_status add_one(const baum_i_force *element, baum_i_point *point, dou
     return BAUM_OK;
   }
   baum_i_pair e = d / length;
-  baum_i_spring_law law = law_of(element, point);
+  baum_i_spring_law law = baum_i_spring_law_of(element, point);
   baum_i_tension t;
   BAUM_I_TRY(baum_i_tension_at(&law, point, length, baum_i_dot(e, rate), &t));
   baum_i_pair pull = t.value * e;
@@ -168,7 +161,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   if (s.length == 0.0) {
     return BAUM_OK;
   }
-  baum_i_spring_law law = law_of(element, point);
+  baum_i_spring_law law = baum_i_spring_law_of(element, point);
   baum_i_tension t;
   BAUM_I_TRY(baum_i_tension_at(&law, point, s.length, s.rate, &t));
   const baum_i_span *span = &element->span;

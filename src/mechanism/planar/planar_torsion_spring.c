@@ -55,10 +55,8 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 
 static baum_status torque_at(const baum_i_force *force, baum_i_point *point, baum_i_tension *out)
 {
-  const baum_planar_torsion_spring_def *def = force->element.def;
   const baum_i_stretch now = stretch(force, point);
-  baum_i_spring_law law = baum_i_spring_law_of(force, (const void *)&def->stiffness,
-                                               point->parameters + force->element.parameter);
+  baum_i_spring_law law = baum_i_spring_law_of(force, point);
   return baum_i_tension_at(&law, point, now.length, now.rate, out);
 }
 

@@ -25,7 +25,7 @@
 
 #include "base/message.h"
 #include "mechanism/definition.h"
-#include "mechanism/spatial/spatial.h"
+#include "mechanism/spatial/spatial_motion.h"
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
@@ -94,11 +94,6 @@ static void extent(const baum_mechanism *mechanism, const baum_i_joint *joint, b
 
 /* ---- one joint ---- */
 
-/* u, W_a and W_b of a motion, in ground axes. */
-typedef struct motion {
-  double u[3], w_a[3], w_b[3];
-} motion;
-
 typedef struct edge {
   const baum_i_spatial_frame *a, *b;
   double e[3], p[3], d[3];
@@ -117,42 +112,21 @@ static edge edge_at(const baum_i_joint *joint, const baum_i_point *point)
   return x;
 }
 
-static motion motion_at(const edge *x)
+/* Computes u. */
+static void relative_velocity(const baum_i_spatial_motion *z, double out[3])
 {
-  motion out;
   for (int i = 0; i < 3; i++) {
-    out.u[i] = x->a->v[i] - x->b->v[i];
+    out[i] = z->v[0][i] - z->v[1][i];
   }
-  memcpy(out.w_a, x->a->w, sizeof out.w_a);
-  memcpy(out.w_b, x->b->w, sizeof out.w_b);
-  return out;
-}
-
-/* Returns the motion whose velocities are `twelve`. In this array, angular velocities are in body
- * axes. */
-static motion motion_of(const edge *x, const double twelve[COLUMNS])
-{
-  motion out;
-  for (int i = 0; i < 3; i++) {
-    out.u[i] = twelve[i] - twelve[6 + i];
-  }
-  baum_i_turn(x->a->axes, twelve + 3, out.w_a);
-  baum_i_turn(x->b->axes, twelve + 9, out.w_b);
-  return out;
-}
-
-static motion unit_motion(const edge *x, int column)
-{
-  double twelve[COLUMNS] = {0.0};
-  twelve[column] = 1.0;
-  return motion_of(x, twelve);
 }
 
 /* Computes D_y d. */
-static void arm_along(const edge *x, const motion *y, double out[3])
+static void arm_along(const edge *x, const baum_i_spatial_motion *y, double out[3])
 {
-  baum_i_cross(y->w_a, x->p, out);
-  baum_i_add_scaled3(1.0, y->u, out);
+  double u[3];
+  relative_velocity(y, u);
+  baum_i_cross(y->w[0], x->p, out);
+  baum_i_add_scaled3(1.0, u, out);
 }
 
 /* Returns the product x . (y x z). */
@@ -164,31 +138,35 @@ static double mixed_product(const double x[3], const double y[3], const double z
 }
 
 /* Returns D_y (J z). */
-static double row_along(const edge *x, const motion *z, const motion *y)
+static double row_along(const edge *x, const baum_i_spatial_motion *z,
+                        const baum_i_spatial_motion *y)
 {
-  double e_y[3], d_y[3], w_y[3];
-  baum_i_cross(y->w_a, x->e, e_y);
-  baum_i_cross(y->w_b, z->w_b, w_y);
+  double u[3], e_y[3], d_y[3], w_y[3];
+  relative_velocity(z, u);
+  baum_i_cross(y->w[0], x->e, e_y);
+  baum_i_cross(y->w[1], z->w[1], w_y);
   arm_along(x, y, d_y);
-  return baum_i_dot3(z->u, e_y) - mixed_product(w_y, x->d, x->e) -
-         mixed_product(z->w_b, d_y, x->e) - mixed_product(z->w_b, x->d, e_y);
+  return baum_i_dot3(u, e_y) - mixed_product(w_y, x->d, x->e) - mixed_product(z->w[1], d_y, x->e) -
+         mixed_product(z->w[1], x->d, e_y);
 }
 
 /* Returns D_y D_v (J v). */
-static double bend_along(const edge *x, const motion *v, const motion *y)
+static double bend_along(const edge *x, const baum_i_spatial_motion *v,
+                         const baum_i_spatial_motion *y)
 {
-  double e_v[3], e_y[3], e_vy[3], d_v[3], d_y[3], d_vy[3], turned[3], w_y[3];
-  baum_i_cross(v->w_a, x->e, e_v);
-  baum_i_cross(y->w_a, x->e, e_y);
-  baum_i_cross(y->w_a, e_v, e_vy);
-  baum_i_cross(v->w_a, x->p, turned);
-  baum_i_cross(y->w_a, turned, d_vy);
+  double u[3], e_v[3], e_y[3], e_vy[3], d_v[3], d_y[3], d_vy[3], turned[3], w_y[3];
+  relative_velocity(v, u);
+  baum_i_cross(v->w[0], x->e, e_v);
+  baum_i_cross(y->w[0], x->e, e_y);
+  baum_i_cross(y->w[0], e_v, e_vy);
+  baum_i_cross(v->w[0], x->p, turned);
+  baum_i_cross(y->w[0], turned, d_vy);
   arm_along(x, v, d_v);
   arm_along(x, y, d_y);
-  baum_i_cross(y->w_b, v->w_b, w_y);
-  return baum_i_dot3(v->u, e_vy) - mixed_product(w_y, d_v, x->e) - mixed_product(w_y, x->d, e_v) -
-         mixed_product(v->w_b, d_vy, x->e) - mixed_product(v->w_b, d_v, e_y) -
-         mixed_product(v->w_b, d_y, e_v) - mixed_product(v->w_b, x->d, e_vy);
+  baum_i_cross(y->w[1], v->w[1], w_y);
+  return baum_i_dot3(u, e_vy) - mixed_product(w_y, d_v, x->e) - mixed_product(w_y, x->d, e_v) -
+         mixed_product(v->w[1], d_vy, x->e) - mixed_product(v->w[1], d_v, e_y) -
+         mixed_product(v->w[1], d_y, e_v) - mixed_product(v->w[1], x->d, e_vy);
 }
 
 static void row_of(const edge *x, double twelve[COLUMNS])
@@ -213,7 +191,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
     out->phi[joint->row] = 0.0;
   }
   if (out->gamma) {
-    const motion v = motion_at(&x);
+    const baum_i_spatial_motion v = baum_i_spatial_motion_at(x.a, x.b);
     out->gamma[joint->row] = -row_along(&x, &v, &v);
   }
   if (out->jacobian) {
@@ -226,16 +204,17 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 }
 
 /* Sets column j of (J^T lambda)_q. The moment on body_a is constant in body axes. */
-static void set_force_column(const edge *x, double lambda, const motion *y, int j, double *square)
+static void set_force_column(const edge *x, double lambda, const baum_i_spatial_motion *y, int j,
+                             double *square)
 {
   double e_y[3], d_y[3], moment[3], turned[3], change[3], body[3];
-  baum_i_cross(y->w_a, x->e, e_y);
+  baum_i_cross(y->w[0], x->e, e_y);
   arm_along(x, y, d_y);
   baum_i_cross(x->e, d_y, change);
   baum_i_cross(e_y, x->d, turned);
   baum_i_add_scaled3(1.0, turned, change);
   baum_i_cross(x->e, x->d, moment);
-  baum_i_cross(y->w_b, moment, turned);
+  baum_i_cross(y->w[1], moment, turned);
   baum_i_add_scaled3(-1.0, turned, change);
   baum_i_turn_back(x->b->axes, change, body);
   for (int i = 0; i < 3; i++) {
@@ -252,10 +231,10 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   double twelve[COLUMNS], jw_q[COLUMNS], gamma_q[COLUMNS], gamma_v[COLUMNS];
   double jtl_q[COLUMNS * COLUMNS] = {0.0};
   baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, twelve);
-  const motion along = motion_of(&x, twelve);
-  const motion v = motion_at(&x);
+  const baum_i_spatial_motion along = baum_i_spatial_motion_of(x.a, x.b, twelve);
+  const baum_i_spatial_motion v = baum_i_spatial_motion_at(x.a, x.b);
   for (int j = 0; j < COLUMNS; j++) {
-    const motion y = unit_motion(&x, j);
+    const baum_i_spatial_motion y = baum_i_spatial_unit_motion(x.a, x.b, j);
     jw_q[j] = row_along(&x, &along, &y);
     gamma_v[j] = -row_along(&x, &v, &y) - row_along(&x, &y, &v);
     gamma_q[j] = -bend_along(&x, &v, &y);
@@ -285,19 +264,13 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
   }
 }
 
-static int velocity_rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spatial_knife_edge, "spatial knife edge", fields),
                  .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = 1,
-  .velocity_rows = velocity_rows,
+  .velocity_row_count = 1,
   .lower = lower,
   .extent = extent,
   .evaluate = baum_i_evaluate_each,

@@ -37,9 +37,9 @@
 
 #include "base/message.h"
 #include "mechanism/definition.h"
-#include "mechanism/spatial/spatial.h"
+#include "mechanism/spatial/spatial_motion.h"
 
-enum { ROWS = 3, VELOCITY_ROWS = 2, COLUMNS = BAUM_I_PAIR_COLUMNS };
+enum { ROWS = 3, COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* Parameters: k, e_1, e_2 and the offset k . s_a on body_a; centre and n on body_b; R - t and t. */
 enum { VECTORS = 0, OFFSET = 9, CENTRE = 10, AXIS = 13, RADIUS = 16, RIM = 17, PARAMETER_COUNT };
@@ -119,11 +119,6 @@ static void subtract(const double x[3], const double y[3], double out[3])
 
 /* ---- the contact ---- */
 
-/* The velocities of both origins and the angular velocities of both bodies, in ground axes. */
-typedef struct motion {
-  double v_a[3], w_a[3], v_b[3], w_b[3];
-} motion;
-
 typedef struct contact {
   const baum_i_spatial_frame *a, *b;
   double e[ROWS][3]; /* k, e_1, e_2 */
@@ -162,35 +157,6 @@ static contact contact_at(const baum_i_joint *joint, const baum_i_point *point)
   return x;
 }
 
-static motion motion_at(const contact *x)
-{
-  motion out;
-  memcpy(out.v_a, x->a->v, sizeof out.v_a);
-  memcpy(out.w_a, x->a->w, sizeof out.w_a);
-  memcpy(out.v_b, x->b->v, sizeof out.v_b);
-  memcpy(out.w_b, x->b->w, sizeof out.w_b);
-  return out;
-}
-
-/* Returns the motion whose velocities are `twelve`. In this array, angular velocities are in body
- * axes. */
-static motion motion_of(const contact *x, const double twelve[COLUMNS])
-{
-  motion out;
-  memcpy(out.v_a, twelve, sizeof out.v_a);
-  baum_i_turn(x->a->axes, twelve + 3, out.w_a);
-  memcpy(out.v_b, twelve + 6, sizeof out.v_b);
-  baum_i_turn(x->b->axes, twelve + 9, out.w_b);
-  return out;
-}
-
-static motion unit_motion(const contact *x, int column)
-{
-  double twelve[COLUMNS] = {0.0};
-  twelve[column] = 1.0;
-  return motion_of(x, twelve);
-}
-
 /* Adds G(r), which the top of this file defines. */
 static void add_first(const contact *x, const double r[3], double out[3])
 {
@@ -221,68 +187,70 @@ static void add_second(const contact *x, const double r[3], const double y[3], d
 }
 
 /* Computes the change r of n relative to body_a that the motion y causes. */
-static void relative_change(const contact *x, const motion *y, double r[3])
+static void relative_change(const contact *x, const baum_i_spatial_motion *y, double r[3])
 {
   double relative[3];
-  subtract(y->w_b, y->w_a, relative);
+  subtract(y->w[1], y->w[0], relative);
   baum_i_cross(relative, x->n, r);
 }
 
-static variation derivative_along(const contact *x, const motion *y)
+static variation derivative_along(const contact *x, const baum_i_spatial_motion *y)
 {
   variation out = {.p = {0.0}};
   double r[3];
   relative_change(x, y, r);
-  add_cross(1.0, y->w_b, x->p, out.p);
-  subtract(y->v_b, y->v_a, out.d);
+  add_cross(1.0, y->w[1], x->p, out.p);
+  subtract(y->v[1], y->v[0], out.d);
   baum_i_add_scaled3(1.0, out.p, out.d);
-  add_cross(1.0, y->w_a, x->rho, out.rho);
+  add_cross(1.0, y->w[0], x->rho, out.rho);
   add_first(x, r, out.rho);
   return out;
 }
 
 /* Returns D_y of the derivatives along a motion z, that is D_y D_z of p, d and rho. The argument dz
  * is motion_along(z, y). */
-static variation second_along(const contact *x, const motion *z, const motion *dz, const motion *y)
+static variation second_along(const contact *x, const baum_i_spatial_motion *z,
+                              const baum_i_spatial_motion *dz, const baum_i_spatial_motion *y)
 {
   const variation by_y = derivative_along(x, y);
   variation out = {.p = {0.0}};
   double r[3], r_y[3], change[3] = {0.0}, dn[3], relative[3], g[3] = {0.0};
-  add_cross(1.0, dz->w_b, x->p, out.p);
-  add_cross(1.0, z->w_b, by_y.p, out.p);
+  add_cross(1.0, dz->w[1], x->p, out.p);
+  add_cross(1.0, z->w[1], by_y.p, out.p);
   memcpy(out.d, out.p, sizeof out.d);
-  add_cross(1.0, dz->w_a, x->rho, out.rho);
-  add_cross(1.0, z->w_a, by_y.rho, out.rho);
+  add_cross(1.0, dz->w[0], x->rho, out.rho);
+  add_cross(1.0, z->w[0], by_y.rho, out.rho);
   relative_change(x, z, r);
   relative_change(x, y, r_y);
-  baum_i_cross(y->w_b, x->n, dn);
+  baum_i_cross(y->w[1], x->n, dn);
   relative_change(x, dz, change);
-  subtract(z->w_b, z->w_a, relative);
+  subtract(z->w[1], z->w[0], relative);
   add_cross(1.0, relative, dn, change);
-  add_cross(-1.0, y->w_a, r, change);
+  add_cross(-1.0, y->w[0], r, change);
   add_first(x, r, g);
-  add_cross(1.0, y->w_a, g, out.rho);
+  add_cross(1.0, y->w[0], g, out.rho);
   add_first(x, change, out.rho);
   add_second(x, r_y, r, out.rho);
   return out;
 }
 
 /* Returns D_y of the motion z. Its velocities are 0, because the V of z are constant. */
-static motion motion_along(const motion *z, const motion *y)
+static baum_i_spatial_motion motion_along(const baum_i_spatial_motion *z,
+                                          const baum_i_spatial_motion *y)
 {
-  motion out = {.v_a = {0.0}};
-  baum_i_cross(y->w_a, z->w_a, out.w_a);
-  baum_i_cross(y->w_b, z->w_b, out.w_b);
+  baum_i_spatial_motion out = {.v = {{0.0}}};
+  baum_i_cross(y->w[0], z->w[0], out.w[0]);
+  baum_i_cross(y->w[1], z->w[1], out.w[1]);
   return out;
 }
 
 /* Adds W_b x (p + rho) - W_a x (d + rho) for the W of the motion z and the vectors in `at`. */
-static void add_turning(const motion *z, const variation *at, double out[3])
+static void add_turning(const baum_i_spatial_motion *z, const variation *at, double out[3])
 {
-  add_cross(1.0, z->w_b, at->p, out);
-  add_cross(1.0, z->w_b, at->rho, out);
-  add_cross(-1.0, z->w_a, at->d, out);
-  add_cross(-1.0, z->w_a, at->rho, out);
+  add_cross(1.0, z->w[1], at->p, out);
+  add_cross(1.0, z->w[1], at->rho, out);
+  add_cross(-1.0, z->w[0], at->d, out);
+  add_cross(-1.0, z->w[0], at->rho, out);
 }
 
 static variation present(const contact *x)
@@ -295,41 +263,44 @@ static variation present(const contact *x)
 }
 
 /* Computes U(z). */
-static void slip_of(const contact *x, const motion *z, double out[3])
+static void slip_of(const contact *x, const baum_i_spatial_motion *z, double out[3])
 {
   const variation at = present(x);
-  subtract(z->v_b, z->v_a, out);
+  subtract(z->v[1], z->v[0], out);
   add_turning(z, &at, out);
 }
 
 /* Computes D_y U(z). */
-static void slip_along(const contact *x, const motion *z, const motion *y, double out[3])
+static void slip_along(const contact *x, const baum_i_spatial_motion *z,
+                       const baum_i_spatial_motion *y, double out[3])
 {
   const variation at = present(x);
   const variation by_y = derivative_along(x, y);
-  const motion dz = motion_along(z, y);
+  const baum_i_spatial_motion dz = motion_along(z, y);
   memset(out, 0, 3 * sizeof *out);
   add_turning(&dz, &at, out);
   add_turning(z, &by_y, out);
 }
 
 /* Computes D_y (e . U(z)) for every row, where e is k in the first row. */
-static void rows_along(const contact *x, const motion *z, const motion *y, double out[ROWS])
+static void rows_along(const contact *x, const baum_i_spatial_motion *z,
+                       const baum_i_spatial_motion *y, double out[ROWS])
 {
   double slip[3], change[3];
   slip_of(x, z, slip);
   slip_along(x, z, y, change);
   for (int i = 0; i < ROWS; i++) {
     double turned[3];
-    baum_i_cross(y->w_a, x->e[i], turned);
+    baum_i_cross(y->w[0], x->e[i], turned);
     out[i] = baum_i_dot3(turned, slip) + baum_i_dot3(x->e[i], change);
   }
 }
 
 /* Computes D_y D_v (e . U(v)) for every row, where e is k in the first row. */
-static void bend_along(const contact *x, const motion *v, const motion *y, double out[ROWS])
+static void bend_along(const contact *x, const baum_i_spatial_motion *v,
+                       const baum_i_spatial_motion *y, double out[ROWS])
 {
-  const motion dv = motion_along(v, y);
+  const baum_i_spatial_motion dv = motion_along(v, y);
   const variation at = derivative_along(x, v);
   const variation by_y = second_along(x, v, &dv, y);
   double slip[3], slip_y[3], change[3] = {0.0}, change_y[3] = {0.0};
@@ -340,10 +311,10 @@ static void bend_along(const contact *x, const motion *v, const motion *y, doubl
   add_turning(v, &by_y, change_y);
   for (int i = 0; i < ROWS; i++) {
     double by_v[3], turned[3], both[3] = {0.0};
-    baum_i_cross(v->w_a, x->e[i], by_v);
-    baum_i_cross(y->w_a, x->e[i], turned);
-    add_cross(1.0, dv.w_a, x->e[i], both);
-    add_cross(1.0, v->w_a, turned, both);
+    baum_i_cross(v->w[0], x->e[i], by_v);
+    baum_i_cross(y->w[0], x->e[i], turned);
+    add_cross(1.0, dv.w[0], x->e[i], both);
+    add_cross(1.0, v->w[0], turned, both);
     out[i] = baum_i_dot3(both, slip) + baum_i_dot3(by_v, slip_y) + baum_i_dot3(turned, change) +
              baum_i_dot3(x->e[i], change_y);
   }
@@ -377,7 +348,7 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
     out->phi[joint->row] = baum_i_dot3(x.e[0], x.d) + baum_i_dot3(x.e[0], x.rho) - numbers[OFFSET];
   }
   if (out->gamma) {
-    const motion v = motion_at(&x);
+    const baum_i_spatial_motion v = baum_i_spatial_motion_at(x.a, x.b);
     double *gamma = out->gamma + joint->row;
     rows_along(&x, &v, &v, gamma);
     for (int i = 0; i < ROWS; i++) {
@@ -398,10 +369,10 @@ static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, cons
 /* Adds column j of (J^T lambda)_q. l is the sum of lambda e over the rows. */
 static void add_force_column(const contact *x, const double l[3], int j, double *square)
 {
-  const motion y = unit_motion(x, j);
+  const baum_i_spatial_motion y = baum_i_spatial_unit_motion(x->a, x->b, j);
   const variation by_y = derivative_along(x, &y);
   double dl[3], arm_a[3], arm_b[3], turn_a[3], turn_b[3], moment[3], body[3];
-  baum_i_cross(y.w_a, l, dl);
+  baum_i_cross(y.w[0], l, dl);
   for (int i = 0; i < 3; i++) {
     arm_a[i] = x->d[i] + x->rho[i];
     arm_b[i] = x->p[i] + x->rho[i];
@@ -412,11 +383,11 @@ static void add_force_column(const contact *x, const double l[3], int j, double 
   add_cross(1.0, dl, arm_a, change_a);
   add_cross(1.0, l, turn_a, change_a);
   baum_i_cross(l, arm_a, moment);
-  add_cross(-1.0, y.w_a, moment, change_a);
+  add_cross(-1.0, y.w[0], moment, change_a);
   add_cross(1.0, arm_b, dl, change_b);
   add_cross(1.0, turn_b, l, change_b);
   baum_i_cross(arm_b, l, moment);
-  add_cross(-1.0, y.w_b, moment, change_b);
+  add_cross(-1.0, y.w[1], moment, change_b);
   for (int i = 0; i < 3; i++) {
     square[i * COLUMNS + j] = -dl[i];
     square[(6 + i) * COLUMNS + j] = dl[i];
@@ -439,13 +410,13 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   double jtl_q[COLUMNS * COLUMNS] = {0.0};
   double l[3] = {0.0};
   baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, twelve);
-  const motion along = motion_of(&x, twelve);
-  const motion v = motion_at(&x);
+  const baum_i_spatial_motion along = baum_i_spatial_motion_of(x.a, x.b, twelve);
+  const baum_i_spatial_motion v = baum_i_spatial_motion_at(x.a, x.b);
   for (int i = 0; i < ROWS && lambda; i++) {
     baum_i_add_scaled3(lambda[joint->row + i], x.e[i], l);
   }
   for (int j = 0; j < COLUMNS; j++) {
-    const motion y = unit_motion(&x, j);
+    const baum_i_spatial_motion y = baum_i_spatial_unit_motion(x.a, x.b, j);
     double jw[ROWS], by_y[ROWS], by_v[ROWS], bend[ROWS];
     rows_along(&x, &along, &y, jw);
     rows_along(&x, &v, &y, by_y);
@@ -485,19 +456,13 @@ static void force_on_b(const baum_i_joint *joint, const baum_i_point *point, con
   }
 }
 
-static int velocity_rows(const void *def)
-{
-  (void)def;
-  return VELOCITY_ROWS;
-}
-
 static const baum_i_joint_type type = {
   .definition = {BAUM_I_DEFINITION(spatial_rolling_disc, "spatial rolling disc", fields),
                  .check = check, .parameter_count = PARAMETER_COUNT},
   .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = ROWS,
-  .velocity_rows = velocity_rows,
+  .velocity_row_count = 2,
   .lower = lower,
   .extent = extent,
   .evaluate = baum_i_evaluate_each,

@@ -119,27 +119,20 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 
 /* ---- tension ---- */
 
-static const double *numbers_of(const baum_i_force *force, const baum_i_point *point)
-{
-  return point->parameters + force->element.parameter;
-}
-
 static baum_status tension_at(const baum_i_force *force, baum_i_point *point,
                               const baum_i_stretch *now, baum_i_tension *out)
 {
-  const baum_spatial_cable_def *def = force->element.def;
-  const double *numbers = numbers_of(force, point);
-  const double *law = numbers + LAW;
+  const baum_i_spring_law given = baum_i_spring_law_of(force, point);
+  const double *law = given.numbers;
   *out = (baum_i_tension){.value = 0.0};
-  if (def->law) {
-    const baum_i_spring_law given = baum_i_spring_law_of(force, (const void *)&def->stiffness, law);
+  if (given.law) {
     return baum_i_call_spring_law(&given, point, now->length, now->rate, out);
   }
   const double s = now->length - law[BAUM_I_FREE_LENGTH];
   if (s <= 0.0) {
     return BAUM_OK;
   }
-  const double d = numbers[TRANSITION];
+  const double d = point->parameters[force->element.parameter + TRANSITION];
   const double x = s < d ? s / d : 1.0;
   const double damping = law[BAUM_I_DAMPING] * x * x * (3.0 - 2.0 * x);
   const double slope = s < d ? law[BAUM_I_DAMPING] * 6.0 * x * (1.0 - x) / d : 0.0;
@@ -152,10 +145,10 @@ static baum_status tension_at(const baum_i_force *force, baum_i_point *point,
 
 static baum_status potential(const baum_i_force *force, baum_i_point *point, double *sum)
 {
-  const baum_spatial_cable_def *def = force->element.def;
-  const double *law = numbers_of(force, point) + LAW;
+  const baum_i_spring_law given = baum_i_spring_law_of(force, point);
+  const double *law = given.numbers;
   double s = fmax(stretch(force, point).length - law[BAUM_I_FREE_LENGTH], 0.0);
-  *sum += def->law ? 0.0 : 0.5 * law[BAUM_I_STIFFNESS] * s * s;
+  *sum += given.law ? 0.0 : 0.5 * law[BAUM_I_STIFFNESS] * s * s;
   return BAUM_OK;
 }
 

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "mechanism/spatial/spatial_motion.h"
+
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* ---- vectors, see spatial_rows.h ---- */
@@ -36,14 +38,8 @@ static vector vector_of(const baum_i_spatial_pair *pair, baum_i_spatial_vector w
   return u;
 }
 
-/* The velocities and angular velocities of body_a and body_b, in ground axes. */
-typedef struct motion {
-  double v[2][3];
-  double w[2][3];
-} motion;
-
 /* Return the derivative u' of a vector along a motion. */
-static vector along(const vector *u, const motion *m)
+static vector along(const vector *u, const baum_i_spatial_motion *m)
 {
   vector out = {.apart = 0.0};
   baum_i_cross(m->w[0], u->on[0], out.on[0]);
@@ -54,19 +50,9 @@ static vector along(const vector *u, const motion *m)
   return out;
 }
 
-static motion motion_of(const baum_i_spatial_pair *pair)
+static baum_i_spatial_motion unit_motion(const baum_i_spatial_pair *pair, int column)
 {
-  motion m;
-  for (int k = 0; k < 2; k++) {
-    memcpy(m.v[k], pair->frame[k]->v, sizeof m.v[k]);
-    memcpy(m.w[k], pair->frame[k]->w, sizeof m.w[k]);
-  }
-  return m;
-}
-
-static motion unit_motion(const baum_i_spatial_pair *pair, int column)
-{
-  motion m = {.v = {{0.0}}};
+  baum_i_spatial_motion m = {.v = {{0.0}}};
   int k = column / BAUM_I_SPACE;
   int i = column % 3;
   if (column % BAUM_I_SPACE < 3) {
@@ -142,7 +128,7 @@ typedef struct product {
 } product;
 
 static product product_along(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
-                             const motion *m)
+                             const baum_i_spatial_motion *m)
 {
   product p = {.x = {vector_of(pair, row.x)}, .y = {vector_of(pair, row.y)}};
   for (int i = 0; i < 2; i++) {
@@ -155,7 +141,7 @@ static product product_along(const baum_i_spatial_pair *pair, baum_i_spatial_row
 void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                            baum_i_coordinate *out)
 {
-  const motion m = motion_of(pair);
+  const baum_i_spatial_motion m = baum_i_spatial_motion_at(pair->frame[0], pair->frame[1]);
   const product p = product_along(pair, row, &m);
   *out = (baum_i_coordinate){.value = baum_i_dot3(p.x[0].value, p.y[0].value),
                              .rate = baum_i_dot3(p.x[1].value, p.y[0].value) +
@@ -172,7 +158,7 @@ baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
   const vector e = vector_of(pair, BAUM_I_APART);
   const double length = sqrt(baum_i_dot3(e.value, e.value));
   if (length >= DBL_MIN) {
-    const motion m = motion_of(pair);
+    const baum_i_spatial_motion m = baum_i_spatial_motion_at(pair->frame[0], pair->frame[1]);
     const vector rate = along(&e, &m);
     out.length = length;
     out.rate = baum_i_dot3(e.value, rate.value) / length;
@@ -191,7 +177,7 @@ void baum_i_spatial_add_force_on_b(const baum_i_coordinate *row, double lambda,
 
 /* Add (J w)_q to `out`, for a motion w. */
 static void add_first(const baum_i_spatial_pair *pair, const vector *x, const vector *y,
-                      const motion *w, double out[COLUMNS])
+                      const baum_i_spatial_motion *w, double out[COLUMNS])
 {
   const vector x_w = along(x, w);
   const vector y_w = along(y, w);
@@ -219,7 +205,7 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
                               baum_i_spatial_second *out)
 {
   *out = (baum_i_spatial_second){.rate_q = {0.0}};
-  const motion m = motion_of(pair);
+  const baum_i_spatial_motion m = baum_i_spatial_motion_at(pair->frame[0], pair->frame[1]);
   const product p = product_along(pair, row, &m);
   add_gradient(pair, -1.0, &p.x[2], &p.y[0], out->gamma_q);
   add_gradient(pair, -2.0, &p.x[1], &p.y[1], out->gamma_q);
@@ -234,7 +220,7 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
   bool all = shifts(&p.x[0], &p.y[0]);
   for (int i = 0; i < COLUMNS; i++) {
     double *column = out->columns_q + (ptrdiff_t)COLUMNS * i;
-    const motion unit = unit_motion(pair, i);
+    const baum_i_spatial_motion unit = unit_motion(pair, i);
     if (all || i % BAUM_I_SPACE >= 3) {
       add_first(pair, &p.x[0], &p.y[0], &unit, column);
     }

@@ -56,10 +56,9 @@ typedef struct spring {
 
 static spring spring_at(const baum_i_force *force, const baum_i_point *point)
 {
-  const baum_spatial_spring_def *def = force->element.def;
   const double *numbers = point->parameters + force->element.parameter;
   spring s = {.pair = baum_i_spatial_pair_at(&force->span, numbers, false, point),
-              .law = baum_i_spring_law_of(force, (const void *)&def->stiffness, numbers + LAW)};
+              .law = baum_i_spring_law_of(force, point)};
   s.l = baum_i_spatial_length_of(&s.pair);
   return s;
 }

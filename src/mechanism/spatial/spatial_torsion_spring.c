@@ -84,10 +84,9 @@ static void set_inner(const baum_i_spatial_pair *pair, int number, baum_i_inner 
 
 static spring spring_at(const baum_i_force *force, const baum_i_point *point)
 {
-  const baum_spatial_torsion_spring_def *def = force->element.def;
   const double *numbers = point->parameters + force->element.parameter;
   spring s = {.pair = baum_i_spatial_pair_at(&force->span, numbers, true, point),
-              .law = baum_i_spring_law_of(force, (const void *)&def->stiffness, numbers + LAW)};
+              .law = baum_i_spring_law_of(force, point)};
   set_inner(&s.pair, 0, &s.x[0]);
   set_inner(&s.pair, 1, &s.x[1]);
   s.no_direction = hypot(s.x[0].c.value, s.x[1].c.value) < sqrt(DBL_MIN);
