@@ -17,13 +17,19 @@ static const double VALIDATED_FOR = 5.0;
 /* [s] The runs that time an entry are repeated until they have taken this time in total. */
 static const double TIMED_FOR = 0.2;
 
+typedef struct workers workers;
+
+/* A function that works on one entry. `values` is scratch memory for the samples of one run. */
+typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
+
 /* Data that the threads share. */
-typedef struct workers {
+struct workers {
   baum_study *study;
   baum_i_study_file *file;
   baum_i_lock *lock;
   double wall_end;
-  baum_i_entry **order; /* (count) the entries to be measured */
+  entry_fn *work;       /* what the threads do with each entry */
+  baum_i_entry **order; /* (count) the entries to be measured or validated */
   int count;
   int next;
   /* Progress of the study: the number of entries that are measured, plus the number of entries that
@@ -31,7 +37,7 @@ typedef struct workers {
   int done;
   baum_status status;
   baum_i_kept_message message; /* the message that belongs to `status` */
-} workers;
+};
 
 /* ---- results of a run ---- */
 
@@ -125,16 +131,6 @@ static baum_i_deadline deadline_of(const workers *c, double limits)
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* Runs work() in as many threads as the options give, but in no more threads than there are
- * entries. */
-static void run_workers(workers *c, void (*work)(void *user, int k))
-{
-  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
-  if (threads > 0) {
-    baum_i_threads_run(threads, work, c);
-  }
-}
-
 /* Reports that one more entry is finished. Only one thread calls this function at a time. */
 static void report_progress(workers *c)
 {
@@ -212,11 +208,11 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(c->lock);
 }
 
-/* A function that works on one entry. `values` is scratch memory for the samples of one run. */
-typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
-
-static void run_entries(workers *c, entry_fn *work)
+/* Works on entries until there are no more. The threads execute this function. */
+static void run_entries(void *shared, int thread)
 {
+  workers *c = shared;
+  (void)thread;
   size_t size = (size_t)c->study->reference.samples.n * (size_t)baum_i_study_layout(c->study).width;
   double *values = baum_i_alloc(size, sizeof *values);
   if (!values) {
@@ -227,15 +223,20 @@ static void run_entries(workers *c, entry_fn *work)
   }
   baum_i_entry *entry = NULL;
   while ((entry = next_entry(c)) != NULL) {
-    work(c, entry, values);
+    c->work(c, entry, values);
   }
   baum_i_free(values);
 }
 
-static void measure(void *self, int k)
+/* Calls work() for all entries of the order, in as many threads as the options give, but in no more
+ * threads than there are entries. */
+static void run_workers(workers *c, entry_fn *work)
 {
-  (void)k;
-  run_entries(self, measure_entry);
+  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
+  c->work = work;
+  if (threads > 0) {
+    baum_i_threads_run(threads, run_entries, c);
+  }
 }
 
 /* ---- validations ---- */
@@ -253,12 +254,6 @@ static void validate_entry(workers *c, baum_i_entry *entry, double *values)
   }
   note_failure(c, status);
   baum_i_lock_give(c->lock);
-}
-
-static void validate(void *self, int k)
-{
-  (void)k;
-  run_entries(self, validate_entry);
 }
 
 /* Makes the list of the entries that need validation. Returns false if the list is empty. */
@@ -285,7 +280,7 @@ static void validate_all(workers *c)
     note_failure(c, baum_i_study_make_validations(c->study, &deadline));
   }
   if (c->status == BAUM_OK) {
-    run_workers(c, validate);
+    run_workers(c, validate_entry);
   }
 }
 
@@ -473,7 +468,7 @@ static void run_all(workers *c)
     note_failure(c, baum_i_fail_memory());
     return;
   }
-  run_workers(c, measure);
+  run_workers(c, measure_entry);
   time_entries(c);
   validate_all(c);
   baum_i_lock_destroy(c->lock);
