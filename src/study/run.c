@@ -4,7 +4,6 @@
  * that may be recommended. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "base/platform.h"
@@ -298,43 +297,25 @@ static int rank_of(const baum_study *study, const baum_i_entry *entry)
   return rank;
 }
 
-/* An entry with its rank and its index, by which entries are sorted. */
-typedef struct place {
-  baum_i_entry *entry;
-  int rank;
-  int k;
-} place;
-
-static int by_rank(const void *a, const void *b)
-{
-  const place *x = a;
-  const place *y = b;
-  return x->rank != y->rank ? (x->rank > y->rank) - (x->rank < y->rank)
-                            : (x->k > y->k) - (x->k < y->k);
-}
-
-/* Sorts the entries to be measured. Coarse settings come first, so that every method has results
- * when the time budget is used up. */
-static baum_status set_order(workers *c)
+/* Lists the entries to be measured. Coarse settings come first, so that every method has results
+ * when the time budget is used up. Entries of the same rank stay in the order of adding. */
+static void set_order(workers *c)
 {
   const baum_study *study = c->study;
-  place *places = baum_i_alloc((size_t)study->entry_count, sizeof *places);
-  BAUM_I_TRY(baum_i_check_memory(places));
   c->count = 0;
   for (int k = 0; k < study->entry_count; k++) {
     baum_i_entry *entry = study->entries[k];
-    if (entry->stage == BAUM_I_ADDED) {
-      places[c->count++] = (place){entry, rank_of(study, entry), k};
-    } else {
+    if (entry->stage != BAUM_I_ADDED) {
       c->done++;
+      continue;
     }
+    entry->rank = rank_of(study, entry);
+    int at = c->count++;
+    for (; at > 0 && c->order[at - 1]->rank > entry->rank; at--) {
+      c->order[at] = c->order[at - 1];
+    }
+    c->order[at] = entry;
   }
-  qsort(places, (size_t)c->count, sizeof *places, by_rank);
-  for (int k = 0; k < c->count; k++) {
-    c->order[k] = places[k].entry;
-  }
-  baum_i_free(places);
-  return BAUM_OK;
 }
 
 /* ---- times ---- */
@@ -502,7 +483,8 @@ static baum_status begin_study(workers *c)
   BAUM_I_TRY(baum_i_study_file_open(study, &c->file));
   study->begun = true;
   BAUM_I_TRY(prepare(c));
-  return set_order(c);
+  set_order(c);
+  return BAUM_OK;
 }
 
 baum_status baum_study_run(baum_study *study)
