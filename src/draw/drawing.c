@@ -175,7 +175,6 @@ baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples 
   }
   for (int k = 0; k < out->place_count; k++) {
     baum_i_draw_symbol(out, k);
-    baum_i_draw_gaps(out, &out->places[k]);
   }
   if (out->shapes) {
     qsort(out->shapes, (size_t)out->shape_count, sizeof *out->shapes, compare);

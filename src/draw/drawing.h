@@ -189,7 +189,7 @@ void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const dou
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
 void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 
-/* Draw the symbol of an element. Joint k has the number k, and force k has the number
+/* Draw the symbol of an element, and its gaps. Joint k has the number k, and force k has the number
  * joint_count + k. */
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number);
 
@@ -205,8 +205,20 @@ int baum_i_page_positions(const baum_mechanism *m, const baum_page *page);
 bool baum_i_page_is_reaction(const baum_mechanism *m, const baum_channel *c);
 /* ---- gaps.c ---- */
 
-/* Draw the lines that show the constraint violation of a joint. docs/drawings.md describes them. */
-void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place);
+/* The conditions that a joint imposes, as bits. */
+enum {
+  BAUM_I_GAP_POINTS = 1,    /* the points coincide */
+  BAUM_I_GAP_LINE = 2,      /* the point of body_b is on the axis of body_a */
+  BAUM_I_GAP_PLANE = 4,     /* the point of body_b is in a plane on body_a */
+  BAUM_I_GAP_LENGTH = 8,    /* the points have a prescribed distance */
+  BAUM_I_GAP_PARALLEL = 16, /* the axes are parallel */
+  BAUM_I_GAP_NORMAL = 32,   /* the axes are perpendicular */
+  BAUM_I_GAP_TURN = 64      /* body_b does not rotate about the axis relative to body_a */
+};
+
+/* Draw the lines that show the constraint violation of a joint. `conditions` is the sum of the
+ * joint's conditions, or 0. docs/drawings.md describes the lines. */
+void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place, int conditions);
 
 /* Draw the gap between the point on body_b and a polygonal line that is fixed on body_a. */
 void baum_i_draw_gap_to_line(baum_i_drawing *drawing, const baum_i_place *place, int count,

@@ -9,47 +9,10 @@
 
 #include "base/alloc.h"
 #include "draw/drawing.h"
-#include "mechanism/kinds.h"
 
 /* TIP is the distance between the joint and the tips of its axes. ENDLESS is half the length with
  * which an infinite line is drawn. Both are in units of the drawing. */
 static const double TIP = 4.0, ENDLESS = 1000.0;
-
-/* The conditions that a joint imposes, as bits. */
-enum {
-  POINTS = 1,    /* the points coincide */
-  LINE = 2,      /* the point of body_b is on the axis of body_a */
-  PLANE = 4,     /* the point of body_b is in a plane on body_a */
-  LENGTH = 8,    /* the points have a prescribed distance */
-  PARALLEL = 16, /* the axes are parallel */
-  NORMAL = 32,   /* the axes are perpendicular */
-  TURN = 64      /* body_b does not rotate about the axis relative to body_a */
-};
-
-typedef struct rule {
-  const baum_i_definition *const *definition;
-  int what;
-} rule;
-
-static const rule RULES[] = {
-  {&baum_i_planar_revolute_definition, POINTS},
-  {&baum_i_planar_distance_definition, LENGTH},
-  {&baum_i_planar_translational_definition, LINE | PARALLEL},
-  {&baum_i_planar_fixed_definition, POINTS | TURN},
-  {&baum_i_planar_pin_in_slot_definition, LINE},
-  {&baum_i_spatial_spherical_definition, POINTS},
-  {&baum_i_spatial_revolute_definition, POINTS | PARALLEL},
-  {&baum_i_spatial_universal_definition, POINTS | NORMAL},
-  {&baum_i_spatial_cylindrical_definition, LINE | PARALLEL},
-  {&baum_i_spatial_prismatic_definition, LINE | PARALLEL | TURN},
-  {&baum_i_spatial_planar_definition, PLANE | PARALLEL},
-  {&baum_i_spatial_fixed_definition, POINTS | PARALLEL | TURN},
-  {&baum_i_spatial_distance_definition, LENGTH},
-  {&baum_i_spatial_screw_definition, LINE | PARALLEL},
-  {&baum_i_spatial_constant_velocity_definition, POINTS},
-  {&baum_i_spatial_point_on_line_definition, LINE},
-  {&baum_i_spatial_point_on_plane_definition, PLANE},
-};
 
 typedef struct gaps {
   baum_i_drawing *drawing;
@@ -64,20 +27,21 @@ static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
   const baum_i_place *place = g->place;
   const double *a = place->point[0], *b = place->point[1], *axis = place->axis[0];
   const double reach = ENDLESS * g->drawing->unit;
-  const double length = g->what & LENGTH ? baum_i_find_number(place->element, "length") : 0.0;
+  const double length =
+    g->what & BAUM_I_GAP_LENGTH ? baum_i_find_number(place->element, "length") : 0.0;
   double points[3][3] = {{0.0}};
   for (int i = 0; i < 3; i++) {
     points[0][i] = b[i] + on_b[i];
-    points[1][i] = a[i] + on_a[i] - (g->what & LINE ? reach * axis[i] : 0.0);
-    points[2][i] = g->what & LINE ? a[i] + on_a[i] + reach * axis[i] : axis[i];
+    points[1][i] = a[i] + on_a[i] - (g->what & BAUM_I_GAP_LINE ? reach * axis[i] : 0.0);
+    points[2][i] = g->what & BAUM_I_GAP_LINE ? a[i] + on_a[i] + reach * axis[i] : axis[i];
   }
-  if (g->what & LENGTH) {
+  if (g->what & BAUM_I_GAP_LENGTH) {
     points[2][0] = length;
   }
-  const baum_i_form form = g->what & LINE     ? BAUM_I_TO_LINE
-                           : g->what & PLANE  ? BAUM_I_TO_PLANE
-                           : g->what & LENGTH ? BAUM_I_TO_SPHERE
-                                              : BAUM_I_BETWEEN;
+  const baum_i_form form = g->what & BAUM_I_GAP_LINE     ? BAUM_I_TO_LINE
+                           : g->what & BAUM_I_GAP_PLANE  ? BAUM_I_TO_PLANE
+                           : g->what & BAUM_I_GAP_LENGTH ? BAUM_I_TO_SPHERE
+                                                         : BAUM_I_BETWEEN;
   const baum_i_shape shape = baum_i_shape_of(BAUM_I_GAP, form, place->element, place->body[1],
                                              place->body[0], 0.3 * g->drawing->unit);
   baum_i_draw(g->drawing, shape, form == BAUM_I_BETWEEN ? 2 : 3, (const double(*)[3])points);
@@ -99,7 +63,7 @@ static void draw_tips(const gaps *g, const double along_a[3], const double along
 static void draw_angle(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
-  const gaps plane = {g->drawing, g->place, PLANE};
+  const gaps plane = {g->drawing, g->place, BAUM_I_GAP_PLANE};
   double tip[3] = {0.0};
   baum_i_add_scaled3(TIP * g->drawing->unit, g->place->axis[1], tip);
   draw_gap(&plane, zero, tip);
@@ -149,27 +113,25 @@ void baum_i_draw_gap_to_line(baum_i_drawing *drawing, const baum_i_place *place,
   baum_i_free(points);
 }
 
-void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place)
+void baum_i_draw_gaps(baum_i_drawing *drawing, const baum_i_place *place, int conditions)
 {
   const double zero[3] = {0.0, 0.0, 0.0};
-  gaps g = {drawing, place, 0};
-  for (size_t k = 0; place->element && k < sizeof RULES / sizeof *RULES; k++) {
-    g.what = *RULES[k].definition == place->element->definition ? RULES[k].what : g.what;
-  }
-  bool given = !(g.what & LENGTH) || !isnan(baum_i_find_number(place->element, "length"));
+  const gaps g = {drawing, place, place->element ? conditions : 0};
+  bool given =
+    !(g.what & BAUM_I_GAP_LENGTH) || !isnan(baum_i_find_number(place->element, "length"));
   if (g.what == 0 || !given) {
     return;
   }
   draw_gap(&g, zero, zero);
-  if (g.what & NORMAL) {
+  if (g.what & BAUM_I_GAP_NORMAL) {
     draw_angle(&g);
   }
-  if (g.what & PARALLEL && g.what & PLANE) {
+  if (g.what & BAUM_I_GAP_PARALLEL && g.what & BAUM_I_GAP_PLANE) {
     draw_tilt(&g);
-  } else if (g.what & PARALLEL) {
+  } else if (g.what & BAUM_I_GAP_PARALLEL) {
     draw_tips(&g, place->axis[0], place->axis[1]);
   }
-  if (g.what & TURN) {
+  if (g.what & BAUM_I_GAP_TURN) {
     draw_turn(&g);
   }
 }

@@ -43,17 +43,11 @@ static const char *const COLOUR[COLOURS][2] = {
 
 /* ---- projection ---- */
 
-/* Transforms a point of a body to the axes of the picture: right, up and towards the eye [m]. */
-static void project(const picture *p, int body, const double point[3], double out[3])
+void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
 {
   double at[3];
   baum_i_to_ground(&p->frames[body], point, at);
   baum_i_turn(p->view, at, out);
-}
-
-void baum_i_picture_project(const baum_i_picture *p, int body, const double point[3], double out[3])
-{
-  project(p, body, point, out);
 }
 
 void baum_i_picture_set_view(baum_i_picture *p)
@@ -129,7 +123,7 @@ static double depth_of(const picture *p, const baum_i_shape *shape)
   double sum = 0.0, least = INFINITY, at[3];
   int count = has_places(shape) ? shape->count : 1;
   for (int k = 0; k < count; k++) {
-    project(p, shape->body, point_of(p, shape, k), at);
+    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at);
     sum += at[2];
     least = fmin(least, at[2]);
   }
@@ -157,7 +151,7 @@ static void include_box(const picture *p, const baum_i_shape *shape, baum_i_box 
     for (int i = 0; i < 3; i++) {
       point[i] = centre[i] + (k >> i & 1 ? half[i] : -half[i]);
     }
-    project(p, shape->body, point, at);
+    baum_i_picture_project(p, shape->body, point, at);
     include(at, 0.0, box);
   }
 }
@@ -177,7 +171,7 @@ static void include_shape(const picture *p, const baum_i_shape *shape, baum_i_bo
     return;
   }
   for (int k = 0; k < (has_places(shape) ? shape->count : 1); k++) {
-    project(p, shape->body, point_of(p, shape, k), at);
+    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at);
     include(at, shape->radius, box);
   }
 }
@@ -282,7 +276,7 @@ static void put_face(const picture *p, const baum_i_shape *shape, int axis, doub
     point[axis] += sign * half[axis];
     point[(axis + 1) % 3] += (k == 0 || k == 3 ? -1.0 : 1.0) * half[(axis + 1) % 3];
     point[(axis + 2) % 3] += (k < 2 ? -1.0 : 1.0) * half[(axis + 2) % 3];
-    project(p, shape->body, point, corners[k]);
+    baum_i_picture_project(p, shape->body, point, corners[k]);
   }
   const look l = baum_i_picture_look(shape);
   baum_i_picture_put_area(p, &l, 4, (const double(*)[3])corners);
@@ -292,7 +286,7 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
 {
   double at[BAUM_I_CIRCLE][3], x[3], y[3];
   if (!p->drawing->spatial) {
-    project(p, shape->body, point_of(p, shape, 0), at[0]);
+    baum_i_picture_project(p, shape->body, point_of(p, shape, 0), at[0]);
     put_circle(p, shape, at[0]);
     return;
   }
@@ -302,7 +296,7 @@ static void put_disc(const picture *p, const baum_i_shape *shape)
     memcpy(point, point_of(p, shape, 0), sizeof point);
     baum_i_add_scaled3(shape->radius * cos(angle), x, point);
     baum_i_add_scaled3(shape->radius * sin(angle), y, point);
-    project(p, shape->body, point, at[k]);
+    baum_i_picture_project(p, shape->body, point, at[k]);
   }
   const look l = baum_i_picture_look(shape);
   baum_i_picture_put_area(p, &l, BAUM_I_CIRCLE, (const double(*)[3])at);
@@ -403,7 +397,7 @@ static void put_points(const picture *p, const baum_i_shape *shape)
     return;
   }
   for (int k = 0; k < shape->count; k++) {
-    project(p, shape->body, point_of(p, shape, k), at[k]);
+    baum_i_picture_project(p, shape->body, point_of(p, shape, k), at[k]);
   }
   put_line(p, shape, shape->count, (const double(*)[3])at, shape->form == BAUM_I_AREA);
   baum_i_free(at);
@@ -412,7 +406,7 @@ static void put_points(const picture *p, const baum_i_shape *shape)
 static void put_shape(const picture *p, const baum_i_shape *shape, int part)
 {
   double at[3];
-  project(p, shape->body, point_of(p, shape, 0), at);
+  baum_i_picture_project(p, shape->body, point_of(p, shape, 0), at);
   if (connects(shape)) {
     put_connection(p, shape);
   } else if (shape->form == BAUM_I_BALL) {

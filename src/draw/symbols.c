@@ -92,47 +92,52 @@ const baum_i_place *baum_i_place_of(const baum_i_symbol *s, baum_joint_id id)
 typedef struct kind {
   const baum_i_definition *const *definition;
   void (*draw)(const baum_i_symbol *s);
+  int conditions; /* sum of the conditions whose violation is drawn; see baum_i_draw_gaps() */
 } kind;
 
 static const kind KINDS[] = {
-  {&baum_i_planar_revolute_definition, baum_i_draw_pin},
-  {&baum_i_planar_distance_definition, baum_i_draw_rod},
-  {&baum_i_planar_translational_definition, baum_i_draw_guide},
-  {&baum_i_planar_fixed_definition, baum_i_draw_weld},
-  {&baum_i_planar_pin_in_slot_definition, baum_i_draw_slot},
-  {&baum_i_planar_rack_and_pinion_definition, baum_i_draw_rack},
-  {&baum_i_planar_gear_definition, baum_i_draw_gear},
-  {&baum_i_planar_curve_definition, baum_i_draw_curve},
-  {&baum_i_planar_knife_edge_definition, baum_i_draw_blade},
-  {&baum_i_spatial_spherical_definition, baum_i_draw_ball},
-  {&baum_i_spatial_revolute_definition, baum_i_draw_hinge},
-  {&baum_i_spatial_universal_definition, baum_i_draw_cross},
-  {&baum_i_spatial_cylindrical_definition, baum_i_draw_cylinder},
-  {&baum_i_spatial_prismatic_definition, baum_i_draw_slide},
-  {&baum_i_spatial_planar_definition, baum_i_draw_plane},
-  {&baum_i_spatial_fixed_definition, baum_i_draw_clamp},
-  {&baum_i_spatial_distance_definition, baum_i_draw_rod},
-  {&baum_i_spatial_point_on_line_definition, baum_i_draw_point_on_line},
-  {&baum_i_spatial_point_on_plane_definition, baum_i_draw_plane_point},
-  {&baum_i_spatial_curve_definition, baum_i_draw_curve},
-  {&baum_i_spatial_rolling_disc_definition, baum_i_draw_rolling_disc},
-  {&baum_i_spatial_knife_edge_definition, baum_i_draw_skate},
-  {&baum_i_spatial_screw_definition, baum_i_draw_cylinder},
-  {&baum_i_spatial_constant_velocity_definition, baum_i_draw_ball},
-  {&baum_i_coupling_definition, baum_i_draw_coupling},
-  {&baum_i_driver_definition, baum_i_draw_driver},
-  {&baum_i_spline_driver_definition, baum_i_draw_driver},
-  {&baum_i_user_constraint_definition, baum_i_draw_user},
-  {&baum_i_planar_spring_definition, baum_i_draw_spring},
-  {&baum_i_planar_torsion_spring_definition, baum_i_draw_torsion},
-  {&baum_i_planar_load_definition, baum_i_draw_planar_load},
-  {&baum_i_spatial_spring_definition, baum_i_draw_spring},
-  {&baum_i_spatial_cable_definition, baum_i_draw_cable},
-  {&baum_i_spatial_load_definition, baum_i_draw_spatial_load},
-  {&baum_i_spatial_torsion_spring_definition, baum_i_draw_spatial_torsion},
-  {&baum_i_spatial_bushing_definition, baum_i_draw_bushing},
-  {&baum_i_joint_spring_definition, baum_i_draw_joint_spring},
-  {&baum_i_user_force_definition, baum_i_draw_user},
+  {&baum_i_planar_revolute_definition, baum_i_draw_pin, BAUM_I_GAP_POINTS},
+  {&baum_i_planar_distance_definition, baum_i_draw_rod, BAUM_I_GAP_LENGTH},
+  {&baum_i_planar_translational_definition, baum_i_draw_guide,
+   BAUM_I_GAP_LINE | BAUM_I_GAP_PARALLEL},
+  {&baum_i_planar_fixed_definition, baum_i_draw_weld, BAUM_I_GAP_POINTS | BAUM_I_GAP_TURN},
+  {&baum_i_planar_pin_in_slot_definition, baum_i_draw_slot, BAUM_I_GAP_LINE},
+  {&baum_i_planar_rack_and_pinion_definition, baum_i_draw_rack, 0},
+  {&baum_i_planar_gear_definition, baum_i_draw_gear, 0},
+  {&baum_i_planar_curve_definition, baum_i_draw_curve, 0},
+  {&baum_i_planar_knife_edge_definition, baum_i_draw_blade, 0},
+  {&baum_i_spatial_spherical_definition, baum_i_draw_ball, BAUM_I_GAP_POINTS},
+  {&baum_i_spatial_revolute_definition, baum_i_draw_hinge, BAUM_I_GAP_POINTS | BAUM_I_GAP_PARALLEL},
+  {&baum_i_spatial_universal_definition, baum_i_draw_cross, BAUM_I_GAP_POINTS | BAUM_I_GAP_NORMAL},
+  {&baum_i_spatial_cylindrical_definition, baum_i_draw_cylinder,
+   BAUM_I_GAP_LINE | BAUM_I_GAP_PARALLEL},
+  {&baum_i_spatial_prismatic_definition, baum_i_draw_slide,
+   BAUM_I_GAP_LINE | BAUM_I_GAP_PARALLEL | BAUM_I_GAP_TURN},
+  {&baum_i_spatial_planar_definition, baum_i_draw_plane, BAUM_I_GAP_PLANE | BAUM_I_GAP_PARALLEL},
+  {&baum_i_spatial_fixed_definition, baum_i_draw_clamp,
+   BAUM_I_GAP_POINTS | BAUM_I_GAP_PARALLEL | BAUM_I_GAP_TURN},
+  {&baum_i_spatial_distance_definition, baum_i_draw_rod, BAUM_I_GAP_LENGTH},
+  {&baum_i_spatial_point_on_line_definition, baum_i_draw_point_on_line, BAUM_I_GAP_LINE},
+  {&baum_i_spatial_point_on_plane_definition, baum_i_draw_plane_point, BAUM_I_GAP_PLANE},
+  {&baum_i_spatial_curve_definition, baum_i_draw_curve, 0},
+  {&baum_i_spatial_rolling_disc_definition, baum_i_draw_rolling_disc, 0},
+  {&baum_i_spatial_knife_edge_definition, baum_i_draw_skate, 0},
+  {&baum_i_spatial_screw_definition, baum_i_draw_cylinder, BAUM_I_GAP_LINE | BAUM_I_GAP_PARALLEL},
+  {&baum_i_spatial_constant_velocity_definition, baum_i_draw_ball, BAUM_I_GAP_POINTS},
+  {&baum_i_coupling_definition, baum_i_draw_coupling, 0},
+  {&baum_i_driver_definition, baum_i_draw_driver, 0},
+  {&baum_i_spline_driver_definition, baum_i_draw_driver, 0},
+  {&baum_i_user_constraint_definition, baum_i_draw_user, 0},
+  {&baum_i_planar_spring_definition, baum_i_draw_spring, 0},
+  {&baum_i_planar_torsion_spring_definition, baum_i_draw_torsion, 0},
+  {&baum_i_planar_load_definition, baum_i_draw_planar_load, 0},
+  {&baum_i_spatial_spring_definition, baum_i_draw_spring, 0},
+  {&baum_i_spatial_cable_definition, baum_i_draw_cable, 0},
+  {&baum_i_spatial_load_definition, baum_i_draw_spatial_load, 0},
+  {&baum_i_spatial_torsion_spring_definition, baum_i_draw_spatial_torsion, 0},
+  {&baum_i_spatial_bushing_definition, baum_i_draw_bushing, 0},
+  {&baum_i_joint_spring_definition, baum_i_draw_joint_spring, 0},
+  {&baum_i_user_force_definition, baum_i_draw_user, 0},
 };
 
 void baum_i_draw_symbol(baum_i_drawing *drawing, int number)
@@ -145,6 +150,7 @@ void baum_i_draw_symbol(baum_i_drawing *drawing, int number)
   for (size_t k = 0; k < sizeof KINDS / sizeof *KINDS; k++) {
     if (*KINDS[k].definition == element->definition) {
       KINDS[k].draw(&s);
+      baum_i_draw_gaps(drawing, s.place, KINDS[k].conditions);
     }
   }
 }

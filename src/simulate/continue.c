@@ -33,9 +33,12 @@ static baum_status copy_standing(const baum_simulation *from, standing *out)
   if (angles) {
     out->angles = baum_i_copy(angles, (size_t)baum_i_angles_size(m), sizeof *angles);
   }
+  size_t jumps = (size_t)from->schedule.count;
+  out->schedule.jumps = baum_i_copy(from->schedule.jumps, jumps, sizeof *out->schedule.jumps);
+  out->schedule.count = out->schedule.room = from->schedule.count;
   bool complete = out->q && out->v && out->inputs && (out->parameters || !from->parameters) &&
-                  (out->angles || !angles);
-  return complete ? baum_i_schedule_copy(&from->schedule, &out->schedule) : baum_i_fail_memory();
+                  (out->angles || !angles) && out->schedule.jumps;
+  return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
 static void clear_standing(standing *s)

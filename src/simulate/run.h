@@ -299,9 +299,6 @@ void baum_i_schedule_end(baum_simulation *run, int64_t input);
 /* Allocate memory for `count` jumps. Returns BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
 
-/* Copy a schedule to an empty one. Returns BAUM_OK or BAUM_ERR_MEMORY. */
-baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
-
 /* Tell whether `bytes` contains `count` valid jumps of a run with input_count inputs. The address
  * may have any alignment. */
 bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);

@@ -64,16 +64,6 @@ baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count)
   return BAUM_OK;
 }
 
-baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to)
-{
-  BAUM_I_TRY(baum_i_schedule_reserve(to, from->count));
-  if (from->count > 0) {
-    memcpy(to->jumps, from->jumps, (size_t)from->count * sizeof *to->jumps);
-    to->count = from->count;
-  }
-  return BAUM_OK;
-}
-
 bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count)
 {
   const char *at = bytes;

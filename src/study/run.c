@@ -4,7 +4,6 @@
  * that may be recommended. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "base/alloc.h"
 #include "base/platform.h"
@@ -17,13 +16,19 @@ static const double VALIDATED_FOR = 5.0;
 /* [s] The runs that time an entry are repeated until they have taken this time in total. */
 static const double TIMED_FOR = 0.2;
 
+typedef struct workers workers;
+
+/* A function that works on one entry. `values` is scratch memory for the samples of one run. */
+typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
+
 /* Data that the threads share. */
-typedef struct workers {
+struct workers {
   baum_study *study;
   baum_i_study_file *file;
   baum_i_lock *lock;
   double wall_end;
-  baum_i_entry **order; /* (count) the entries to be measured */
+  entry_fn *work;       /* what the threads do with each entry */
+  baum_i_entry **order; /* (count) the entries to be measured or validated */
   int count;
   int next;
   /* Progress of the study: the number of entries that are measured, plus the number of entries that
@@ -31,7 +36,7 @@ typedef struct workers {
   int done;
   baum_status status;
   baum_i_kept_message message; /* the message that belongs to `status` */
-} workers;
+};
 
 /* ---- results of a run ---- */
 
@@ -125,16 +130,6 @@ static baum_i_deadline deadline_of(const workers *c, double limits)
     .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* Runs work() in as many threads as the options give, but in no more threads than there are
- * entries. */
-static void run_workers(workers *c, void (*work)(void *user, int k))
-{
-  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
-  if (threads > 0) {
-    baum_i_threads_run(threads, work, c);
-  }
-}
-
 /* Reports that one more entry is finished. Only one thread calls this function at a time. */
 static void report_progress(workers *c)
 {
@@ -212,11 +207,11 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(c->lock);
 }
 
-/* A function that works on one entry. `values` is scratch memory for the samples of one run. */
-typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
-
-static void run_entries(workers *c, entry_fn *work)
+/* Works on entries until there are no more. The threads execute this function. */
+static void run_entries(void *shared, int thread)
 {
+  workers *c = shared;
+  (void)thread;
   size_t size = (size_t)c->study->reference.samples.n * (size_t)baum_i_study_layout(c->study).width;
   double *values = baum_i_alloc(size, sizeof *values);
   if (!values) {
@@ -227,15 +222,20 @@ static void run_entries(workers *c, entry_fn *work)
   }
   baum_i_entry *entry = NULL;
   while ((entry = next_entry(c)) != NULL) {
-    work(c, entry, values);
+    c->work(c, entry, values);
   }
   baum_i_free(values);
 }
 
-static void measure(void *self, int k)
+/* Calls work() for all entries of the order, in as many threads as the options give, but in no more
+ * threads than there are entries. */
+static void run_workers(workers *c, entry_fn *work)
 {
-  (void)k;
-  run_entries(self, measure_entry);
+  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
+  c->work = work;
+  if (threads > 0) {
+    baum_i_threads_run(threads, run_entries, c);
+  }
 }
 
 /* ---- validations ---- */
@@ -253,12 +253,6 @@ static void validate_entry(workers *c, baum_i_entry *entry, double *values)
   }
   note_failure(c, status);
   baum_i_lock_give(c->lock);
-}
-
-static void validate(void *self, int k)
-{
-  (void)k;
-  run_entries(self, validate_entry);
 }
 
 /* Makes the list of the entries that need validation. Returns false if the list is empty. */
@@ -285,7 +279,7 @@ static void validate_all(workers *c)
     note_failure(c, baum_i_study_make_validations(c->study, &deadline));
   }
   if (c->status == BAUM_OK) {
-    run_workers(c, validate);
+    run_workers(c, validate_entry);
   }
 }
 
@@ -303,43 +297,25 @@ static int rank_of(const baum_study *study, const baum_i_entry *entry)
   return rank;
 }
 
-/* An entry with its rank and its index, by which entries are sorted. */
-typedef struct place {
-  baum_i_entry *entry;
-  int rank;
-  int k;
-} place;
-
-static int by_rank(const void *a, const void *b)
-{
-  const place *x = a;
-  const place *y = b;
-  return x->rank != y->rank ? (x->rank > y->rank) - (x->rank < y->rank)
-                            : (x->k > y->k) - (x->k < y->k);
-}
-
-/* Sorts the entries to be measured. Coarse settings come first, so that every method has results
- * when the time budget is used up. */
-static baum_status set_order(workers *c)
+/* Lists the entries to be measured. Coarse settings come first, so that every method has results
+ * when the time budget is used up. Entries of the same rank stay in the order of adding. */
+static void set_order(workers *c)
 {
   const baum_study *study = c->study;
-  place *places = baum_i_alloc((size_t)study->entry_count, sizeof *places);
-  BAUM_I_TRY(baum_i_check_memory(places));
   c->count = 0;
   for (int k = 0; k < study->entry_count; k++) {
     baum_i_entry *entry = study->entries[k];
-    if (entry->stage == BAUM_I_ADDED) {
-      places[c->count++] = (place){entry, rank_of(study, entry), k};
-    } else {
+    if (entry->stage != BAUM_I_ADDED) {
       c->done++;
+      continue;
     }
+    entry->rank = rank_of(study, entry);
+    int at = c->count++;
+    for (; at > 0 && c->order[at - 1]->rank > entry->rank; at--) {
+      c->order[at] = c->order[at - 1];
+    }
+    c->order[at] = entry;
   }
-  qsort(places, (size_t)c->count, sizeof *places, by_rank);
-  for (int k = 0; k < c->count; k++) {
-    c->order[k] = places[k].entry;
-  }
-  baum_i_free(places);
-  return BAUM_OK;
 }
 
 /* ---- times ---- */
@@ -473,7 +449,7 @@ static void run_all(workers *c)
     note_failure(c, baum_i_fail_memory());
     return;
   }
-  run_workers(c, measure);
+  run_workers(c, measure_entry);
   time_entries(c);
   validate_all(c);
   baum_i_lock_destroy(c->lock);
@@ -507,7 +483,8 @@ static baum_status begin_study(workers *c)
   BAUM_I_TRY(baum_i_study_file_open(study, &c->file));
   study->begun = true;
   BAUM_I_TRY(prepare(c));
-  return set_order(c);
+  set_order(c);
+  return BAUM_OK;
 }
 
 baum_status baum_study_run(baum_study *study)

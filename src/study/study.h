@@ -56,6 +56,7 @@ typedef struct baum_i_entry {
   char message[BAUM_I_NOTE_SIZE];
   uint64_t key; /* key that identifies the options */
   double limit; /* [s] the time limit per entry when this entry was measured */
+  int rank;     /* number of coarser entries of the method, when the runs were ordered */
   baum_i_stage stage;
   baum_i_stage filed; /* the stage of the entry in the study file when the file was opened */
 } baum_i_entry;
