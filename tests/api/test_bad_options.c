@@ -17,22 +17,12 @@
 #include "message.h"
 #include "runs.h"
 
-static void *const GARBAGE = (void *)(uintptr_t)16;
-
 static baum_simulation_options good_options(void)
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_euler();
   o.step = 1e-3;
   return o;
-}
-
-static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          baum_status want, const char *message)
-{
-  baum_simulation *run = GARBAGE;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, message);
-  assert_null(run);
 }
 
 /* ---- options ---- */
@@ -43,11 +33,12 @@ static void a_missing_integrator_is_refused_with_the_list(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation_options o = good_options();
   o.integrator = NULL;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "integrator is NULL|there is no default");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "integrator is NULL|there is no default");
   for (int32_t k = 0; baum_integrator_at(k) != NULL; k++) {
     char name[64];
     (void)snprintf(name, sizeof name, "baum_%s", baum_integrator_name(baum_integrator_at(k)));
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, name);
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, name);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -63,15 +54,16 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
     (void)snprintf(message, sizeof message, "struct_size of the options is %zu|must be %zu",
                    sizes[k], sizeof o);
     o.struct_size = sizes[k];
-    check_refused(parts.mechanism, &o, BAUM_ERR_STRUCT, message);
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_STRUCT, message);
   }
   o = good_options();
-  check_refused(NULL, &o, BAUM_ERR_ARGUMENT, "baum_simulation_create: the mechanism is NULL");
-  check_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options is NULL");
+  check_run_refused(NULL, &o, BAUM_ERR_ARGUMENT, "baum_simulation_create: the mechanism is NULL");
+  check_run_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options is NULL");
   ASSERT_SAYS(baum_simulation_create(parts.mechanism, &o, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   baum_mechanism *copy = NULL;
   assert_int_equal(baum_mechanism_copy(parts.mechanism, &copy), BAUM_OK);
-  check_refused(copy, &o, BAUM_ERR_STATE, "baum_simulation_create: the mechanism is not frozen");
+  check_run_refused(copy, &o, BAUM_ERR_STATE,
+                    "baum_simulation_create: the mechanism is not frozen");
   baum_mechanism_destroy(copy);
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -132,7 +124,7 @@ static void numbers_out_of_range_and_of_the_other_kind_are_refused(void **state)
       o.rtol = 1e-6;
     }
     memcpy((char *)&o + bad->offset, &bad->value, sizeof bad->value);
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, bad->message);
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, bad->message);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -143,28 +135,30 @@ static void invalid_choices_are_refused(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation_options o = good_options();
   o.start = (baum_start)3;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "start is 3, must be one of baum_start");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "start is 3, must be one of baum_start");
   o = good_options();
   o.solver = (baum_solver)9;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "solver is 9, must be one of baum_solver");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "solver is 9, must be one of baum_solver");
   o = good_options();
   o.max_steps = 0;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_steps is 0, must be > 0");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_steps is 0, must be > 0");
   o = good_options();
   o.formulation = (baum_formulation)17;
-  check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                "euler does not offer the formulation with that number|it offers baumgarte");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                    "euler does not offer the formulation with that number|it offers baumgarte");
   o = good_options();
   o.integrator = baum_cvode_adams();
   o.step = (double)NAN;
   o.rtol = 1e-4;
   o.formulation = BAUM_FORMULATION_PROJECTION;
-  check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                "cvode_adams does not offer the formulation projection; it offers baumgarte, "
-                "unstabilized; CVODE projects only within BDF");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                    "cvode_adams does not offer the formulation projection; it offers baumgarte, "
+                    "unstabilized; CVODE projects only within BDF");
   o = good_options();
   o.gains.rule = 99;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains: rule 99 is unknown");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains: rule 99 is unknown");
   baum_mechanism_destroy(parts.mechanism);
 }
 
@@ -197,7 +191,7 @@ static void check_pair(const baum_mechanism *mechanism, const baum_integrator *i
                      baum_formulation_name((baum_formulation)f));
     }
   }
-  check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
+  check_run_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
 }
 
 static void impossible_pairs_are_refused_with_what_is_offered(void **state)
@@ -231,7 +225,7 @@ static void integrators_that_are_not_built_in_refuse_by_name(void **state)
     (void)snprintf(message, sizeof message, "%s needs SUNDIALS, which this build does not have",
                    baum_integrator_name(absent[k]));
     o.integrator = absent[k];
-    check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -245,11 +239,11 @@ static void gains_with_a_formulation_that_has_none_are_refused(void **state)
   baum_simulation_options o = good_options();
   o.gains = baum_gains_fixed(5.0, 5.0);
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                "gains are given, but the formulation unstabilized has none");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "gains are given, but the formulation unstabilized has none");
   o.formulation = BAUM_FORMULATION_PROJECTION;
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                "gains are given, but the formulation projection has none");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "gains are given, but the formulation projection has none");
   baum_mechanism_destroy(parts.mechanism);
 }
 
@@ -259,21 +253,23 @@ static void gains_out_of_range_are_refused(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation_options o = good_options();
   o.gains = baum_gains_fixed(-5.0, 5.0);
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains fixed: alpha is -5 1/s, must be");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "gains fixed: alpha is -5 1/s, must be");
   o.gains = baum_gains_fixed(5.0, (double)NAN);
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains fixed: beta is nan 1/s, must be");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "gains fixed: beta is nan 1/s, must be");
   o.gains = baum_gains_scaled(0.5, -1.0);
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains scaled: beta^2 h^2 is -1 [-]");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains scaled: beta^2 h^2 is -1 [-]");
   o.gains = baum_gains_frequency(0.0, 1.0);
-  check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains frequency: frequency is 0 Hz");
+  check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains frequency: frequency is 0 Hz");
   if (baum_has("sundials")) {
     o.integrator = baum_ida();
     o.step = (double)NAN;
     o.rtol = 1e-6;
     o.gains = baum_gains_taylor();
     o.formulation = BAUM_FORMULATION_BAUMGARTE;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                  "gains taylor: the rule needs a fixed step|ida");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                      "gains taylor: the rule needs a fixed step|ida");
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -290,26 +286,27 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
     (void)snprintf(message, sizeof message, "%s takes either step|or rtol|neither is given",
                    baum_integrator_name(pairs[k]));
     o.step = (double)NAN;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, message);
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, message);
     o.step = 1e-3;
     o.rtol = 1e-6;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                  "takes either step|or rtol|both are given");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                      "takes either step|or rtol|both are given");
     o.rtol = (double)NAN;
     o.max_step = 0.1;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0.1|give step alone");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0.1|give step alone");
     o.max_step = (double)NAN;
     o.step = 0.0;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "step is 0 s, must be finite and > 0");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                      "step is 0 s, must be finite and > 0");
     o.step = (double)NAN;
     o.rtol = 1.0;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1, must be > 0 and < 1");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1, must be > 0 and < 1");
     o.rtol = 1e-6;
     o.max_step = 0.0;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0 s, must be > 0");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0 s, must be > 0");
     o.max_step = (double)NAN;
     o.tolerance_v = 0.0;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "tolerance_v is 0, must be > 0");
+    check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "tolerance_v is 0, must be > 0");
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -335,7 +332,7 @@ static void check_unstable(const baum_mechanism *mechanism, const baum_integrato
   o.gains = baum_gains_scaled(alpha_h, beta2_h2);
   (void)snprintf(message, sizeof message, "%s and h = 0.001 s|= (%.6g, %.6g)|spectral radius",
                  baum_integrator_name(integrator), alpha_h, beta2_h2);
-  check_refused(mechanism, &o, BAUM_ERR_UNSTABLE, message);
+  check_run_refused(mechanism, &o, BAUM_ERR_UNSTABLE, message);
   read_nearest(good);
   o.gains = baum_gains_scaled(good[0], good[1]);
   baum_simulation *run = create_run(mechanism, &o);

@@ -12,15 +12,7 @@
 #include <baum/baum.h>
 
 #include "every_element.h"
-#include "message.h"
-
-static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          const char *message)
-{
-  baum_simulation *run = NULL;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), BAUM_ERR_ARGUMENT, message);
-  assert_null(run);
-}
+#include "runs.h"
 
 /* Only IDA at index 1 has multipliers in its error test. */
 static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void **state)
@@ -40,11 +32,11 @@ static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void 
         continue;
       }
       if (o.integrator != baum_ida()) {
-        check_refused(parts.mechanism, &o,
-                      "tolerance_lambda is 10, but|has no multipliers among its unknowns");
+        check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                          "tolerance_lambda is 10, but|has no multipliers among its unknowns");
       } else if (f != BAUM_FORMULATION_UNSTABILIZED && f != BAUM_FORMULATION_BAUMGARTE) {
-        check_refused(parts.mechanism, &o,
-                      "tolerance_lambda is 10, but with the formulation|cannot be tested");
+        check_run_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                          "tolerance_lambda is 10, but with the formulation|cannot be tested");
       }
     }
   }

@@ -8,8 +8,9 @@
 
 #include <cmocka.h>
 
-baum_simulation *create_run(const baum_mechanism *mechanism,
-                            const baum_simulation_options *options)
+#include "message.h"
+
+baum_simulation *create_run(const baum_mechanism *mechanism, const baum_simulation_options *options)
 {
   baum_simulation *run = NULL;
   if (baum_simulation_create(mechanism, options, &run) != BAUM_OK) {
@@ -25,4 +26,12 @@ baum_counters counters_of(baum_simulation *run)
     fail_msg("%s", baum_message());
   }
   return counters;
+}
+
+void check_run_refused(const baum_mechanism *mechanism, const baum_simulation_options *options,
+                       baum_status want, const char *parts)
+{
+  baum_simulation *run = (void *)(uintptr_t)16; /* garbage that must not stay */
+  ASSERT_SAYS(baum_simulation_create(mechanism, options, &run), want, parts);
+  assert_null(run);
 }

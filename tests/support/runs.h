@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls to runs that must not fail. If one fails, the test fails with its message. */
+/* Creates runs and reads their counters, which must not fail, and checks that wrong options are
+ * refused. */
 #ifndef BAUM_TEST_RUNS_H
 #define BAUM_TEST_RUNS_H
 
@@ -8,5 +9,10 @@
 baum_simulation *create_run(const baum_mechanism *mechanism,
                             const baum_simulation_options *options);
 baum_counters counters_of(baum_simulation *run);
+
+/* Checks that a run cannot be created, and that NULL replaces the caller's pointer. In `parts`, the
+ * character '|' separates parts of the message. */
+void check_run_refused(const baum_mechanism *mechanism, const baum_simulation_options *options,
+                       baum_status want, const char *parts);
 
 #endif

@@ -39,14 +39,6 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
   baum_mechanism_destroy(mechanism);
 }
 
-static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          baum_status want, const char *message)
-{
-  baum_simulation *run = NULL;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, message);
-  assert_null(run);
-}
-
 /* ---- lock-ups ---- */
 
 typedef struct tally {
@@ -267,12 +259,12 @@ static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **s
   model scene;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &scene),
                    BAUM_OK);
-  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                "kinematics: 1 degree of freedom is left|add a driver for each|baum_rk4");
+  check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                    "kinematics: 1 degree of freedom is left|add a driver for each|baum_rk4");
   model_destroy(&scene);
   assert_int_equal(model_chain_3(&scene), BAUM_OK);
-  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                "kinematics: 3 degrees of freedom are left");
+  check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                    "kinematics: 3 degrees of freedom are left");
   model_destroy(&scene);
 }
 
@@ -283,28 +275,29 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_mechanism *mechanism = four_bar_make(&motor);
   baum_simulation_options o = kinematic_options();
   o.step = 1e-3;
-  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
-                "step is 0.001 s, but kinematics solves|give neither step nor tolerance");
+  check_run_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "step is 0.001 s, but kinematics solves|give neither step nor tolerance");
   o = kinematic_options();
   o.rtol = 1e-6;
-  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1e-06, but kinematics solves");
+  check_run_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1e-06, but kinematics solves");
   o = kinematic_options();
   o.atol = 0.0;
-  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "atol is 0, but kinematics solves");
+  check_run_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "atol is 0, but kinematics solves");
   o = kinematic_options();
   o.max_step = -1.0;
-  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is -1 s, must be > 0");
+  check_run_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is -1 s, must be > 0");
   o = kinematic_options();
   o.gains = baum_gains_auto();
-  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
-                "gains are given, but the integrator kinematics has none");
+  check_run_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
+                    "gains are given, but the integrator kinematics has none");
   for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
     o = kinematic_options();
     o.formulation = (baum_formulation)f;
     assert_false(baum_integrator_offers(o.integrator, o.formulation));
-    check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                  "kinematics does not offer the formulation |it offers none, because no degree of "
-                  "freedom is left");
+    check_run_refused(
+      mechanism, &o, BAUM_ERR_UNSUPPORTED,
+      "kinematics does not offer the formulation |it offers none, because no degree of "
+      "freedom is left");
   }
   baum_mechanism_destroy(mechanism);
 }
@@ -397,7 +390,7 @@ static void a_singular_start_is_refused(void **state)
   const drive motor = {.angle = 0.0, .rate = 1.0};
   baum_mechanism *mechanism = parallelogram_make(&motor);
   baum_simulation_options o = kinematic_options();
-  check_refused(mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|singular");
+  check_run_refused(mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|singular");
   baum_mechanism_destroy(mechanism);
 }
 
