@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "every_element.h"
 #include "models.h"
 #include "runs.h"
@@ -217,17 +218,12 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   baum_body_id crank;
   baum_planar_body_def body = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   baum_driver_def motor = baum_driver_def_default();
-  pin.point[0] = pin.point[1] = 0.0;
-  pin.body_a = BAUM_GROUND;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, &crank), BAUM_OK);
-  pin.body_b = crank;
-  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &motor.joint), BAUM_OK);
+  motor.joint = add_planar_pin(mechanism, NULL, BAUM_GROUND, crank, 0.0, 0.0);
   baum_joint_id id;
   assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, &id), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "every_element.h"
 #include "message.h"
 #include "user_models.h"
@@ -425,9 +426,8 @@ static void nothing_is_added_or_set_after_freeze(void **state)
 static void gravity_and_scale_out_of_range_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   double gravity[3];
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   ASSERT_SAYS(baum_mechanism_set_gravity(mechanism, 0.0, (double)NAN, 0.0), BAUM_ERR_ARGUMENT,
               "gravity is (0, nan, 0) m/s^2, must be finite");
   assert_int_equal(baum_mechanism_get_gravity(mechanism, gravity), BAUM_OK);
@@ -446,19 +446,12 @@ static void gravity_and_scale_out_of_range_are_refused(void **state)
 static void freezing_refuses_points_that_do_not_fit(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def bead = baum_planar_particle_def_default();
   baum_body_id id;
   bead.name = "bead";
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bead, &id), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.name = "pin";
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = id;
-  pin.point[0] = 1.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, NULL), BAUM_OK);
+  (void)add_planar_pin(mechanism, "pin", BAUM_GROUND, id, 1.0, 0.0);
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
               "joint 1 \"pin\"|point is (1, 0) m|\"bead\"|(0, 0) m");
   assert_false(baum_mechanism_is_frozen(mechanism));
@@ -473,10 +466,9 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   baum_joint_id id;
   int32_t nc = -1;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def bead = baum_planar_particle_def_default();
   baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
   bead.name = "bead";
@@ -510,12 +502,11 @@ enum { HUGE_BODIES = 22, HUGE_SIZE = 10000 };
 
 static baum_mechanism *make_huge(int count, baum_body_id *ids)
 {
-  baum_mechanism *mechanism = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = HUGE_SIZE;
   def.mass = user_never_asked;
   def.force = user_never_pushed;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   for (int k = 0; k < count; k++) {
     assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, &ids[k]), BAUM_OK);
   }

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "every_element.h"
 #include "message.h"
 #include "runs.h"
@@ -425,11 +426,10 @@ static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);
   static const double origin[3] = {0.0, 0.0, 0.0};
-  baum_mechanism *mechanism = NULL;
   baum_spatial_body_def body = baum_spatial_body_def_default();
   baum_body_id id;
   any_def def;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   check(baum_mechanism_add_spatial_body(mechanism, &body, &id));
   kind->init(&def, kind->size);
   def.head.name = "mount";
@@ -533,8 +533,7 @@ static void a_body_turned_too_far_off_is_refused(void **state)
 {
   (void)state;
   const double turned[3] = {cos(1.2), sin(1.2), 0.0};
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_spatial_body_def body = baum_spatial_body_def_default();
   body.name = "bar";
   baum_spatial_spherical_def joint = baum_spatial_spherical_def_default();

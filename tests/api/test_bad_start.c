@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "every_element.h"
 #include "message.h"
 #include "runs.h"
@@ -54,7 +55,6 @@ static void add_rod(baum_mechanism *mechanism, const char *name, baum_body_id bo
 
 static baum_mechanism *make_bead(const bead_def *def)
 {
-  baum_mechanism *mechanism = NULL;
   baum_planar_particle_def bead = baum_planar_particle_def_default();
   baum_body_id id;
   bead.name = "bead";
@@ -62,7 +62,7 @@ static baum_mechanism *make_bead(const bead_def *def)
   bead.position[1] = def->y;
   memcpy(bead.velocity, def->v, sizeof bead.velocity);
   bead.held = def->held;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bead, &id), BAUM_OK);
   add_rod(mechanism, "rod", id, def->length);
   if (def->second_length > 0.0) {
@@ -137,8 +137,7 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
  * [rad]. */
 static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def body = baum_planar_body_def_default();
   body.name = "arm";
   body.position[0] = 0.5;
@@ -250,8 +249,7 @@ static void drivers_may_begin_away_from_the_design(void **state)
   (void)state;
   enum { BARS = 3 };
   const double start = 2.5;
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   baum_driver_def motor = baum_driver_def_default();
   motor.value = start;
@@ -288,8 +286,7 @@ static void drivers_may_begin_away_from_the_design(void **state)
 static void drivers_that_begin_out_of_reach_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def bar = baum_planar_body_def_default();
   bar.position[0] = 0.6;
   bar.position[1] = 0.8;

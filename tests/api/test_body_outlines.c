@@ -13,6 +13,7 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
 #include "draw/drawing.h"
 #include "heap.h"
 #include "mechanism/fingerprint.h"
@@ -81,20 +82,16 @@ static scene make_scene(void)
   baum_planar_body_def flat = baum_planar_body_def_default();
   baum_spatial_body_def solid = baum_spatial_body_def_default();
   baum_coordinates_def coordinates = baum_coordinates_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   flat.name = "flat";
   flat.position[0] = 1.0;
   coordinates.size = 1;
   coordinates.mass = mass;
   coordinates.force = no_force;
-  must(baum_mechanism_create(&s.mechanism));
+  s.mechanism = create_mechanism();
   must(baum_mechanism_add_planar_body(s.mechanism, &flat, &s.flat));
   must(baum_mechanism_add_spatial_body(s.mechanism, &solid, &s.solid));
   must(baum_mechanism_add_coordinates(s.mechanism, &coordinates, &s.coordinates));
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = s.flat;
-  pin.point[0] = pin.point[1] = 0.0;
-  must(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
+  (void)add_planar_pin(s.mechanism, NULL, BAUM_GROUND, s.flat, 0.0, 0.0);
   return s;
 }
 

@@ -18,6 +18,7 @@
 #include <baum/catalog.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "heap.h"
 #include "message.h"
 
@@ -451,9 +452,8 @@ static void elements_are_found_in_order_and_by_name(void **state)
 static void inputs_are_found_by_name(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_input_id torque;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_input(m, "force", 0.0, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_add_input(m, "torque", 0.0, &torque), BAUM_OK);
   assert_int_equal(baum_mechanism_find_input(m, "torque").index1, torque.index1);

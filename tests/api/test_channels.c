@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "every_element.h"
 #include "message.h"
 #include "models.h"
@@ -243,7 +244,6 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
 {
   (void)state;
   enum { MANY = 214749 };
-  baum_mechanism *m = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   baum_channel *channels = calloc(MANY, sizeof *channels);
   assert_non_null(channels);
@@ -253,7 +253,7 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
   def.size = 10000;
   def.mass = user_never_asked;
   def.force = user_never_pushed;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   assert_int_equal(baum_channels_width(m, channels, MANY - 1), 2147480000);

@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 
@@ -22,22 +23,15 @@ enum { STEPS = 10000 }; /* after this many steps, a run checks its progress */
  * velocity decay like exp(-rate t), with `rate` in 1/s. */
 static baum_mechanism *greased_link(double rate)
 {
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_planar_body_def link = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   baum_planar_torsion_spring_def grease = baum_planar_torsion_spring_def_default();
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   link.mass = 1.0;
   link.inertia = 1.0 / 12.0;
   link.position[0] = 0.5;
   assert_int_equal(baum_mechanism_add_planar_body(m, &link, &body), BAUM_OK);
-  pin.name = "pin";
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = body;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  (void)add_planar_pin(m, "pin", BAUM_GROUND, body, 0.0, 0.0);
   grease.body_a = BAUM_GROUND;
   grease.body_b = body;
   grease.damping = rate / 3.0; /* the moment of inertia of the link about the pin is 1/3 kg m^2 */

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "every_element.h"
 
 /* ---- the headers ---- */
@@ -488,8 +489,7 @@ static void get_writes_at_most_the_callers_size(void **state)
 static void names_are_copied_and_default_to_family_and_number(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   char name[] = "first";
   baum_planar_body_def body = baum_planar_body_def_default();
   baum_body_id first;
@@ -499,13 +499,7 @@ static void names_are_copied_and_default_to_family_and_number(void **state)
   name[0] = 'X';
   body.name = NULL;
   assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, &second), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = first;
-  pin.body_b = second;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  baum_joint_id joint;
-  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &joint), BAUM_OK);
+  baum_joint_id joint = add_planar_pin(mechanism, NULL, first, second, 0.0, 0.0);
   assert_string_equal(baum_mechanism_body_name(mechanism, first), "first");
   assert_string_equal(baum_mechanism_body_name(mechanism, second), "body2");
   assert_string_equal(baum_mechanism_body_name(mechanism, BAUM_GROUND), "ground");
@@ -520,10 +514,9 @@ static void names_are_copied_and_default_to_family_and_number(void **state)
 static void gravity_and_scale_default_as_documented_and_can_be_set(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   double gravity[3];
   double length = 0.0;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_get_gravity(mechanism, gravity), BAUM_OK);
   const double want[3] = {0.0, -9.81, 0.0};
   assert_memory_equal(gravity, want, sizeof want);

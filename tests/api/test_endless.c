@@ -14,7 +14,7 @@
 
 #include <baum/baum.h>
 
-#include "check.h"
+#include "construct.h"
 #include "driven.h"
 #include "runs.h"
 #include "step_mode.h"
@@ -97,11 +97,9 @@ static const hostile CASES[] = {
 
 static baum_mechanism *build(const hostile *c)
 {
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_planar_body_def def = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, c->gravity, 0.0), BAUM_OK);
   def.mass = c->mass;
   def.inertia = c->inertia;
@@ -109,11 +107,7 @@ static baum_mechanism *build(const hostile *c)
   memcpy(def.velocity, c->velocity, sizeof def.velocity);
   def.angular_velocity = c->angular_velocity;
   assert_int_equal(baum_mechanism_add_planar_body(m, &def, &body), BAUM_OK);
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = body;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, body, 0.0, 0.0);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
 }

@@ -13,6 +13,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "runs.h"
 #include "step_mode.h"
@@ -174,7 +175,6 @@ typedef struct variant {
 
 static baum_mechanism *make_bead(variant of, fault *f)
 {
-  baum_mechanism *m = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   baum_body_id bead;
   def.name = "bead";
@@ -186,7 +186,7 @@ static baum_mechanism *make_bead(variant of, fault *f)
   def.force = bead_force;
   def.potential = bead_potential;
   def.user = f;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_coordinates(m, &def, &bead));
   for (int k = 0; k < of.hoops; k++) {
     add_hoop(m, k == 0 ? "hoop" : "other hoop", &bead, f);

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "driven.h"
 #include "every_element.h"
 #include "runs.h"
@@ -71,8 +72,7 @@ static int force(double t, const double *q, const double *v, const double *input
 
 static baum_mechanism *pendulum(fault *user)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   bob.name = "bob";
   bob.position[0] = 1.0;

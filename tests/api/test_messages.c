@@ -12,6 +12,7 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
 #include "message.h"
 #include "models.h"
 #include "runs.h"
@@ -21,18 +22,12 @@
 /* Makes a rod of 1 m on a pin. If `driven` is set, a driver rotates it at 1 rad/s. */
 static baum_mechanism *rod_on_a_pin(bool driven)
 {
-  baum_mechanism *m = NULL;
   baum_body_id rod;
-  baum_joint_id pin;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def body = baum_planar_body_def_default();
   body.position[0] = 0.5;
   assert_int_equal(baum_mechanism_add_planar_body(m, &body, &rod), BAUM_OK);
-  baum_planar_revolute_def revolute = baum_planar_revolute_def_default();
-  revolute.body_a = BAUM_GROUND;
-  revolute.body_b = rod;
-  revolute.point[0] = revolute.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &revolute, &pin), BAUM_OK);
+  baum_joint_id pin = add_planar_pin(m, NULL, BAUM_GROUND, rod, 0.0, 0.0);
   if (driven) {
     baum_driver_def driver = baum_driver_def_default();
     driver.joint = pin;
@@ -144,8 +139,7 @@ static void messages_of_warnings_end_with_the_heading_of_their_entry(void **stat
 static void a_step_to_infinity_is_an_error(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_particle_def ball = baum_planar_particle_def_default();
   ball.velocity[0] = 1e300;
   ball.velocity[1] = 0.0;

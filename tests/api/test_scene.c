@@ -17,6 +17,7 @@
 #include <baum/catalog.h>
 
 #include "check.h"
+#include "construct.h"
 #include "every_element.h"
 #include "failing_heap.h"
 #include "mechanism/family.h"
@@ -207,18 +208,13 @@ static baum_body_id add_body(baum_mechanism *m, const char *name)
 
 static void add_pin(baum_mechanism *m, baum_body_id a, baum_body_id b)
 {
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = def.point[1] = -0.0;
-  check(baum_mechanism_add_planar_revolute(m, &def, NULL));
+  (void)add_planar_pin(m, NULL, a, b, -0.0, -0.0);
 }
 
 /* Makes two bodies with the same name, and one body that is called ground. */
 static baum_mechanism *make_unclear(void)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id a = add_body(m, "a \"<\\");
   baum_body_id b = add_body(m, "twin");
   baum_body_id c = add_body(m, "twin");
@@ -337,8 +333,7 @@ static void functions_without_hooks_are_refused(void **state)
 static void names_that_are_not_utf8_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_input(m, "\xe9", 0.0, NULL));
   must_be_equal(m, m);
   ASSERT_SAYS(baum_mechanism_print(m, NULL, 0, NULL, 0, NULL), BAUM_ERR_ARGUMENT,

@@ -11,6 +11,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 #include "user_models.h"
@@ -45,9 +46,8 @@ static void assert_explained(const baum_simulation *run, const char *line)
  * is not frozen. */
 static baum_mechanism *make_hub(int arms)
 {
-  baum_mechanism *m = NULL;
   baum_body_id hub;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def disc = baum_planar_body_def_default();
   disc.name = "hub";
   disc.mass = 10.0;
@@ -107,9 +107,8 @@ static int tie(double t, const double *q, double *out, void *user)
 /* Makes two coordinates that a constraint makes equal. The second one has no mass. */
 static baum_mechanism *make_massless(void)
 {
-  baum_mechanism *m = NULL;
   baum_body_id body;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "twin";
   def.size = 2;
@@ -132,8 +131,7 @@ static baum_mechanism *make_massless(void)
 static baum_mechanism *make_net(void)
 {
   baum_body_id bodies[NET];
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   for (int k = 0; k < NET; k++) {
     baum_planar_particle_def def = baum_planar_particle_def_default();
     def.position[0] = sin(1.7 * k * k + 1.0);
@@ -164,13 +162,12 @@ static int late_mass(double t, const double *q, double *out, void *user)
 
 static baum_mechanism *make_late(void)
 {
-  baum_mechanism *m = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "late";
   def.size = 1;
   def.mass = late_mass;
   def.force = pull_one;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_coordinates(m, &def, NULL));
   check(baum_mechanism_freeze(m));
   return m;
@@ -360,8 +357,7 @@ static void the_block_solver_alone_is_refused_close_to_a_singular_configuration(
 static void a_mechanism_without_joints_has_no_nodes(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def def = baum_planar_body_def_default();
   def.velocity[0] = 2.0;
   def.velocity[1] = 0.0;

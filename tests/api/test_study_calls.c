@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "heap.h"
 #include "message.h"
 #include "models.h"
@@ -164,9 +165,8 @@ static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state
   baum_study_destroy(study);
 
   enum { BODIES = 200 }; /* each sample has 1200 values of q and v */
-  baum_mechanism *mechanism = NULL;
   const baum_planar_body_def body = baum_planar_body_def_default();
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   for (int k = 0; k < BODIES; k++) {
     assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, NULL), BAUM_OK);
   }

@@ -13,6 +13,7 @@
 
 #include <baum/draw.h>
 
+#include "construct.h"
 #include "message.h"
 #include "report_scene.h"
 
@@ -147,7 +148,6 @@ static void a_page_has_the_data_of_every_entry_and_loads_nothing(void **state)
  * origin and at x = `to`. */
 static void expect_picture(double to, const double *q)
 {
-  baum_mechanism *m = NULL;
   baum_study *study = NULL;
   baum_planar_body_def rod = baum_planar_body_def_default();
   rod.position[0] = 0.5;
@@ -155,7 +155,7 @@ static void expect_picture(double to, const double *q)
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   pin.body_a = BAUM_GROUND;
   pin.point_a[1] = pin.point_b[1] = 0.0;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_body(m, &rod, &pin.body_b), BAUM_OK);
   for (int end = 0; end < 2; end++) {
     pin.name = end ? REPORT_JOINT : "pin";

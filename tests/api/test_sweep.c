@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 
 enum { RUNS = 20, TIMES = 3, WIDTH = 6, SIZE = TIMES * WIDTH, BAD = 7 };
@@ -31,16 +32,11 @@ static int set_up(void **state)
 {
   static arm a;
   baum_planar_body_def body = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   body.position[0] = 0.3;
   body.inertia = 0.1;
-  check(baum_mechanism_create(&a.mechanism));
+  a.mechanism = create_mechanism();
   check(baum_mechanism_add_planar_body(a.mechanism, &body, &a.body));
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = a.body;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  check(baum_mechanism_add_planar_revolute(a.mechanism, &pin, NULL));
+  (void)add_planar_pin(a.mechanism, NULL, BAUM_GROUND, a.body, 0.0, 0.0);
   check(baum_mechanism_freeze(a.mechanism));
   a.channels[0] = baum_channel_of_body(BAUM_BODY_POSE, a.body);
   a.channels[1] = baum_channel_of(BAUM_V);

@@ -16,6 +16,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -67,19 +68,13 @@ static void exact(double t, double *angle, double *rate)
 
 static baum_mechanism *make(bool declared)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
   baum_planar_body_def body = baum_planar_body_def_default();
   body.inertia = 1.0;
   baum_body_id disc;
   assert_int_equal(baum_mechanism_add_planar_body(m, &body, &disc), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = disc;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, disc, 0.0, 0.0);
   baum_user_force_def force = baum_user_force_def_default();
   force.depends_on_velocity = false;
   force.bodies = &disc;
@@ -250,20 +245,16 @@ static void kinematics_crosses_breaks_in_both_directions(void **state)
 {
   (void)state;
   static const double targets[] = {0.3, 0.499999, 0.5, 0.7, 1.2345, 2.0, 1.2345, 1.234, 0.5, 0.4};
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
   baum_planar_body_def body = baum_planar_body_def_default();
   body.inertia = 2.0;
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
+  baum_body_id pinned;
   baum_driver_def motor = baum_driver_def_default();
   motor.law = kinked;
   baum_joint_id drive;
-  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pin.body_b), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &motor.joint), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pinned), BAUM_OK);
+  motor.joint = add_planar_pin(m, NULL, BAUM_GROUND, pinned, 0.0, 0.0);
   assert_int_equal(baum_mechanism_add_driver(m, &motor, &drive), BAUM_OK);
   assert_int_equal(baum_mechanism_add_break_times(m, TIMES, 2), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "methods.h"
 #include "pendulum_events.h"
 #include "runs.h"
@@ -226,8 +227,7 @@ static void simultaneous_events_are_all_reported(void **state)
 /* Makes a pendulum and its mirror image, each on its own pin. */
 static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   for (int k = 0; k < 2; k++) {
     double a = k == 0 ? angle : -angle;
     baum_planar_body_def bob = baum_planar_body_def_default();
@@ -236,12 +236,9 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
     bob.position[0] = 3.0 * k + sin(a);
     bob.position[1] = -cos(a);
     bob.angular_velocity = 0.0;
-    baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-    pin.body_a = BAUM_GROUND;
-    pin.point[0] = 3.0 * k;
-    pin.point[1] = 0.0;
-    assert_int_equal(baum_mechanism_add_planar_body(m, &bob, &pin.body_b), BAUM_OK);
-    assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &pins[k]), BAUM_OK);
+    baum_body_id id;
+    assert_int_equal(baum_mechanism_add_planar_body(m, &bob, &id), BAUM_OK);
+    pins[k] = add_planar_pin(m, NULL, BAUM_GROUND, id, 3.0 * k, 0.0);
   }
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;

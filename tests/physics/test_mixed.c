@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -138,8 +139,7 @@ static assembly make(bool spatial, bool driven)
   const double crank_at[3] = {0.5 * pin[0], 0.5 * pin[1], angle};
   const double rod_at[3] = {0.5 * (pin[0] + end[0]), 0.5 * pin[1], tilt};
   const double hook[2] = {rod_at[0] + 0.1 * cos(tilt), rod_at[1] + 0.1 * sin(tilt)};
-  assembly s = {.mechanism = NULL};
-  check(baum_mechanism_create(&s.mechanism));
+  assembly s = {.mechanism = create_mechanism()};
   baum_mechanism *m = s.mechanism;
   s.bodies[CRANK] = add_link(m, spatial, crank_at, 1.0, driven ? (double)NAN : 5.0);
   s.bodies[ROD] = add_link(m, spatial, rod_at, 2.0, (double)NAN);
@@ -351,8 +351,7 @@ static baum_mechanism *make_kind(int kind, bool swapped, bool particle)
   baum_body_id links[2];
   baum_body_id bead;
   baum_body_id tool;
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 1.0, -9.81, 3.0));
   links[0] = add_link(m, false, at[0], 1.0, 3.0);
   links[1] = add_link(m, false, at[1], 2.0, -2.0);

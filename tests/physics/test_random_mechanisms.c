@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "dynamics/block_path.h"
 #include "quad_saddle.h"
 #include "random_judge.h"
@@ -274,12 +275,10 @@ static void failed_evaluations_do_not_change_later_results(void **state)
 /* Makes a light body that is welded to a pendulum of 1 kg. */
 static baum_mechanism *make_light(double mass)
 {
-  baum_mechanism *m = NULL;
   baum_body_id heavy;
   baum_body_id light;
-  baum_joint_id joint;
   baum_force_id force;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def body = baum_planar_body_def_default();
   body.position[0] = 0.3;
   assert_int_equal(baum_mechanism_add_planar_body(m, &body, &heavy), BAUM_OK);
@@ -288,12 +287,7 @@ static baum_mechanism *make_light(double mass)
   body.position[0] = 0.9;
   body.position[1] = 0.2;
   assert_int_equal(baum_mechanism_add_planar_body(m, &body, &light), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = heavy;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &joint), BAUM_OK);
+  baum_joint_id joint = add_planar_pin(m, NULL, BAUM_GROUND, heavy, 0.0, 0.0);
   baum_planar_fixed_def weld = baum_planar_fixed_def_default();
   weld.body_a = heavy;
   weld.body_b = light;

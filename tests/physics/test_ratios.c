@@ -14,6 +14,7 @@
 
 #include "base/rotation.h"
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -105,7 +106,7 @@ static train make(double speed)
   static const double axes[3][3] = {
     {0.0, 0.0, 1.0}, {0.6, 0.0, 0.8}, {2.0 / 7.0, 6.0 / 7.0, 3.0 / 7.0}};
   train t;
-  check(baum_mechanism_create(&t.mechanism));
+  t.mechanism = create_mechanism();
   check(baum_mechanism_set_gravity(t.mechanism, 0.0, 0.0, 0.0));
   baum_body_id bodies[3];
   baum_joint_id *joints[3] = {&t.shaft, &t.other, &t.wheel};
@@ -304,10 +305,9 @@ static void rates_are_equal_at_any_angle(void **state)
     const double tilt = 0.05 + 0.3 * k;
     const double axes[2][3] = {{0.0, 0.0, 1.0}, {sin(tilt), 0.0, cos(tilt)}};
     const double origin[3] = {0.0, 0.0, 0.0};
-    baum_mechanism *m = NULL;
     baum_joint_id bearings[2];
     baum_body_id bodies[2];
-    check(baum_mechanism_create(&m));
+    baum_mechanism *m = create_mechanism();
     check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
     for (int n = 0; n < 2; n++) {
       bodies[n] = add_body(m, origin, axes[n], (double)NAN);

@@ -14,6 +14,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "message.h"
 #include "rotation.h"
 #include "runs.h"
@@ -73,8 +74,7 @@ typedef void build_fn(baum_mechanism *m);
 
 static baum_mechanism *make(build_fn *build)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   build(m);
   check(baum_mechanism_freeze(m));
   return m;

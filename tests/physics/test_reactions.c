@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "redundant_mechanism.h"
 #include "runs.h"
 
@@ -132,12 +133,11 @@ static void random_redundant_mechanisms_are_in_balance(void **state)
 static void planar_bodies_carry_forces_normal_to_their_plane(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_body_id planar;
   baum_body_id load;
   baum_joint_id joint;
   baum_workspace *w = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, -10.0));
   baum_planar_body_def flat = baum_planar_body_def_default();
   check(baum_mechanism_add_planar_body(m, &flat, &planar));

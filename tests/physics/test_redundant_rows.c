@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "posed.h"
 #include "runs.h"
 
@@ -309,12 +310,11 @@ static void a_run_may_start_next_to_a_singular_configuration(void **state)
  * to rounding. */
 static baum_mechanism *make_door(bool coupled)
 {
-  baum_mechanism *m = NULL;
   baum_body_id door;
   baum_joint_id joints[2];
   baum_spatial_body_def body = baum_spatial_body_def_default();
   const double axis[3] = {1.0, 2.0, 3.0};
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   body.position[0] = 0.7;
   body.angular_velocity[0] = 0.1;
   body.angular_velocity[1] = 0.2;

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "physics_run.h"
 #include "runs.h"
 #include "step_mode.h"
@@ -169,20 +170,14 @@ static void redundant_rows_do_not_change_the_motion(void **state)
  * rad/s and 2 rad/s + acceleration t. A second link hangs on the first one. */
 static baum_mechanism *driven_twice(double acceleration)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id links[3] = {BAUM_GROUND};
   baum_joint_id pins[3];
   for (int k = 1; k <= 2; k++) {
     baum_planar_body_def body = baum_planar_body_def_default();
     body.position[0] = k - 0.5;
     check(baum_mechanism_add_planar_body(m, &body, &links[k]));
-    baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-    pin.body_a = links[k - 1];
-    pin.body_b = links[k];
-    pin.point[0] = k - 1.0;
-    pin.point[1] = 0.0;
-    check(baum_mechanism_add_planar_revolute(m, &pin, &pins[k]));
+    pins[k] = add_planar_pin(m, NULL, links[k - 1], links[k], k - 1.0, 0.0);
   }
   baum_driver_def motor = baum_driver_def_default();
   motor.joint = pins[1];

@@ -13,6 +13,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "quad.h"
 #include "runs.h"
 #include "step_mode.h"
@@ -171,11 +172,10 @@ static void turn(const double p[4], const double x[3], bool back, double out[3])
 
 static baum_mechanism *make_disc(const double start[STATE], double rim)
 {
-  baum_mechanism *m = NULL;
   baum_body_id id;
   baum_spatial_body_def body = baum_spatial_body_def_default();
   baum_spatial_rolling_disc_def disc = baum_spatial_rolling_disc_def_default();
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   body.name = "disc";
   body.mass = MASS;
   body.inertia[0] = body.inertia[1] = TRANSVERSE;
@@ -317,7 +317,6 @@ static void a_ball_on_a_turntable_moves_on_a_circle(void **state)
   const double rate = 2.1;
   const double r = 0.1;
   const double speed[2] = {0.3, -0.2};
-  baum_mechanism *m = NULL;
   baum_body_id table, ball;
   baum_joint_id axle;
   baum_spatial_body_def plate = baum_spatial_body_def_default();
@@ -325,7 +324,7 @@ static void a_ball_on_a_turntable_moves_on_a_circle(void **state)
   baum_spatial_revolute_def bearing = baum_spatial_revolute_def_default();
   baum_driver_def motor = baum_driver_def_default();
   baum_spatial_rolling_disc_def contact = baum_spatial_rolling_disc_def_default();
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_spatial_body(m, &plate, &table));
   sphere.mass = 0.7;
   sphere.inertia[0] = sphere.inertia[1] = sphere.inertia[2] = 0.4 * sphere.mass * r * r;

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -49,18 +50,13 @@ static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double dir
 static disc make(bool driven)
 {
   disc d = {.mechanism = NULL};
-  assert_int_equal(baum_mechanism_create(&d.mechanism), BAUM_OK);
+  d.mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   baum_planar_body_def body = baum_planar_body_def_default();
   body.inertia = 1.0;
   baum_body_id wheel;
   assert_int_equal(baum_mechanism_add_planar_body(d.mechanism, &body, &wheel), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = wheel;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(d.mechanism, &pin, &d.pin), BAUM_OK);
+  d.pin = add_planar_pin(d.mechanism, NULL, BAUM_GROUND, wheel, 0.0, 0.0);
   d.torque = add_torque(d.mechanism, wheel, 1.0, TORQUE[0]);
   d.other = add_torque(d.mechanism, wheel, -1.0, 0.0);
   if (driven) {

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "runs.h"
 #include "singular_scenes.h"
 
@@ -248,7 +249,6 @@ static baum_status build_light_rotation(model *out)
  * the rod becomes perpendicular to the slot, it stops the bob suddenly. */
 static baum_mechanism *build_taut_rod(double mass, double direction)
 {
-  baum_mechanism *m = NULL;
   baum_planar_body_def rod = baum_planar_body_def_default();
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
@@ -262,7 +262,7 @@ static baum_mechanism *build_taut_rod(double mass, double direction)
   bob.position[1] = -0.6;
   bob.velocity[0] = 2.0 * cos(direction);
   bob.velocity[1] = 2.0 * sin(direction);
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_body(m, &rod, &pin.body_a), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &pin.body_b), BAUM_OK);

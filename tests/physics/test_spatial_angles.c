@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 
 static const double RATE = 40.0;
@@ -20,12 +21,11 @@ static const double RATE = 40.0;
 /* Makes a rotor with an oblique axis. If `driven` is true, a driver moves it. */
 static baum_mechanism *make(bool driven, baum_joint_id *bearing)
 {
-  baum_mechanism *m = NULL;
   baum_body_id rotor;
   baum_spatial_body_def body = baum_spatial_body_def_default();
   baum_spatial_revolute_def joint = baum_spatial_revolute_def_default();
   const double axis[3] = {1.0, 2.0, 2.0};
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   if (!driven) {
     for (int i = 0; i < 3; i++) {

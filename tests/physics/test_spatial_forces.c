@@ -15,6 +15,7 @@
 
 #include "base/rotation.h"
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -80,9 +81,8 @@ static void a_bushing_is_linear_in_its_rotation_vector(void **state)
   (void)state;
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};
   static const double angles[] = {0.0, 1e-9, 1e-3, 0.19, 0.21, 1.5, 3.0, 3.1415};
-  baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   baum_spatial_bushing_def def = bushing_on(add_body(m, SPHERE));
   set3(def.axis, 1.0, 0.0, 0.0);
@@ -118,10 +118,9 @@ static void a_torsion_spring_measures_the_twist(void **state)
   static const double axis[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};
   double x[3];
   double y[3];
-  baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
   baum_i_complete_axes(axis, x, y);
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   baum_spatial_torsion_spring_def def = baum_spatial_torsion_spring_def_default();
   def.body_a = BAUM_GROUND;
@@ -203,12 +202,11 @@ static void small_motions_are_those_of_the_linear_equations(void **state)
   static const double amplitudes[2] = {1e-3, 1e-6};
   for (int n = 0; n < 2; n++) {
     const double amplitude = amplitudes[n];
-    baum_mechanism *m = NULL;
     double q[7] = {0.0};
     double v[SIX];
     double y[2 * SIX];
     double rotation[3];
-    check(baum_mechanism_create(&m));
+    baum_mechanism *m = create_mechanism();
     check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
     baum_spatial_bushing_def def = bushing_on(add_body(m, SPHERE));
     set_matrices(def.stiffness, def.damping);
@@ -246,9 +244,8 @@ static void small_motions_are_those_of_the_linear_equations(void **state)
  * torsion spring join the two bricks. */
 static baum_mechanism *make_pair(bool damped)
 {
-  baum_mechanism *m = NULL;
   double damping[36];
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, -9.81));
   baum_body_id first = add_body(m, BRICK);
   baum_body_id second = add_body(m, BRICK);
@@ -358,11 +355,10 @@ static void every_method_makes_the_same_motion(void **state)
 static int warning_of(double angle, double stiffness, bool fixed)
 {
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};
-  baum_mechanism *m = NULL;
   baum_warning warning = {.code = (baum_warning_code)0};
   double v[SIX] = {0.0};
   const double q[7] = {0.0, 0.0, 0.0, 1.0};
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   baum_spatial_bushing_def def = bushing_on(add_body(m, SPHERE));
   def.name = "rubber";

@@ -21,6 +21,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -37,8 +38,7 @@ static void set3(double out[3], double x, double y, double z)
 
 static baum_mechanism *start(bool gravity)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, gravity ? -G : 0.0));
   return m;
 }

@@ -21,6 +21,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "rotation.h"
 #include "runs.h"
 
@@ -55,7 +56,6 @@ static baum_mechanism *make_top(void)
   const double axial =
     (MASS * GRAVITY * ARM + moment * PRECESSION * PRECESSION * cos(TILT)) / (SPIN * PRECESSION);
   const double along[3] = {0.0, 0.0, ARM};
-  baum_mechanism *m = NULL;
   baum_spatial_body_def top = baum_spatial_body_def_default();
   top.mass = MASS;
   top.inertia[0] = top.inertia[1] = ACROSS;
@@ -68,7 +68,7 @@ static baum_mechanism *make_top(void)
   baum_spatial_spherical_def joint = baum_spatial_spherical_def_default();
   joint.body_a = BAUM_GROUND;
   memcpy(joint.point, foot, sizeof foot);
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, -GRAVITY));
   check(baum_mechanism_add_spatial_body(m, &top, &joint.body_b));
   check(baum_mechanism_add_spatial_spherical(m, &joint, NULL));

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "physics_run.h"
 #include "runs.h"
 
@@ -55,8 +56,7 @@ static void add_bushing(baum_mechanism *mechanism, baum_body_id upper, baum_body
 
 static baum_mechanism *make_rods(void)
 {
-  baum_mechanism *mechanism = NULL;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   baum_body_id upper = add_rod(mechanism, 0.0);
   baum_body_id lower = add_rod(mechanism, 1.0);
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();

@@ -18,6 +18,7 @@
 #include <baum/baum.h>
 
 #include "check.h"
+#include "construct.h"
 #include "rotation.h"
 #include "runs.h"
 
@@ -106,14 +107,13 @@ static void reference(int seconds, long double w[3], long double p[4])
 
 static baum_mechanism *make_body(void)
 {
-  baum_mechanism *m = NULL;
   baum_spatial_body_def def = baum_spatial_body_def_default();
   static const double velocity[3] = {0.3, -0.2, 0.1};
   memcpy(def.inertia, MOMENTS, sizeof MOMENTS);
   memcpy(def.orientation, P, sizeof P);
   memcpy(def.angular_velocity, W, sizeof W);
   memcpy(def.velocity, velocity, sizeof velocity);
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   check(baum_mechanism_add_spatial_body(m, &def, NULL));
   check(baum_mechanism_freeze(m));

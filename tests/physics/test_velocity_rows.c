@@ -15,6 +15,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -56,8 +57,7 @@ static baum_joint_id add_blade(baum_mechanism *m, baum_body_id body, double behi
 
 static baum_mechanism *start_plane(void)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   return m;
 }
@@ -278,12 +278,8 @@ static void default_gains_are_stable(void **state)
   baum_mechanism *m = start_plane();
   baum_body_id body = add_body(m, U0, W0);
   baum_body_id arm = add_body(m, (double)NAN, (double)NAN);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = body;
-  pin.body_b = arm;
-  pin.point[0] = pin.point[1] = 0.5;
   add_blade(m, body, D);
-  check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  (void)add_planar_pin(m, NULL, body, arm, 0.5, 0.5);
   check(baum_mechanism_freeze(m));
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);

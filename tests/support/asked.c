@@ -9,6 +9,7 @@
 
 #include "asked.h"
 #include "check.h"
+#include "construct.h"
 
 const asked_name asked_names[ASKED_KINDS] = {
   [ASKED_MASS] = {"\"masses\"", "mass()"},
@@ -227,16 +228,9 @@ static void add_hoop(asked *b)
 static baum_joint_id add_pinned(asked *b, double x, baum_body_id *id)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  baum_joint_id joint;
   def.position[0] = x;
   check(baum_mechanism_add_planar_body(b->mechanism, &def, id));
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = *id;
-  pin.point[0] = x;
-  pin.point[1] = 0.5;
-  check(baum_mechanism_add_planar_revolute(b->mechanism, &pin, &joint));
-  return joint;
+  return add_planar_pin(b->mechanism, NULL, BAUM_GROUND, *id, x, 0.5);
 }
 
 static void add_arms(asked *b)
@@ -304,7 +298,7 @@ static void add_track(asked *b)
 void asked_make(asked *b)
 {
   *b = (asked){.fault = ASKED_FINE};
-  check(baum_mechanism_create(&b->mechanism));
+  b->mechanism = create_mechanism();
   add_masses(b);
   add_hoop(b);
   add_arms(b);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 
 const char DRAWN_HOSTILE[] = "</script></title><b>\"'&\\ \xd7\x90\xd7\x91";
 
@@ -22,18 +23,6 @@ baum_body_id drawn_body(baum_mechanism *m, const char *name, double x, double y)
   def.position[1] = y;
   check(baum_mechanism_add_planar_body(m, &def, &id));
   return id;
-}
-
-void drawn_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b, double x,
-               double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.name = name;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  check(baum_mechanism_add_planar_revolute(m, &def, NULL));
 }
 
 static void add_slider(baum_mechanism *m, baum_body_id body)
@@ -51,16 +40,15 @@ static void add_slider(baum_mechanism *m, baum_body_id body)
 
 baum_mechanism *drawn_crank(void)
 {
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id crank = drawn_body(m, "crank", 0.5, 0.0);
   baum_body_id rod = drawn_body(m, "rod", 2.0, 0.2);
   baum_body_id block = drawn_body(m, "block", 3.0, 0.0);
   baum_body_id wheel = drawn_body(m, DRAWN_HOSTILE, 2.0, 1.0);
-  drawn_pin(m, "O", BAUM_GROUND, crank, 0.0, 0.0);
-  drawn_pin(m, "A", crank, rod, 1.0, 0.0);
-  drawn_pin(m, "B", rod, block, 3.0, 0.0);
-  drawn_pin(m, "C", rod, wheel, 2.0, 1.0);
+  add_planar_pin(m, "O", BAUM_GROUND, crank, 0.0, 0.0);
+  add_planar_pin(m, "A", crank, rod, 1.0, 0.0);
+  add_planar_pin(m, "B", rod, block, 3.0, 0.0);
+  add_planar_pin(m, "C", rod, wheel, 2.0, 1.0);
   add_slider(m, block);
   return m;
 }

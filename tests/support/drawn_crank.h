@@ -10,8 +10,7 @@
 extern const char DRAWN_HOSTILE[];
 
 baum_body_id drawn_body(baum_mechanism *m, const char *name, double x, double y);
-void drawn_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b, double x,
-               double y);
+
 /* Makes a crank with two pins, a rod with three pins, a block on a guide, and a wheel. The
  * mechanism is not frozen. */
 baum_mechanism *drawn_crank(void);

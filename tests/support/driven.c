@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "driven.h"
+#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -21,8 +22,7 @@ static void check(baum_status status)
 
 static baum_mechanism *begin(void)
 {
-  baum_mechanism *mechanism = NULL;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   return mechanism;
 }
 
@@ -40,20 +40,6 @@ static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const d
   def.position[1] = from[1] + 0.5 * length * sin(angle);
   def.angle = angle;
   check(baum_mechanism_add_planar_body(mechanism, &def, &id));
-  return id;
-}
-
-static baum_joint_id add_pin(baum_mechanism *mechanism, const char *name, baum_body_id a,
-                             baum_body_id b, const double at[2])
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  baum_joint_id id;
-  def.name = name;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = at[0];
-  def.point[1] = at[1];
-  check(baum_mechanism_add_planar_revolute(mechanism, &def, &id));
   return id;
 }
 
@@ -87,7 +73,7 @@ static void add_slider(baum_mechanism *mechanism, baum_body_id rod, const double
   def.position[0] = at[0];
   def.position[1] = at[1];
   check(baum_mechanism_add_planar_body(mechanism, &def, &slider));
-  (void)add_pin(mechanism, "C", rod, slider, at);
+  (void)add_planar_pin(mechanism, "C", rod, slider, at[0], at[1]);
   baum_planar_translational_def guide = baum_planar_translational_def_default();
   guide.name = "guide";
   guide.body_a = BAUM_GROUND;
@@ -109,8 +95,8 @@ void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data)
   baum_body_id crank = add_rod(mechanism, "crank", origin, data->crank, angle);
   baum_body_id rod =
     add_rod(mechanism, "rod", tip, data->rod, atan2(end[1] - tip[1], end[0] - tip[0]));
-  baum_joint_id pin = add_pin(mechanism, "A", BAUM_GROUND, crank, origin);
-  (void)add_pin(mechanism, "B", crank, rod, tip);
+  baum_joint_id pin = add_planar_pin(mechanism, "A", BAUM_GROUND, crank, origin[0], origin[1]);
+  (void)add_planar_pin(mechanism, "B", crank, rod, tip[0], tip[1]);
   add_slider(mechanism, rod, end);
   add_motor(mechanism, pin, &data->drive);
 }
@@ -201,10 +187,10 @@ baum_mechanism *four_bar_make(const drive *motor)
   baum_body_id coupler =
     add_rod(mechanism, "coupler", tip, COUPLER, atan2(knee[1] - tip[1], knee[0] - tip[0]));
   baum_body_id rocker = add_rod(mechanism, "rocker", foot, ROCKER, four_bar_rocker(motor->angle));
-  baum_joint_id pin = add_pin(mechanism, "A", BAUM_GROUND, crank, origin);
-  (void)add_pin(mechanism, "B", crank, coupler, tip);
-  (void)add_pin(mechanism, "C", coupler, rocker, knee);
-  (void)add_pin(mechanism, "D", BAUM_GROUND, rocker, foot);
+  baum_joint_id pin = add_planar_pin(mechanism, "A", BAUM_GROUND, crank, origin[0], origin[1]);
+  (void)add_planar_pin(mechanism, "B", crank, coupler, tip[0], tip[1]);
+  (void)add_planar_pin(mechanism, "C", coupler, rocker, knee[0], knee[1]);
+  (void)add_planar_pin(mechanism, "D", BAUM_GROUND, rocker, foot[0], foot[1]);
   add_motor(mechanism, pin, motor);
   return freeze(mechanism);
 }
@@ -223,8 +209,8 @@ baum_mechanism *parallelogram_make(const drive *motor)
     const double foot[2] = {k, 0.0};
     const double head[2] = {k + tip[0], tip[1]};
     baum_body_id crank = add_rod(mechanism, CRANKS[k], foot, 1.0, motor->angle);
-    baum_joint_id pin = add_pin(mechanism, FEET[k], BAUM_GROUND, crank, foot);
-    (void)add_pin(mechanism, HEADS[k], crank, coupler, head);
+    baum_joint_id pin = add_planar_pin(mechanism, FEET[k], BAUM_GROUND, crank, foot[0], foot[1]);
+    (void)add_planar_pin(mechanism, HEADS[k], crank, coupler, head[0], head[1]);
     if (k == 0) {
       add_motor(mechanism, pin, motor);
     }

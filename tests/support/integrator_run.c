@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator_run.h"
+#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -194,8 +195,7 @@ double tolerance_factor(const integrator_setup *setup, double t, motion_fn *moti
 
 static baum_mechanism *begin(void)
 {
-  baum_mechanism *mechanism = NULL;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   return mechanism;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "joint_scenes.h"
+#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -53,18 +54,6 @@ static baum_body_id particle(baum_mechanism *m, const char *name, double x, doub
   return id;
 }
 
-static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  baum_joint_id id;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  need(baum_mechanism_add_planar_revolute(m, &def, &id));
-  return id;
-}
-
 /* Lets body b slide in body a along an axis, which is given in the design configuration. */
 static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
                            const double axis[2])
@@ -103,8 +92,8 @@ static void revolute(baum_mechanism *m)
 {
   baum_body_id upper = body(m, "upper", (placed){0.2, 0.0, 0.0, 1.0});
   baum_body_id lower = body(m, "lower", (placed){0.4, -0.15, -1.5, -2.0});
-  (void)pin(m, BAUM_GROUND, upper, 0.0, 0.0);
-  (void)pin(m, upper, lower, 0.4, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, upper, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, upper, lower, 0.4, 0.0);
 }
 
 /* Makes a block that slides on a swinging beam. */
@@ -114,7 +103,7 @@ static void translational(baum_mechanism *m)
   const double at[2] = {0.3 * axis[0], 0.3 * axis[1]};
   baum_body_id beam = body(m, "beam", (placed){0.1 * axis[0], 0.1 * axis[1], 0.3, 2.0});
   baum_body_id block = body(m, "block", (placed){at[0], at[1], 0.3, FREE});
-  (void)pin(m, BAUM_GROUND, beam, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, beam, 0.0, 0.0);
   (void)guide(m, beam, block, at, axis);
 }
 
@@ -137,7 +126,7 @@ static void fixed(baum_mechanism *m)
 {
   baum_body_id link = body(m, "link", (placed){0.2, 0.0, 0.0, 1.0});
   baum_body_id plate = body(m, "plate", (placed){0.4, 0.1, 0.7, FREE});
-  (void)pin(m, BAUM_GROUND, link, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, link, 0.0, 0.0);
   baum_planar_fixed_def def = baum_planar_fixed_def_default();
   def.body_a = link;
   def.body_b = plate;
@@ -152,8 +141,8 @@ static void driver(baum_mechanism *m)
   baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, FREE});
   baum_body_id link = body(m, "link", (placed){0.35, 0.0, 0.0, 1.0});
   baum_driver_def def = baum_driver_def_default();
-  def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
-  (void)pin(m, crank, link, 0.2, 0.0);
+  def.joint = add_planar_pin(m, NULL, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, crank, link, 0.2, 0.0);
   def.rate = 3.0;
   def.acceleration = 2.0;
   need(baum_mechanism_add_driver(m, &def, NULL));
@@ -167,8 +156,8 @@ static void spline_driver(baum_mechanism *m)
   baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, FREE});
   baum_body_id link = body(m, "link", (placed){0.35, 0.0, 0.0, 1.0});
   baum_spline_driver_def def = baum_spline_driver_def_default();
-  def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
-  (void)pin(m, crank, link, 0.2, 0.0);
+  def.joint = add_planar_pin(m, NULL, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, crank, link, 0.2, 0.0);
   def.times = times;
   def.values = angles;
   def.count = 5;
@@ -229,7 +218,7 @@ static void velocity_level(baum_mechanism *m)
   def.velocity_level = true;
   def.jacobian = across_the_blade;
   need(baum_mechanism_add_user_constraint(m, &def, NULL));
-  pin(m, sleigh, arm, -0.2, 0.0);
+  add_planar_pin(m, NULL, sleigh, arm, -0.2, 0.0);
 }
 
 /* Makes a quick-return mechanism, in which the pin of a crank slides in the slot of a swinging
@@ -240,8 +229,8 @@ static void pin_in_slot(baum_mechanism *m)
   const double axis[2] = {0.1, 0.3};
   baum_body_id crank = body(m, "crank", (placed){0.05, 0.0, 0.0, 4.0});
   baum_body_id arm = body(m, "arm", (placed){0.07, -0.09, 1.2, FREE});
-  (void)pin(m, BAUM_GROUND, crank, 0.0, 0.0);
-  (void)pin(m, BAUM_GROUND, arm, 0.0, -0.3);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, arm, 0.0, -0.3);
   (void)slot(m, arm, crank, at, axis);
 }
 
@@ -252,7 +241,7 @@ static void driver_in_slot(baum_mechanism *m)
   const double axis[2] = {1.0, 0.0};
   baum_body_id arm = body(m, "arm", (placed){0.1, 0.0, 0.0, 1.0});
   baum_body_id ball = particle(m, "ball", at[0], at[1]);
-  (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, arm, 0.0, 0.0);
   baum_driver_def def = baum_driver_def_default();
   def.joint = slot(m, arm, ball, at, axis);
   def.rate = 0.4;
@@ -268,7 +257,7 @@ static void rack_and_pinion(baum_mechanism *m)
   baum_body_id rack = body(m, "rack", (placed){0.0, 0.0, 0.0, FREE});
   baum_body_id pinion = body(m, "pinion", (placed){0.05, 0.1, 0.0, 3.0});
   (void)guide(m, BAUM_GROUND, rack, at, axis);
-  (void)pin(m, BAUM_GROUND, pinion, 0.0, 0.1);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, pinion, 0.0, 0.1);
   baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
   def.body_a = rack;
   def.body_b = pinion;
@@ -304,9 +293,9 @@ static void gear(baum_mechanism *m)
   baum_body_id sun = body(m, "sun", (placed){0.05, 0.0, 0.0, 4.0});
   baum_body_id arm = body(m, "arm", (placed){0.1, 0.0, 0.0, 1.0});
   baum_body_id planet = body(m, "planet", (placed){0.25, 0.04, 0.0, FREE});
-  (void)pin(m, BAUM_GROUND, sun, 0.0, 0.0);
-  (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
-  (void)pin(m, arm, planet, 0.25, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, sun, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, arm, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, arm, planet, 0.25, 0.0);
   baum_planar_gear_def def = baum_planar_gear_def_default();
   def.body_a = sun;
   def.body_b = planet;
@@ -324,7 +313,7 @@ static baum_coupling_def crank_and_weight(baum_mechanism *m)
   baum_body_id crank = body(m, "crank", (placed){0.1, 0.0, 0.0, 3.0});
   baum_body_id weight = body(m, "weight", (placed){0.3, 0.0, 0.0, FREE});
   baum_coupling_def def = baum_coupling_def_default();
-  def.joint_a = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  def.joint_a = add_planar_pin(m, NULL, BAUM_GROUND, crank, 0.0, 0.0);
   def.joint_b = guide(m, BAUM_GROUND, weight, at, axis);
   return def;
 }
@@ -374,7 +363,7 @@ static void curve(baum_mechanism *m)
 {
   baum_body_id track = body(m, "track", (placed){0.0, -0.2, 0.0, 1.0});
   baum_body_id ball = particle(m, "ball", 0.2, -0.2);
-  (void)pin(m, BAUM_GROUND, track, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, track, 0.0, 0.0);
   baum_planar_curve_def def = baum_planar_curve_def_default();
   def.body_a = track;
   def.body_b = ball;
@@ -407,8 +396,7 @@ const joint_scene joint_scenes[JOINT_SCENES] = {
 
 baum_mechanism *joint_scene_make(const joint_scene *scene)
 {
-  baum_mechanism *mechanism = NULL;
-  need(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   scene->build(mechanism);
   need(baum_mechanism_freeze(mechanism));
   return mechanism;

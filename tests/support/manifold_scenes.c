@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "manifold_bodies.h"
 #include "manifold_tops.h"
 #include "rotation.h"
@@ -111,17 +112,6 @@ static baum_body_id add_ordinary(baum_mechanism *mechanism, const manifold_body 
   return id;
 }
 
-static void add_revolute(baum_mechanism *mechanism, baum_body_id a, baum_body_id b, double x,
-                         double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  check(baum_mechanism_add_planar_revolute(mechanism, &def, NULL));
-}
-
 static void translate_bodies(const double *twin_q, double *q, int count)
 {
   for (int k = 0; k < count; k++) {
@@ -217,7 +207,7 @@ static void build_pendulum_twin(baum_mechanism *mechanism)
   double v[3];
   place_rod(&x, &y, v);
   baum_body_id id = add_ordinary(mechanism, &rod, x, y, 0.4, v);
-  add_revolute(mechanism, BAUM_GROUND, id, 0.0, 0.0);
+  add_planar_pin(mechanism, NULL, BAUM_GROUND, id, 0.0, 0.0);
 }
 
 static void translate_one(const double *twin_q, double *q)
@@ -341,9 +331,9 @@ static void build_crank_twin_of(baum_mechanism *mechanism, double half)
     add_ordinary(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V),
     add_ordinary(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL),
     add_ordinary(mechanism, &slider, p.slider, 0.0, 0.0, NULL)};
-  add_revolute(mechanism, BAUM_GROUND, ids[0], 0.0, 0.0);
-  add_revolute(mechanism, ids[0], ids[1], cos(CRANK), sin(CRANK));
-  add_revolute(mechanism, ids[1], ids[2], p.slider, 0.0);
+  add_planar_pin(mechanism, NULL, BAUM_GROUND, ids[0], 0.0, 0.0);
+  add_planar_pin(mechanism, NULL, ids[0], ids[1], cos(CRANK), sin(CRANK));
+  add_planar_pin(mechanism, NULL, ids[1], ids[2], p.slider, 0.0);
   baum_planar_translational_def def = baum_planar_translational_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = ids[2];
@@ -404,8 +394,8 @@ static void build_mixed_twin(baum_mechanism *mechanism)
   place_lower(x, y, at);
   baum_body_id upper = add_ordinary(mechanism, &rod, x, y, 0.4, v);
   baum_body_id lower = add_ordinary(mechanism, &lower_rod, at[0], at[1], at[2], NULL);
-  add_revolute(mechanism, BAUM_GROUND, upper, 0.0, 0.0);
-  add_revolute(mechanism, upper, lower, x + 0.5 * cos(0.4), y + 0.5 * sin(0.4));
+  add_planar_pin(mechanism, NULL, BAUM_GROUND, upper, 0.0, 0.0);
+  add_planar_pin(mechanism, NULL, upper, lower, x + 0.5 * cos(0.4), y + 0.5 * sin(0.4));
 }
 
 static void translate_mixed(const double *twin_q, double *q)
@@ -502,8 +492,7 @@ const manifold_scene *manifold_scene_find(const char *name)
 
 static baum_mechanism *make(void (*build)(baum_mechanism *))
 {
-  baum_mechanism *mechanism = NULL;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   build(mechanism);
   check(baum_mechanism_freeze(mechanism));
   return mechanism;

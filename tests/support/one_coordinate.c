@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "one_coordinate.h"
 
 static int unit_mass(double t, const double *q, double *out, void *user)
@@ -21,7 +22,6 @@ static int unit_mass(double t, const double *q, double *out, void *user)
 baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *user,
                                baum_input_id *input)
 {
-  baum_mechanism *mechanism = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 1;
   def.q = &x;
@@ -29,7 +29,7 @@ baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *u
   def.mass = unit_mass;
   def.force = force;
   def.user = user;
-  check(baum_mechanism_create(&mechanism));
+  baum_mechanism *mechanism = create_mechanism();
   if (input) {
     check(baum_mechanism_add_input(mechanism, "u", 0.0, input));
   }

@@ -9,6 +9,8 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
+
 typedef struct swing {
   baum_mechanism *mechanism;
   baum_joint_id pin;
@@ -33,8 +35,7 @@ static inline double quarter_of(double angle, double rate)
  * angular frequency of small swings is sqrt(9.81 / 1.25) rad/s. */
 static inline swing swing_make(double angle)
 {
-  swing s = {.mechanism = NULL};
-  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  swing s = {.mechanism = create_mechanism()};
   baum_planar_body_def body = baum_planar_body_def_default();
   body.mass = 1.0;
   body.inertia = 0.25;
@@ -44,12 +45,7 @@ static inline swing swing_make(double angle)
   body.angular_velocity = 0.0;
   baum_body_id bob;
   assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &body, &bob), BAUM_OK);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = bob;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(s.mechanism, &pin, &s.pin), BAUM_OK);
+  s.pin = add_planar_pin(s.mechanism, NULL, BAUM_GROUND, bob, 0.0, 0.0);
   assert_int_equal(baum_mechanism_freeze(s.mechanism), BAUM_OK);
   s.quarter = quarter_of(angle, sqrt(9.81 / 1.25));
   return s;

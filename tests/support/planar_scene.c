@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "planar_scene.h"
+#include "construct.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,7 +38,7 @@ static baum_body_id add_particle(baum_mechanism *mechanism, const char *name, do
 planar_scene planar_scene_make(void)
 {
   planar_scene scene;
-  assert_int_equal(baum_mechanism_create(&scene.mechanism), BAUM_OK);
+  scene.mechanism = create_mechanism();
   scene.link = add_body(scene.mechanism, "link", 1.0, 0.5, 0.4);
   scene.ball = add_particle(scene.mechanism, "ball", -0.6, 0.8);
   scene.crank = add_body(scene.mechanism, "crank", -0.3, 1.2, -1.1);

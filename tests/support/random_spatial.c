@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "random_coordinates.h"
 #include "random_definitions.h"
 #include "random_further.h"
@@ -425,7 +426,7 @@ void random_spatial_make(random_spatial *out, uint64_t seed, bool further)
   chance *c = &out->chance;
   *c = chance_of(seed);
   choose_all(out);
-  check(baum_mechanism_create(&out->mechanism));
+  out->mechanism = create_mechanism();
   const double *g = out->oracle.gravity;
   check(baum_mechanism_set_gravity(out->mechanism, g[0], g[1], g[2]));
   out->oracle.body_count = 1;

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "random_mechanism.h"
 
 enum { BODY_SIZE = 3 };
@@ -50,29 +51,6 @@ static baum_body_id add_any(builder *b, double x, double y)
   return add_body(b, x, y, chance_decade(&b->chance, 1.0 / b->ratio, 1.0));
 }
 
-static void add_pin(builder *b, baum_body_id body_a, baum_body_id body_b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = body_a;
-  def.body_b = body_b;
-  def.point[0] = x;
-  def.point[1] = y;
-  check(baum_mechanism_add_planar_revolute(b->m, &def, NULL));
-}
-
-static baum_joint_id add_weld(builder *b, baum_body_id body_a, baum_body_id body_b, double x,
-                              double y)
-{
-  baum_planar_fixed_def def = baum_planar_fixed_def_default();
-  baum_joint_id id;
-  def.body_a = body_a;
-  def.body_b = body_b;
-  def.point[0] = x;
-  def.point[1] = y;
-  check(baum_mechanism_add_planar_fixed(b->m, &def, &id));
-  return id;
-}
-
 static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, double x, double y)
 {
   baum_planar_translational_def def = baum_planar_translational_def_default();
@@ -105,11 +83,11 @@ static void join(builder *b, chain_kind kind, baum_body_id before, baum_body_id 
 {
   int roll = chance_below(&b->chance, kind == CHAIN_CLOSED ? 4 : 2);
   if (kind == CHAIN_OF_PINS || roll == 0) {
-    add_pin(b, before, body, at[0], at[1]);
+    add_planar_pin(b->m, NULL, before, body, at[0], at[1]);
   } else if (roll == 3) {
     add_slider(b, before, body, at[0], at[1]);
   } else {
-    (void)add_weld(b, before, body, at[0], at[1]);
+    (void)add_planar_weld(b->m, before, body, at[0], at[1]);
   }
 }
 
@@ -154,10 +132,10 @@ static baum_body_id make_cranks(builder *b, baum_body_id base, const double corn
       continue;
     }
     baum_body_id body = add_any(b, 0.5 * (foot[0] + head[0]), 0.5 * (foot[1] + head[1]));
-    add_pin(b, base, body, foot[0], foot[1]);
-    add_pin(b, body, coupler, head[0], head[1]);
+    add_planar_pin(b->m, NULL, base, body, foot[0], foot[1]);
+    add_planar_pin(b->m, NULL, body, coupler, head[0], head[1]);
     if (chance_below(&b->chance, 4) == 0) {
-      add_pin(b, body, coupler, head[0], head[1]);
+      add_planar_pin(b->m, NULL, body, coupler, head[0], head[1]);
     }
   }
   return coupler;
@@ -176,7 +154,7 @@ static void make_storeys(builder *b)
 static builder begin(uint64_t seed)
 {
   builder b = {.chance = chance_of(seed)};
-  check(baum_mechanism_create(&b.m));
+  b.m = create_mechanism();
   return b;
 }
 
@@ -213,9 +191,9 @@ baum_mechanism *redundant_bracket(double ratio, baum_joint_id *hold)
   def.position[0] = 1.2;
   def.position[1] = -0.9;
   check(baum_mechanism_add_planar_body(b.m, &def, &heavy));
-  add_pin(&b, BAUM_GROUND, bracket, 0.0, 0.0);
-  (void)add_weld(&b, bracket, BAUM_GROUND, 0.0, 0.0);
-  *hold = add_weld(&b, bracket, heavy, 0.8, -0.6);
+  add_planar_pin(b.m, NULL, BAUM_GROUND, bracket, 0.0, 0.0);
+  (void)add_planar_weld(b.m, bracket, BAUM_GROUND, 0.0, 0.0);
+  *hold = add_planar_weld(b.m, bracket, heavy, 0.8, -0.6);
   check(baum_mechanism_freeze(b.m));
   return b.m;
 }

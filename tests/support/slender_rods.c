@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "check.h"
+#include "construct.h"
 #include "quad_rows.h"
 #include "rotation.h"
 
@@ -270,7 +271,7 @@ static void add_island(rods *r, int island)
 static void make(rods *r, uint64_t seed, double unit)
 {
   *r = (rods){.chance = chance_of(seed), .unit = unit, .ratio = 1.0};
-  check(baum_mechanism_create(&r->mechanism));
+  r->mechanism = create_mechanism();
   double g = chance_below(&r->chance, 2) == 0 ? 0.0 : -9.81 * unit;
   check(baum_mechanism_set_gravity(r->mechanism, 0.0, 0.0, g));
   int islands = 1 + chance_below(&r->chance, ISLANDS);

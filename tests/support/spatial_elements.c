@@ -12,6 +12,7 @@
 #include <math.h>
 
 #include "check.h"
+#include "construct.h"
 
 bool spatial_scene_is_particle(int body)
 {
@@ -38,7 +39,7 @@ static baum_body_id add_body(baum_mechanism *m, double x, bool sphere)
 spatial_scene spatial_scene_make(bool spheres)
 {
   spatial_scene s = {.bodies = {BAUM_GROUND}};
-  check(baum_mechanism_create(&s.mechanism));
+  s.mechanism = create_mechanism();
   s.bodies[1] = add_body(s.mechanism, 0.3, spheres);
   s.bodies[2] = add_body(s.mechanism, -0.7, spheres);
   baum_spatial_particle_def ball = baum_spatial_particle_def_default();

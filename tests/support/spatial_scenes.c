@@ -12,6 +12,7 @@
 
 #include "base/rotation.h"
 #include "check.h"
+#include "construct.h"
 #include "tilt.h"
 
 /* ---- a four-bar ---- */
@@ -55,8 +56,7 @@ void spatial_build_planar_four_bar(baum_mechanism *m)
 /* Builds a four-bar in a tilted plane. Its joints are spatial revolute joints. */
 void spatial_build_four_bar(baum_mechanism *m)
 {
-  baum_mechanism *planar = NULL;
-  check(baum_mechanism_create(&planar));
+  baum_mechanism *planar = create_mechanism();
   spatial_build_planar_four_bar(planar);
   check(model_tilt_into(planar, m));
   baum_mechanism_destroy(planar);
@@ -135,8 +135,7 @@ void spatial_build_rssr(baum_mechanism *m)
 
 baum_mechanism *spatial_make_rssr(void)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   spatial_build_rssr(m);
   check(baum_mechanism_freeze(m));
   return m;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "user_check.h"
+#include "construct.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,13 +8,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-
-baum_mechanism *user_make_empty(void)
-{
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
-  return mechanism;
-}
 
 /* Freezes the mechanism, checks its derivatives and destroys it. */
 baum_status user_check(baum_mechanism *mechanism)
@@ -41,7 +35,7 @@ baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q
                                      baum_qv_fn *gamma, double scale)
 {
   const double q[2] = {0.6, -0.8};
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   const baum_body_id body = user_add_coordinates(mechanism, 2, q, scale);
   baum_user_constraint_def def = baum_user_constraint_def_default();
   def.name = "circle";
@@ -60,7 +54,7 @@ baum_mechanism *user_make_force(baum_force_fn *force, baum_force_fn *force_q,
                                 baum_force_fn *force_v, void *user)
 {
   const double q[2] = {0.0, 0.0};
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   const baum_body_id body = user_add_coordinates(mechanism, 2, q, 1.0);
   baum_user_force_def def = baum_user_force_def_default();
   def.name = "spring";

@@ -5,8 +5,6 @@
 
 #include "user_models.h"
 
-baum_mechanism *user_make_empty(void);
-
 /* These functions freeze the mechanism, check its derivatives and destroy it. user_check_right()
  * requires that the check finds no error. user_check_wrong() requires that the check fails with
  * this message. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "user_models.h"
+#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -328,8 +329,7 @@ baum_mechanism *user_make(const user_kind *kind, user_model *model, int given)
 {
   double size = kind->angles ? 1.0 : model->length;
   const double q[3] = {0.6 * size, -0.8 * size, 0.3 * size};
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_body_id body = user_add_coordinates(mechanism, kind->size, q, size);
   baum_user_constraint_def def = baum_user_constraint_def_default();
   def.name = kind->name;

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 
@@ -116,21 +117,15 @@ static void accelerations_and_multipliers_agree_with_a_dense_lu_solution(void **
 static void a_pin_carries_the_weight_and_the_centripetal_force_of_a_rod(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_planar_body_def def = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   baum_body_id rod;
-  baum_joint_id joint;
   baum_workspace *w = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   def.mass = 2.0;
   def.inertia = 0.5;
   def.position[1] = -0.7;
   assert_int_equal(baum_mechanism_add_planar_body(m, &def, &rod), BAUM_OK);
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = rod;
-  pin.point[0] = pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &joint), BAUM_OK);
+  baum_joint_id joint = add_planar_pin(m, NULL, BAUM_GROUND, rod, 0.0, 0.0);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
   const double q[3] = {0.0, -0.7, 0.0};
@@ -194,13 +189,12 @@ static void reactions_on_the_rod_balance_inertia_and_weight(void **state)
 static void joints_that_end_on_ground_give_the_reaction_on_ground(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_planar_body_def def = baum_planar_body_def_default();
   baum_planar_fixed_def weld = baum_planar_fixed_def_default();
   baum_body_id beam;
   baum_joint_id joint;
   baum_workspace *w = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   def.mass = 3.0;
   def.position[0] = 2.0;
   assert_int_equal(baum_mechanism_add_planar_body(m, &def, &beam), BAUM_OK);
@@ -270,14 +264,13 @@ static void a_negative_mass_is_left_to_the_solver_of_the_whole_system(void **sta
 {
   (void)state;
   static const double design = 2.0;
-  baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 1;
   def.q = &design;
   def.mass = mass_equal_to_q;
   def.force = force_of_six;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);

@@ -15,6 +15,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "message.h"
 #include "runs.h"
 #include "user_models.h"
@@ -59,8 +60,7 @@ static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options o
 /* Makes a mechanism without gravity: a particle of 1 kg at (1, 0) with the velocity v along x. */
 static baum_mechanism *make(double v, baum_body_id *id)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   particle.position[0] = 1.0;
@@ -176,8 +176,7 @@ static void a_varying_mass_is_in_the_account(void **state)
 {
   (void)state;
   static const double rate[1] = {1.0};
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_coordinates_def body = baum_coordinates_def_default();
   body.size = 1;
   body.v = rate;
@@ -193,18 +192,11 @@ static void drivers_do_work(void **state)
 {
   (void)state;
   baum_body_id wheel;
-  baum_joint_id pin;
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_planar_body_def body = baum_planar_body_def_default();
   body.inertia = 2.0;
   check(baum_mechanism_add_planar_body(m, &body, &wheel));
-  baum_planar_revolute_def joint = baum_planar_revolute_def_default();
-  joint.body_a = BAUM_GROUND;
-  joint.body_b = wheel;
-  joint.point[0] = 0.0;
-  joint.point[1] = 0.0;
-  check(baum_mechanism_add_planar_revolute(m, &joint, &pin));
+  baum_joint_id pin = add_planar_pin(m, NULL, BAUM_GROUND, wheel, 0.0, 0.0);
   baum_driver_def driver = baum_driver_def_default();
   driver.joint = pin;
   driver.acceleration = 3.0;

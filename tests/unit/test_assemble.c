@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "message.h"
 #include "models.h"
@@ -141,10 +142,9 @@ static void assembly_finds_the_nearest_configuration_in_the_mass_metric(void **s
   (void)state;
   /* A rod of length 1 m connects particles of 1 kg and 3 kg, which are 1.3 m apart in the design.
    * Assembly moves each particle in proportion to the mass of the other one. */
-  baum_mechanism *m = NULL;
   baum_body_id ids[2];
   baum_workspace *w = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   for (int k = 0; k < 2; k++) {
     baum_planar_particle_def def = baum_planar_particle_def_default();
     def.mass = k == 0 ? 1.0 : 3.0;
@@ -186,14 +186,13 @@ static void a_coordinate_without_mass_and_constraint_stays_or_is_refused(void **
   (void)state;
   static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR, BAUM_I_KKT_KLU};
   static const double design[2] = {2.9, 0.7};
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 2;
   def.q = design;
   def.mass = user_mass_of_first;
   def.force = user_no_force;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, &body), BAUM_OK);
   baum_user_constraint_def row = baum_user_constraint_def_default();
   row.bodies = &body;
@@ -279,11 +278,10 @@ static void projection_changes_velocities_least_in_the_mass_metric(void **state)
 static void contradicting_constraints_are_not_projected_and_the_state_stays(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_body_id body;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   rod.body_a = BAUM_GROUND;

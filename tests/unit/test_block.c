@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dynamics/block_path.h"
 #include "mechanism/planar/frames.h"
 #include "models.h"
@@ -458,29 +459,18 @@ static baum_body_id add_body(baum_mechanism *m, double x, double y)
   return id;
 }
 
-static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
-}
-
 /* Two pins between the same bodies have one redundant row. This row is omitted, and the other row
  * of the same pin then forms a node alone. Both rows of a third pin are redundant. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;
   for (int pins = 1; pins <= 4; pins++) {
-    baum_mechanism *m = NULL;
-    assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+    baum_mechanism *m = create_mechanism();
     baum_body_id a = add_body(m, 0.5, 0.2);
     baum_body_id b = add_body(m, 1.5, -0.3);
-    pin(m, BAUM_GROUND, a, 0.0, 0.0);
+    add_planar_pin(m, NULL, BAUM_GROUND, a, 0.0, 0.0);
     for (int k = 0; k < pins; k++) {
-      pin(m, k % 2 ? a : b, k % 2 ? b : a, k < 2 ? 1.0 : 1.2, k % 2 ? 0.4 : 0.0);
+      add_planar_pin(m, NULL, k % 2 ? a : b, k % 2 ? b : a, k < 2 ? 1.0 : 1.2, k % 2 ? 0.4 : 0.0);
     }
     assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
     compare(m, 1e-12);

@@ -9,25 +9,20 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
 #include "runs.h"
 
 /* Makes a body at rest whose pin is about 0.3 m from its centre. */
 static baum_mechanism *make_swing(double gravity)
 {
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_planar_body_def bar = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, -gravity, 0.0), BAUM_OK);
   bar.mass = 1.0;
   bar.inertia = 0.1;
   assert_int_equal(baum_mechanism_add_planar_body(m, &bar, &body), BAUM_OK);
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = body;
-  pin.point[0] = -0.3;
-  pin.point[1] = 0.03;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, body, -0.3, 0.03);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
 }

@@ -13,6 +13,7 @@
 
 #include <baum/planar.h>
 
+#include "construct.h"
 #include "user_check.h"
 
 /* A model in which one entry of one derivative has a relative error of 1e-4. */
@@ -300,7 +301,7 @@ static int mass_of(double t, const double *q, double *out, void *user)
 static baum_mechanism *make_body(double wrong[1], bool constant_mass, baum_force_fn *force_q,
                                  baum_force_fn *force_v)
 {
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "arm";
   def.size = 2;
@@ -354,7 +355,7 @@ static void a_negative_mass_in_the_design_configuration_is_refused(void **state)
   (void)state;
   double at_zero[] = {-2.0, 0.01};
   for (int i = 0; i < 2; i++) {
-    baum_mechanism *mechanism = user_make_empty();
+    baum_mechanism *mechanism = create_mechanism();
     baum_coordinates_def def = baum_coordinates_def_default();
     def.name = "arm";
     def.size = 1;
@@ -404,17 +405,15 @@ static int driver_law(double t, double s[3], void *user)
 
 static baum_mechanism *make_driven(int *which)
 {
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def arm = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.point[0] = pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &arm, &pin.body_b), BAUM_OK);
+  baum_body_id body;
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &arm, &body), BAUM_OK);
   baum_driver_def motor = baum_driver_def_default();
   motor.name = "motor";
   motor.law = driver_law;
   motor.user = which;
-  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &motor.joint), BAUM_OK);
+  motor.joint = add_planar_pin(mechanism, NULL, BAUM_GROUND, body, 0.0, 0.0);
   assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
   return mechanism;
 }
@@ -439,7 +438,7 @@ static void the_mechanism_must_be_given_and_frozen(void **state)
   (void)state;
   assert_int_equal(baum_mechanism_check_derivatives(NULL), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(), "baum_mechanism_check_derivatives: the mechanism is NULL");
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_check_derivatives(mechanism), BAUM_ERR_STATE);
   assert_string_equal(baum_message(),
                       "baum_mechanism_check_derivatives: the mechanism is not frozen; call "
@@ -450,7 +449,7 @@ static void the_mechanism_must_be_given_and_frozen(void **state)
 static void a_mechanism_without_user_functions_passes(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = user_make_empty();
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def def = baum_planar_body_def_default();
   assert_int_equal(baum_mechanism_add_planar_body(mechanism, &def, NULL), BAUM_OK);
   user_check_right(mechanism);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 
@@ -44,11 +45,10 @@ static double auto_alpha(const baum_mechanism *m, const baum_integrator *integra
  * the upward vertical. */
 static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
 {
-  baum_mechanism *m = NULL;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   baum_body_id body;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   bob.position[0] = sin(angle);
   bob.position[1] = cos(angle);
   assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
@@ -234,8 +234,7 @@ static void counters_report_the_effective_damping(void **state)
  * origin, but the rods that join them to the origin are 1 m long. There is no gravity. */
 static baum_mechanism *two_long_rods(void)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
   for (int k = 0; k < 2; k++) {
     baum_planar_particle_def bob = baum_planar_particle_def_default();

@@ -15,6 +15,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "dynamics/chord.h"
 #include "message.h"
 
@@ -24,7 +25,6 @@ static const baum_i_kkt_choice CHOICES[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAU
  * second at (2, 0). */
 static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
 {
-  baum_mechanism *m = NULL;
   baum_workspace *w = NULL;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
@@ -34,7 +34,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   rod.body_a = BAUM_GROUND;
   rod.length = 1.0;
   memset(rod.point_b, 0, sizeof rod.point_b);
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_planar_particle(m, &bob, &rod.body_b));
   for (int k = 0; k < rods; k++) {
     rod.point_a[0] = 2.0 * k;

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 
@@ -232,7 +233,6 @@ static void estimates_continue_after_a_restart_inside_a_step(void **state)
 static baum_mechanism *make_taut_rod(void)
 {
   const double mass = 0.0014776077955897843;
-  baum_mechanism *m = NULL;
   baum_body_id rod;
   baum_body_id bob;
   baum_planar_body_def body = baum_planar_body_def_default();
@@ -255,7 +255,7 @@ static baum_mechanism *make_taut_rod(void)
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   pin.point_a[0] = 0.5;
   pin.point_a[1] = pin.point_b[0] = pin.point_b[1] = 0.0;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_body(m, &body, &rod), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_particle(m, &particle, &bob), BAUM_OK);
@@ -308,16 +308,13 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
   (void)state;
   const baum_integrator *const methods[] = {baum_rk4(), baum_semi_implicit_euler(), baum_rattle(),
                                             baum_rk8()};
-  baum_mechanism *m = NULL;
   baum_planar_body_def crank = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_body_id body;
   baum_driver_def driver = baum_driver_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.point[0] = pin.point[1] = 0.0;
   driver.law = ramp;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_planar_body(m, &crank, &pin.body_b), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &driver.joint), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
+  assert_int_equal(baum_mechanism_add_planar_body(m, &crank, &body), BAUM_OK);
+  driver.joint = add_planar_pin(m, NULL, BAUM_GROUND, body, 0.0, 0.0);
   assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
@@ -341,12 +338,11 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
 static void stiff_runs_abandon_their_companion(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_spring_def spring = baum_planar_spring_def_default();
   bob.velocity[0] = 1.0;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
   spring.body_a = BAUM_GROUND;
   spring.body_b = body;

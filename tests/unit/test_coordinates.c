@@ -15,6 +15,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "point.h"
 #include "user_models.h"
@@ -105,19 +106,12 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_coordinates(mechanism, def, NULL);
 }
 
-static baum_mechanism *empty(void)
-{
-  baum_mechanism *mechanism = NULL;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
-  return mechanism;
-}
-
 /* Adds the body of the example after another body, so that the columns of the example do not start
  * at 0. */
 static void open_arm(test_point *p, const baum_coordinates_def *def)
 {
   const double elsewhere[3] = {1.0, 2.0, 3.0};
-  baum_mechanism *mechanism = empty();
+  baum_mechanism *mechanism = create_mechanism();
   (void)user_add_coordinates(mechanism, 3, elsewhere, 1.0);
   assert_int_equal(add(mechanism, def), BAUM_OK);
   test_point_open(p, mechanism);
@@ -329,7 +323,7 @@ static void a_bad_definition_is_refused_by_name(void **state)
 {
   (void)state;
   arm a = {0};
-  baum_mechanism *mechanism = empty();
+  baum_mechanism *mechanism = create_mechanism();
   baum_coordinates_def bad = good(&a);
   bad.mass = NULL;
   check_refused(mechanism, add, &bad, "body 1 \"arm\": mass() is NULL, must be given");
@@ -349,7 +343,7 @@ static void bad_numbers_are_refused_with_their_index(void **state)
 {
   (void)state;
   arm a = {0};
-  baum_mechanism *mechanism = empty();
+  baum_mechanism *mechanism = create_mechanism();
   const double q[2] = {0.0, (double)NAN};
   const double v[2] = {(double)INFINITY, 0.0};
   const double zero[2] = {1.0, 0.0};
@@ -396,7 +390,7 @@ static void a_definition_comes_back_as_it_was_given(void **state)
 {
   (void)state;
   arm a = {0};
-  baum_mechanism *mechanism = empty();
+  baum_mechanism *mechanism = create_mechanism();
   baum_coordinates_def first = good(&a);
   baum_coordinates_def second = good(NULL);
   baum_coordinates_def got;

@@ -13,6 +13,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "integrator_run.h"
 #include "models.h"
 #include "runs.h"
@@ -236,11 +237,10 @@ static void a_projection_without_solution_is_reported(void **state)
 {
   (void)state;
   need_sundials();
-  baum_mechanism *mechanism = NULL;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_user_constraint_def line = baum_user_constraint_def_default();
   baum_body_id id;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &id), BAUM_OK);
   line.bodies = &id;
   line.body_count = 1;
@@ -342,14 +342,13 @@ static int burst(double t, const double *q, const double *v, const double *input
 
 static baum_mechanism *make_bursting(void)
 {
-  baum_mechanism *mechanism = NULL;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_user_force_def force = baum_user_force_def_default();
   baum_body_id id;
   particle.position[0] = 10.0;
   particle.velocity[0] = 100.0;
   particle.velocity[1] = 0.0;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &id), BAUM_OK);
   force.bodies = &id;
   force.body_count = 1;

@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "manifold_scenes.h"
 #include "message.h"
 #include "runs.h"
@@ -25,19 +26,14 @@ typedef struct scene {
 
 static scene make_bar(void)
 {
-  scene s = {.mechanism = NULL};
-  check(baum_mechanism_create(&s.mechanism));
+  scene s = {.mechanism = create_mechanism()};
   baum_planar_body_def bar = baum_planar_body_def_default();
   bar.name = "bar";
   bar.mass = 1.0;
   bar.inertia = 0.1;
   bar.position[0] = 0.5;
   check(baum_mechanism_add_planar_body(s.mechanism, &bar, &s.bar));
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = s.bar;
-  pin.point[0] = pin.point[1] = 0.0;
-  check(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
+  (void)add_planar_pin(s.mechanism, NULL, BAUM_GROUND, s.bar, 0.0, 0.0);
   return s;
 }
 
@@ -217,7 +213,7 @@ static void a_damper_in_space_is_refused(void **state)
     scene s = {.mechanism = NULL};
     baum_spatial_body_def body = baum_spatial_body_def_default();
     baum_spatial_spring_def spring = baum_spatial_spring_def_default();
-    check(baum_mechanism_create(&s.mechanism));
+    s.mechanism = create_mechanism();
     body.inertia[0] = 2.0;
     body.angular_velocity[1] = 1.0;
     check(baum_mechanism_add_spatial_body(s.mechanism, &body, &spring.body_b));
@@ -243,8 +239,7 @@ static void a_damper_in_space_is_refused(void **state)
 static void gyroscopic_moments_of_the_user_are_refused(void **state)
 {
   (void)state;
-  scene s = {.mechanism = NULL};
-  check(baum_mechanism_create(&s.mechanism));
+  scene s = {.mechanism = create_mechanism()};
   manifold_scene_find("free top")->build(s.mechanism);
   expect_refusal(&s, "body 1|depends on velocities, or does not set depends_on_velocity = false");
 }

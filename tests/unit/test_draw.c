@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "draw/drawing.h"
 #include "drawn_crank.h"
 #include "every_element.h"
@@ -142,12 +143,11 @@ static void outlines_of_bodies_follow_from_their_joints(void **state)
 static void links_of_a_long_chain_are_longer_than_wide(void **state)
 {
   (void)state;
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id before = BAUM_GROUND;
   for (int k = 0; k < 50; k++) {
     baum_body_id body = drawn_body(m, NULL, k + 0.5, 0.0);
-    drawn_pin(m, NULL, before, body, k, 0.0);
+    add_planar_pin(m, NULL, before, body, k, 0.0);
     before = body;
   }
   baum_i_drawing drawing;
@@ -162,11 +162,10 @@ static void inner_points_are_not_part_of_an_outline(void **state)
   (void)state;
   static const double points[][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0},
                                      {0.5, 0.5}, {0.5, 0.0}, {0.3, 0.6}};
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id plate = drawn_body(m, "plate", 0.5, 0.4);
   for (size_t k = 0; k < sizeof points / sizeof *points; k++) {
-    drawn_pin(m, NULL, BAUM_GROUND, plate, points[k][0], points[k][1]);
+    add_planar_pin(m, NULL, BAUM_GROUND, plate, points[k][0], points[k][1]);
   }
   baum_i_drawing drawing;
   draw_design(m, &drawing);
@@ -186,8 +185,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
   enum { Y = 1 };
   const double radius = 0.5, half = 1.0, mass = 2.0;
   const double across = mass * (radius * radius / 4 + half * half / 3);
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_spatial_body_def def = baum_spatial_body_def_default();
   def.name = "roller";
   def.mass = mass;
@@ -243,8 +241,7 @@ static void find_ground(const baum_mechanism *m, double middle[2])
 static void find_ground_of_bar(double x, double y, bool weld, const double gravity[2],
                                double middle[2])
 {
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_set_gravity(m, gravity[0], gravity[1], 0.0));
   baum_body_id bar = drawn_body(m, "bar", x, y);
   if (weld) {
@@ -254,7 +251,7 @@ static void find_ground_of_bar(double x, double y, bool weld, const double gravi
     def.point[0] = def.point[1] = 0.0;
     check(baum_mechanism_add_planar_fixed(m, &def, NULL));
   } else {
-    drawn_pin(m, "pin", BAUM_GROUND, bar, 0.0, 0.0);
+    add_planar_pin(m, "pin", BAUM_GROUND, bar, 0.0, 0.0);
   }
   find_ground(m, middle);
   baum_mechanism_destroy(m);

@@ -12,6 +12,7 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
 #include "message.h"
 
 /* A mechanism and its workspace. The mechanism has a rigid body "big", which the rod "rod" connects
@@ -34,7 +35,7 @@ static scene open_scene(double mass, double length)
   big.name = "big";
   big.mass = mass;
   big.position[0] = length;
-  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  s.mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &wheel, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &big, &rod.body_b), BAUM_OK);
   rod.name = "rod";
@@ -89,18 +90,14 @@ static void gamma_that_overflows_is_refused(void **state)
 static void rows_whose_size_overflows_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_mobility mobility;
   baum_planar_body_def body = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_body_id pinned;
   body.inertia = 1e-300;
   body.position[0] = 1e200;
-  pin.body_a = BAUM_GROUND;
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pin.body_b), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pinned), BAUM_OK);
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, pinned, 0.0, 0.0);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   ASSERT_SAYS(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_ERR_NOT_FINITE,
               "numbers in the equations of motion are too large for double precision");

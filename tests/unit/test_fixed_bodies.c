@@ -15,6 +15,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "dynamics/block_path.h"
 #include "runs.h"
 #include "simulate/run.h"
@@ -25,13 +26,6 @@ enum { MOST = 300 };
 
 /* ---- parts ---- */
 
-static baum_mechanism *create_mechanism(void)
-{
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
-  return m;
-}
-
 static baum_body_id add_body(baum_mechanism *m, double x, double y)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
@@ -40,30 +34,6 @@ static baum_body_id add_body(baum_mechanism *m, double x, double y)
   def.position[1] = y;
   def.inertia = 0.1;
   check(baum_mechanism_add_planar_body(m, &def, &id));
-  return id;
-}
-
-static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  baum_joint_id id;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  check(baum_mechanism_add_planar_revolute(m, &def, &id));
-  return id;
-}
-
-static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
-{
-  baum_planar_fixed_def def = baum_planar_fixed_def_default();
-  baum_joint_id id;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = 0.3;
-  def.point[1] = -0.2;
-  check(baum_mechanism_add_planar_fixed(m, &def, &id));
   return id;
 }
 
@@ -85,10 +55,10 @@ static mounted make_mounted(void)
   baum_body_id high = add_body(m, 0.0, 0.0);
   baum_body_id arm = add_body(m, 0.5, 0.0);
   baum_body_id hand = add_body(m, 1.0, -0.5);
-  out.foot = weld(m, BAUM_GROUND, low);
-  (void)weld(m, low, high);
-  out.shoulder = pin(m, high, arm, 0.0, 0.0);
-  (void)pin(m, arm, hand, 1.0, 0.0);
+  out.foot = add_planar_weld(m, BAUM_GROUND, low, 0.3, -0.2);
+  (void)add_planar_weld(m, low, high, 0.3, -0.2);
+  out.shoulder = add_planar_pin(m, NULL, high, arm, 0.0, 0.0);
+  (void)add_planar_pin(m, NULL, arm, hand, 1.0, 0.0);
   check(baum_mechanism_freeze(m));
   return out;
 }
@@ -162,10 +132,10 @@ static void rigid_islands_are_not_omitted(void **state)
   baum_body_id left = add_body(m, 0.5, 0.5);
   baum_body_id right = add_body(m, 1.5, 0.5);
   baum_body_id bob = add_body(m, 5.0, 0.0);
-  pin(m, BAUM_GROUND, left, 0.0, 0.0);
-  pin(m, BAUM_GROUND, right, 2.0, 0.0);
-  pin(m, left, right, 1.0, 1.0);
-  pin(m, BAUM_GROUND, bob, 4.0, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, left, 0.0, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, right, 2.0, 0.0);
+  add_planar_pin(m, NULL, left, right, 1.0, 1.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, bob, 4.0, 0.0);
   check(baum_mechanism_freeze(m));
   assert_same_motion(m, 0);
   baum_mechanism_destroy(m);
@@ -184,7 +154,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
     }
     for (int k = 1; k <= CHAIN; k++) {
       int at = 1 + k * step % CHAIN;
-      (void)weld(m, bodies[k % 2 ? at : at - 1], bodies[k % 2 ? at - 1 : at]);
+      (void)add_planar_weld(m, bodies[k % 2 ? at : at - 1], bodies[k % 2 ? at - 1 : at], 0.3, -0.2);
     }
     check(baum_mechanism_freeze(m));
     assert_int_equal(m->fixed_count, CHAIN);
@@ -203,11 +173,11 @@ static void a_fixed_body_may_have_any_number_of_joints(void **state)
   enum { ARMS = 60 };
   baum_mechanism *m = create_mechanism();
   baum_body_id hub = add_body(m, 0.0, 0.0);
-  weld(m, BAUM_GROUND, hub);
+  add_planar_weld(m, BAUM_GROUND, hub, 0.3, -0.2);
   for (int k = 0; k < ARMS; k++) {
     double c = cos(2.0 * PI * k / ARMS);
     double s = sin(2.0 * PI * k / ARMS);
-    pin(m, hub, add_body(m, 1.5 * c, 1.5 * s), c, s);
+    add_planar_pin(m, NULL, hub, add_body(m, 1.5 * c, 1.5 * s), c, s);
   }
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
@@ -223,7 +193,7 @@ static void a_mechanism_of_fixed_bodies_only_can_be_run(void **state)
 {
   (void)state;
   baum_mechanism *m = create_mechanism();
-  weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0));
+  add_planar_weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0), 0.3, -0.2);
   check(baum_mechanism_freeze(m));
   assert_same_motion(m, 1);
   baum_mechanism_destroy(m);
@@ -236,7 +206,7 @@ static void a_body_held_by_a_driver_is_not_fixed(void **state)
   (void)state;
   baum_mechanism *m = create_mechanism();
   baum_driver_def def = baum_driver_def_default();
-  def.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
+  def.joint = add_planar_pin(m, NULL, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   def.value = 0.0;
   check(baum_mechanism_add_driver(m, &def, NULL));
   check(baum_mechanism_freeze(m));
@@ -255,10 +225,10 @@ static void rows_that_fix_a_body_are_kept(void **state)
   baum_body_id frame = add_body(m, 2.0, -1.0);
   for (int k = 0; k < 3; k++) {
     baum_body_id crank = add_body(m, k, 0.5);
-    pin(m, k == 2 ? frame : BAUM_GROUND, crank, k, 0.0);
-    pin(m, crank, coupler, k, 1.0);
+    add_planar_pin(m, NULL, k == 2 ? frame : BAUM_GROUND, crank, k, 0.0);
+    add_planar_pin(m, NULL, crank, coupler, k, 1.0);
   }
-  baum_joint_id foot = weld(m, BAUM_GROUND, frame);
+  baum_joint_id foot = add_planar_weld(m, BAUM_GROUND, frame, 0.3, -0.2);
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.formulation = BAUM_FORMULATION_PROJECTION;

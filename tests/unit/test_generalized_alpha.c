@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "construct.h"
 #include "integrate/generalized_alpha.h"
 #include "integrator_run.h"
 #include "message.h"
@@ -361,11 +362,9 @@ static int follow(double t, const double *q, double *out, void *user)
 
 static baum_mechanism *link_with_gauge(double *k)
 {
-  baum_mechanism *m = NULL;
   baum_body_id ids[2];
   const double scale = 1e-5;
   baum_planar_body_def link = baum_planar_body_def_default();
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   baum_coordinates_def gauge = baum_coordinates_def_default();
   baum_user_constraint_def tie = baum_user_constraint_def_default();
   link.inertia = 1.0 / 12.0;
@@ -377,14 +376,10 @@ static baum_mechanism *link_with_gauge(double *k)
   gauge.constant_mass = true;
   gauge.force = spring;
   gauge.user = k;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_planar_body(m, &link, &ids[0]));
   check(baum_mechanism_add_coordinates(m, &gauge, &ids[1]));
-  pin.body_a = BAUM_GROUND;
-  pin.body_b = ids[0];
-  pin.point[0] = 0.0;
-  pin.point[1] = 0.0;
-  check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  (void)add_planar_pin(m, NULL, BAUM_GROUND, ids[0], 0.0, 0.0);
   tie.bodies = ids;
   tie.body_count = 2;
   tie.row_count = 1;

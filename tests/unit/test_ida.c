@@ -12,6 +12,7 @@
 #if BAUM_HAVE_SUNDIALS
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dense_ida.h"
 #include "integrate/sundials_driver.h"
 #include "integrator_run.h"
@@ -259,7 +260,6 @@ static const double SLEDGE_SPEED[2] = {0.6, 0.8}; /* [m/s] */
 
 static baum_mechanism *make_sledge(void)
 {
-  baum_mechanism *mechanism = NULL;
   baum_body_id id;
   baum_planar_body_def body = baum_planar_body_def_default();
   baum_planar_translational_def rail = baum_planar_translational_def_default();
@@ -267,7 +267,7 @@ static baum_mechanism *make_sledge(void)
   body.inertia = 0.1;
   body.position[0] = body.position[1] = body.angle = body.angular_velocity = 0.0;
   memcpy(body.velocity, SLEDGE_SPEED, sizeof body.velocity);
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, &id), BAUM_OK);
   rail.body_a = BAUM_GROUND;
@@ -312,14 +312,13 @@ static void multipliers_may_vanish(void **state)
  * therefore be the same. */
 static int64_t steps_with_mass(baum_formulation formulation, double mass)
 {
-  baum_mechanism *mechanism = NULL;
   baum_body_id id;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   particle.mass = mass;
   particle.position[0] = 1.0;
   particle.velocity[0] = particle.velocity[1] = 0.0;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &id), BAUM_OK);
   rod.body_a = BAUM_GROUND;
   rod.body_b = id;

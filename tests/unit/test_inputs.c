@@ -12,6 +12,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -76,8 +77,7 @@ typedef struct scene {
 
 static scene empty_scene(bool with_inputs)
 {
-  scene s = {.mechanism = NULL};
-  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  scene s = {.mechanism = create_mechanism()};
   assert_int_equal(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   if (with_inputs) {
     assert_int_equal(baum_mechanism_add_input(s.mechanism, "push", 0.5, &s.push), BAUM_OK);

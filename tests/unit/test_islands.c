@@ -7,16 +7,10 @@
 #include <baum/baum.h>
 #include <cmocka.h>
 
+#include "construct.h"
 #include "dynamics/islands.h"
 
 /* ---- mechanisms ---- */
-
-static baum_mechanism *create_mechanism(void)
-{
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
-  return m;
-}
 
 static baum_body_id add_body(baum_mechanism *m, double x, double y)
 {
@@ -26,28 +20,6 @@ static baum_body_id add_body(baum_mechanism *m, double x, double y)
   def.position[1] = y;
   assert_int_equal(baum_mechanism_add_planar_body(m, &def, &id), BAUM_OK);
   return id;
-}
-
-static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  baum_joint_id id;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, &id), BAUM_OK);
-  return id;
-}
-
-static void weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
-{
-  baum_planar_fixed_def def = baum_planar_fixed_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = 0.3;
-  def.point[1] = -0.2;
-  assert_int_equal(baum_mechanism_add_planar_fixed(m, &def, NULL), BAUM_OK);
 }
 
 static void drive(baum_mechanism *m, baum_joint_id joint)
@@ -85,9 +57,9 @@ static void ground_does_not_connect_islands(void **state)
   (void)add_body(m, 5.0, 5.0); /* a body without joints */
   baum_body_id b = add_body(m, 1.0, 3.0);
   baum_body_id tip = add_body(m, 3.0, 0.5);
-  pin(m, BAUM_GROUND, b, 0.0, 3.0);
-  baum_joint_id motor = pin(m, BAUM_GROUND, a, 0.0, 0.0);
-  pin(m, tip, a, 2.0, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, b, 0.0, 3.0);
+  baum_joint_id motor = add_planar_pin(m, NULL, BAUM_GROUND, a, 0.0, 0.0);
+  add_planar_pin(m, NULL, tip, a, 2.0, 0.0);
   drive(m, motor);
   assert_island(count(m, 3), 2, 3, 5);
 }
@@ -105,7 +77,7 @@ static void joints_in_any_order_form_one_island(void **state)
     }
     for (int k = 1; k < BODIES; k++) {
       int at = k * step % BODIES;
-      pin(m, bodies[at], bodies[at - 1], at - 0.5, 0.5);
+      add_planar_pin(m, NULL, bodies[at], bodies[at - 1], at - 0.5, 0.5);
     }
     assert_island(count(m, 1), BODIES, BODIES - 1, 2 * (BODIES - 1));
   }
@@ -120,12 +92,12 @@ static void a_welded_frame_does_not_connect_islands(void **state)
   baum_body_id right = add_body(m, 2.0, -1.0);
   baum_body_id plate = add_body(m, 1.0, 0.0);
   baum_body_id hand = add_body(m, 2.0, -2.0); /* this body is welded to a body that moves */
-  pin(m, frame, left, 0.0, 0.0);
-  weld(m, plate, frame);
-  weld(m, frame, BAUM_GROUND);
-  weld(m, frame, BAUM_GROUND); /* a second weld changes nothing */
-  pin(m, plate, right, 2.0, 0.0);
-  weld(m, right, hand);
+  add_planar_pin(m, NULL, frame, left, 0.0, 0.0);
+  add_planar_weld(m, plate, frame, 0.3, -0.2);
+  add_planar_weld(m, frame, BAUM_GROUND, 0.3, -0.2);
+  add_planar_weld(m, frame, BAUM_GROUND, 0.3, -0.2); /* a second weld changes nothing */
+  add_planar_pin(m, NULL, plate, right, 2.0, 0.0);
+  add_planar_weld(m, right, hand, 0.3, -0.2);
   assert_island(count(m, 2), 2, 2, 5);
 }
 
@@ -133,7 +105,7 @@ static void fixed_bodies_form_no_island(void **state)
 {
   (void)state;
   baum_mechanism *m = create_mechanism();
-  weld(m, add_body(m, 1.0, 0.0), BAUM_GROUND);
+  add_planar_weld(m, add_body(m, 1.0, 0.0), BAUM_GROUND, 0.3, -0.2);
   assert_island(count(m, 0), 0, 0, 0);
 }
 
@@ -153,9 +125,9 @@ static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
   baum_body_id rod = add_body(m, 2.0, 0.0);
   baum_body_id slider = add_body(m, 3.0, 0.0);
   baum_body_id lever = add_body(m, 10.0, 5.0);
-  pin(m, BAUM_GROUND, crank, 0.0, 0.0);
-  pin(m, crank, rod, 1.0, 0.0);
-  pin(m, rod, slider, 3.0, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, crank, 0.0, 0.0);
+  add_planar_pin(m, NULL, crank, rod, 1.0, 0.0);
+  add_planar_pin(m, NULL, rod, slider, 3.0, 0.0);
   line.body_a = BAUM_GROUND;
   line.body_b = slider;
   line.axis[0] = 1.0;
@@ -166,7 +138,7 @@ static baum_workspace *make_driven(double acceleration, baum_mechanism *m)
   driver.joint = guide;
   driver.acceleration = acceleration;
   assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
-  pin(m, BAUM_GROUND, lever, 9.0, 5.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, lever, 9.0, 5.0);
   load.body = lever;
   load.force[1] = 1e9;
   assert_int_equal(baum_mechanism_add_planar_load(m, &load, NULL), BAUM_OK);
@@ -203,7 +175,7 @@ static void a_fast_body_does_not_hide_a_contradiction_of_two_drivers(void **stat
   baum_workspace *w = NULL;
   baum_mechanism *m = create_mechanism();
   baum_driver_def driver = baum_driver_def_default();
-  driver.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
+  driver.joint = add_planar_pin(m, NULL, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   for (int k = 0; k < 2; k++) {
     driver.rate = 1.0 + 1e-3 * k;
     assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "driven.h"
 #include "integrator_run.h"
 #include "message.h"
@@ -155,11 +156,10 @@ static int diverging_rows(double t, const double *q, double *out, void *user)
 static void omitted_rows_that_are_violated_stop_the_run(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   baum_body_id point;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_user_constraint_def rows = baum_user_constraint_def_default();
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 1.0), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &point), BAUM_OK);
   rows.name = "rows";

@@ -15,6 +15,7 @@
 #include "assert_near.h"
 #include "base/golden.h"
 #include "check.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "every_element.h"
 #include "manifold_bodies.h"
@@ -349,9 +350,8 @@ static void jacobians_of_residuals_agree_with_differences(void **state)
 static void set_angle_definition(baum_coordinates_def *def)
 {
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
-  baum_mechanism *m = NULL;
   baum_body_id id;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   id = manifold_add_angle(m, &body, 0.2, NULL);
   check(baum_mechanism_get_coordinates(m, id, def, sizeof *def));
   static const double q[2] = {0.6, 0.8};
@@ -363,8 +363,7 @@ static void set_angle_definition(baum_coordinates_def *def)
 
 static void expect_refused(const baum_coordinates_def *def, const char *message)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   assert_int_equal(baum_mechanism_add_coordinates(m, def, NULL), BAUM_ERR_ARGUMENT);
   assert_non_null(strstr(baum_message(), message));
   baum_mechanism_destroy(m);
@@ -412,10 +411,9 @@ static void a_new_definition_cannot_change_the_manifold(void **state)
 {
   (void)state;
   baum_coordinates_def def;
-  baum_mechanism *m = NULL;
   baum_body_id id;
   set_angle_definition(&def);
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_coordinates(m, &def, &id));
   check(baum_mechanism_set_coordinates(m, id, &def));
   const double long_q[3] = {0.6, 0.8, 0.0};
@@ -464,8 +462,7 @@ static void wrong_normalize(double *q, void *user)
 
 static void expect_found(const baum_coordinates_def *def, const char *message)
 {
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   check(baum_mechanism_add_coordinates(m, def, NULL));
   check(baum_mechanism_freeze(m));
   assert_int_equal(baum_mechanism_check_derivatives(m), BAUM_ERR_ARGUMENT);
@@ -497,8 +494,7 @@ static void states_off_the_manifold_are_refused(void **state)
 {
   (void)state;
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};
-  baum_mechanism *m = NULL;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   (void)manifold_add_angle(m, &body, 0.2, NULL);
   check(baum_mechanism_freeze(m));
   baum_simulation_options options = baum_simulation_options_default();

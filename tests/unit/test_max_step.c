@@ -12,6 +12,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "runs.h"
 
 /* A force of 5 N along x, which acts from 5.0 s to 5.2 s. */
@@ -26,12 +27,11 @@ static int push(double t, const double *q, const double *v, const double *inputs
 /* Makes a particle of 1 kg that hangs at rest on a rod of 1 m. */
 static baum_mechanism *hanging_pendulum(void)
 {
-  baum_mechanism *m = NULL;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   baum_user_force_def force = baum_user_force_def_default();
   baum_body_id body;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   bob.position[1] = -1.0;
   assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
   rod.body_a = BAUM_GROUND;

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dynamics/block_path.h"
 #include "models.h"
 #include "random_mechanism.h"
@@ -162,10 +163,9 @@ static void the_solvers_of_the_whole_system_give_the_normal_part(void **state)
 static void without_rows_the_normal_part_is_zero(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = NULL;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   particle.mass = 1.0;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_workspace *w = NULL;

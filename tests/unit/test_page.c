@@ -13,6 +13,7 @@
 #include "assert_near.h"
 #include "base/rotation.h"
 #include "check.h"
+#include "construct.h"
 #include "drawn_crank.h"
 #include "message.h"
 
@@ -53,8 +54,7 @@ static void a_mechanism_that_cannot_be_assembled_is_drawn_where_assembly_stopped
 {
   (void)state;
   static char text[BYTES];
-  baum_mechanism *m;
-  check(baum_mechanism_create(&m));
+  baum_mechanism *m = create_mechanism();
   baum_body_id crank = drawn_body(m, "crank", 0.5, 0.0);
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   pin.name = "O";

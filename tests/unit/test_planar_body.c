@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
@@ -31,8 +32,7 @@ static baum_planar_body_def good(void)
 static void mass_gravity_and_potential_are_those_of_a_rigid_body(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   assert_int_equal(baum_mechanism_set_gravity(mechanism, 1.5, -9.0, 4.0), BAUM_OK);
   baum_planar_body_def def = good();
   assert_int_equal(add(mechanism, &def), BAUM_OK);
@@ -57,8 +57,7 @@ static void mass_gravity_and_potential_are_those_of_a_rigid_body(void **state)
 static void a_second_body_has_its_own_parameters(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def def = good();
   assert_int_equal(add(mechanism, &def), BAUM_OK);
   def.mass = 5.0;
@@ -84,8 +83,7 @@ static void a_second_body_has_its_own_parameters(void **state)
 static void the_definition_sets_the_design_state(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def def = good();
   assert_int_equal(add(mechanism, &def), BAUM_OK);
   def.velocity[1] = 4.0;
@@ -116,9 +114,8 @@ static void the_definition_sets_the_design_state(void **state)
 static void rounding_does_not_set_the_characteristic_length(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
   double length = 0.0;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def def = good();
   baum_body_id body;
   assert_int_equal(baum_mechanism_add_planar_body(mechanism, &def, &body), BAUM_OK);
@@ -140,8 +137,7 @@ static void rounding_does_not_set_the_characteristic_length(void **state)
 static void wrong_numbers_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_body_def def = good();
   const bad_number numbers[] = {
     {offsetof(baum_planar_body_def, mass), -2.0,

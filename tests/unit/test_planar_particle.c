@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
@@ -29,8 +30,7 @@ static baum_planar_particle_def good(void)
 static void mass_gravity_and_potential_are_those_of_a_point(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def def = good();
   assert_int_equal(add(mechanism, &def), BAUM_OK);
   test_point p;
@@ -53,8 +53,7 @@ static void mass_gravity_and_potential_are_those_of_a_point(void **state)
 static void a_second_particle_has_its_own_parameters(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def def = good();
   assert_int_equal(add(mechanism, &def), BAUM_OK);
   def.mass = 5.0;
@@ -79,8 +78,7 @@ static void a_second_particle_has_its_own_parameters(void **state)
 static void the_definition_sets_the_design_state(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def def = good();
   def.velocity[0] = 4.0;
   def.held = true;
@@ -102,8 +100,7 @@ static void the_definition_sets_the_design_state(void **state)
 static void wrong_numbers_are_refused(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_planar_particle_def def = good();
   const bad_number numbers[] = {
     {offsetof(baum_planar_particle_def, mass), 0.0,

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "message.h"
 #include "models.h"
@@ -31,29 +32,14 @@ static baum_body_id add_link(baum_mechanism *m, const char *name, double x, doub
   return id;
 }
 
-static baum_joint_id add_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b,
-                             double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  baum_joint_id id;
-  def.name = name;
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, &id), BAUM_OK);
-  return id;
-}
-
 /* Makes a physical pendulum with one, two or three equal pins. */
 static baum_mechanism *pendulum_with_pins(int pins)
 {
   static const char *const names[3] = {"pin", "pin again", "pin once more"};
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_body_id link = add_link(m, "link", 0.5, 0.2, 0.3);
   for (int k = 0; k < pins; k++) {
-    (void)add_pin(m, names[k], BAUM_GROUND, link, 0.0, 0.0);
+    (void)add_planar_pin(m, names[k], BAUM_GROUND, link, 0.0, 0.0);
   }
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
@@ -66,15 +52,14 @@ static baum_mechanism *parallelogram(int cranks, double angle)
   static const char *const names[3] = {"first", "second", "third"};
   static const char *const feet[3] = {"foot 1", "foot 2", "foot 3"};
   static const char *const heads[3] = {"head 1", "head 2", "head 3"};
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   double c = cos(angle);
   double s = sin(angle);
   baum_body_id coupler = add_link(m, "coupler", 1.0 + c, s, 0.0);
   for (int k = 0; k < cranks; k++) {
     baum_body_id crank = add_link(m, names[k], k + 0.5 * c, 0.5 * s, angle);
-    (void)add_pin(m, feet[k], BAUM_GROUND, crank, k, 0.0);
-    (void)add_pin(m, heads[k], crank, coupler, k + c, s);
+    (void)add_planar_pin(m, feet[k], BAUM_GROUND, crank, k, 0.0);
+    (void)add_planar_pin(m, heads[k], crank, coupler, k + c, s);
   }
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
@@ -159,13 +144,12 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
  * link to the previous link. */
 static baum_mechanism *chain_with_pins(int links, int pins)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_body_id before = BAUM_GROUND;
   for (int k = 0; k < links; k++) {
     baum_body_id link = add_link(m, NULL, k + 0.5, 0.0, 0.0);
     for (int i = 0; i < pins; i++) {
-      (void)add_pin(m, NULL, before, link, k, 0.0);
+      (void)add_planar_pin(m, NULL, before, link, k, 0.0);
     }
     before = link;
   }
@@ -266,16 +250,15 @@ static void the_rank_does_not_depend_on_the_unit_of_length(void **state)
   (void)state;
   for (int k = -6; k <= 6; k += 3) {
     double unit = pow(10.0, k);
-    baum_mechanism *m = NULL;
-    assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+    baum_mechanism *m = create_mechanism();
     baum_planar_body_def def = baum_planar_body_def_default();
     def.mass = 3.0;
     def.inertia = 0.2 * unit * unit;
     def.position[0] = 0.4 * unit;
     baum_body_id link;
     assert_int_equal(baum_mechanism_add_planar_body(m, &def, &link), BAUM_OK);
-    (void)add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
-    (void)add_pin(m, "double", BAUM_GROUND, link, 0.0, 0.0);
+    (void)add_planar_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+    (void)add_planar_pin(m, "double", BAUM_GROUND, link, 0.0, 0.0);
     assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
     baum_mobility mobility;
     assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
@@ -288,11 +271,10 @@ static void the_rank_does_not_depend_on_the_unit_of_length(void **state)
 static void a_body_without_a_joint_is_named(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_body_id link = add_link(m, "link", 1.0, 0.0, 0.0);
   (void)add_link(m, "stray", 2.0, 2.0, 0.0);
-  (void)add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+  (void)add_planar_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   baum_mobility mobility;
   assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
@@ -306,8 +288,7 @@ static void a_body_without_a_joint_is_named(void **state)
 
 static baum_mechanism *contradicting_rods(void)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_body_id body;
   bob.name = "bob";
@@ -388,11 +369,10 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
  * t^2 / 2. */
 static baum_mechanism *driven_twice(double acceleration)
 {
-  baum_mechanism *m = NULL;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   baum_body_id link = add_link(m, "link", 1.0, 0.0, 0.0);
   baum_driver_def def = baum_driver_def_default();
-  def.joint = add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+  def.joint = add_planar_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
   def.rate = 2.0;
   def.name = "one motor";
   assert_int_equal(baum_mechanism_add_driver(m, &def, NULL), BAUM_OK);

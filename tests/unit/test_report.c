@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "models.h"
 #include "user_models.h"
 
@@ -51,13 +52,6 @@ static void assert_says(const baum_report *report, const char *part)
 
 /* ---- parts ---- */
 
-static baum_mechanism *create_mechanism(void)
-{
-  baum_mechanism *m = NULL;
-  must(baum_mechanism_create(&m));
-  return m;
-}
-
 static baum_body_id add_body(baum_mechanism *m, const char *name, double x, double y)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
@@ -69,32 +63,12 @@ static baum_body_id add_body(baum_mechanism *m, const char *name, double x, doub
   return id;
 }
 
-static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
-{
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = x;
-  def.point[1] = y;
-  must(baum_mechanism_add_planar_revolute(m, &def, NULL));
-}
-
-static void weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
-{
-  baum_planar_fixed_def def = baum_planar_fixed_def_default();
-  def.body_a = a;
-  def.body_b = b;
-  def.point[0] = 0.0;
-  def.point[1] = 0.0;
-  must(baum_mechanism_add_planar_fixed(m, &def, NULL));
-}
-
 static void pin_around(baum_mechanism *m, baum_body_id hub, int arms)
 {
   for (int k = 0; k < arms; k++) {
     double c = cos(2.0 * PI * k / arms);
     double s = sin(2.0 * PI * k / arms);
-    pin(m, hub, add_body(m, NULL, 1.5 * c, 1.5 * s), c, s);
+    add_planar_pin(m, NULL, hub, add_body(m, NULL, 1.5 * c, 1.5 * s), c, s);
   }
 }
 
@@ -152,7 +126,7 @@ static void fill_is_the_number_of_couplings_that_elimination_adds(void **state)
   }
   for (int k = 0; k < RING; k++) {
     double angle = 2.0 * PI * (k + 0.5) / RING;
-    pin(m, bodies[k], bodies[(k + 1) % RING], cos(angle), sin(angle));
+    add_planar_pin(m, NULL, bodies[k], bodies[(k + 1) % RING], cos(angle), sin(angle));
   }
   baum_report r = report_once(m);
   assert_int_equal(r.nodes, RING);
@@ -170,9 +144,9 @@ static void islands_are_counted(void **state)
   baum_body_id a = add_body(m, NULL, 1.0, 0.0);
   baum_body_id b = add_body(m, NULL, 2.0, 0.0);
   (void)add_body(m, NULL, 5.0, 5.0);
-  pin(m, BAUM_GROUND, a, 0.0, 0.0);
-  pin(m, a, b, 1.5, 0.0);
-  pin(m, BAUM_GROUND, add_body(m, NULL, 1.0, 3.0), 0.0, 3.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, a, 0.0, 0.0);
+  add_planar_pin(m, NULL, a, b, 1.5, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, add_body(m, NULL, 1.0, 3.0), 0.0, 3.0);
   baum_report r = report_once(m);
   assert_int_equal(r.islands, 3);
   assert_int_equal(r.couplings, 1);
@@ -186,8 +160,8 @@ static void fixed_bodies_are_reported(void **state)
   baum_mechanism *m = create_mechanism();
   baum_body_id low = add_body(m, "low", 0.0, -1.0);
   baum_body_id high = add_body(m, "high", 0.0, 0.0);
-  weld(m, BAUM_GROUND, low);
-  weld(m, low, high);
+  add_planar_weld(m, BAUM_GROUND, low, 0.0, 0.0);
+  add_planar_weld(m, low, high, 0.0, 0.0);
   pin_around(m, high, 60);
   baum_report r = report_once(m);
   assert_int_equal(r.fixed_bodies, 2);
@@ -219,7 +193,7 @@ static void a_hub_is_named(void **state)
   (void)state;
   baum_mechanism *m = create_mechanism();
   baum_body_id hub = add_body(m, "hub", 0.0, 0.0);
-  pin(m, BAUM_GROUND, hub, 0.0, 0.0);
+  add_planar_pin(m, NULL, BAUM_GROUND, hub, 0.0, 0.0);
   pin_around(m, hub, 60);
   baum_report r = report_once(m);
   assert_false(r.blocks);

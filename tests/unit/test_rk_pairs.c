@@ -13,6 +13,7 @@
 #include <baum/planar.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "integrator_run.h"
 #include "one_coordinate.h"
 
@@ -286,12 +287,11 @@ static int answer_hiccup(double t, const double *q, const double *v, const doubl
 
 static baum_mechanism *make_hiccup(hiccup *h)
 {
-  baum_mechanism *mechanism = NULL;
   baum_planar_particle_def bob = baum_planar_particle_def_default();
   baum_planar_distance_def rod = baum_planar_distance_def_default();
   baum_user_force_def force = baum_user_force_def_default();
   baum_body_id id;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   bob.position[0] = 1.0;
   bob.velocity[0] = bob.velocity[1] = 0.0;
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bob, &id), BAUM_OK);

@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
 
@@ -122,8 +123,7 @@ static void add_drivers(scene *s, faults *f)
 
 static scene make_scene(faults *f)
 {
-  scene s = {.mechanism = NULL};
-  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  scene s = {.mechanism = create_mechanism()};
   s.crank = add_body(&s, 0.0, 0.0, 0.0);
   s.rod = add_body(&s, 0.1, -0.2, -acos(0.0));
   s.cart = add_body(&s, 0.0, 1.0, 0.0);

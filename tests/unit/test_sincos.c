@@ -17,6 +17,7 @@
 
 #include "base/hot.h"
 #include "base/sincos.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "mechanism/planar/frames.h"
 #include "saddle.h" /* for random numbers */
@@ -167,7 +168,7 @@ typedef struct frames {
 static frames make_frames(bool plain)
 {
   frames f = {0};
-  assert_int_equal(baum_mechanism_create(&f.mechanism), BAUM_OK);
+  f.mechanism = create_mechanism();
   baum_planar_body_def def = baum_planar_body_def_default();
   for (int k = 0; k < BODIES; k++) {
     assert_int_equal(baum_mechanism_add_planar_body(f.mechanism, &def, NULL), BAUM_OK);

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "dynamics/block_path.h"
 #include "random_spatial.h"
 #include "spatial.h"
@@ -284,9 +285,8 @@ static void both_versions_agree_for_random_mechanisms(void **state)
 static void both_versions_agree_for_planar_pins(void **state)
 {
   (void)state;
-  baum_mechanism *m = NULL;
   baum_body_id bob;
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   spatial_build_planar_four_bar(m);
   baum_spatial_body_def def = baum_spatial_body_def_default();
   def.position[2] = 0.3;

@@ -16,6 +16,7 @@
 
 #include <baum/baum.h>
 
+#include "construct.h"
 #include "mechanism/general/coordinate.h"
 #include "mechanism/spatial/spatial_rows.h"
 
@@ -245,12 +246,7 @@ static spatial_scene make_coupled(void)
   spatial_scene_add(&s, "cylindrical", 1, 2);
   spatial_scene_add(&s, "universal", 0, 1);
   spatial_scene_add(&s, "planar", 2, 4);
-  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
-  pin.body_a = s.bodies[4];
-  pin.body_b = BAUM_GROUND;
-  pin.point[0] = 0.3;
-  pin.point[1] = 0.2;
-  check(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
+  (void)add_planar_pin(s.mechanism, NULL, s.bodies[4], BAUM_GROUND, 0.3, 0.2);
   couple(&s, 0, displacement, 0, angle, NULL); /* this is a screw */
   couple(&s, 0, angle, 1, angle_b, NULL);
   couple(&s, 1, angle, 2, x, cam);

@@ -11,6 +11,7 @@
 #include <baum/spline.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
@@ -245,14 +246,8 @@ static void a_run_follows_the_spline_until_its_law_is_replaced(void **state)
   const double values[3] = {-1.1, -0.7, 0.2};
   planar_scene scene = planar_scene_make();
   baum_spline_driver_def def = spline_def_of(times, values, 3, false);
-  baum_planar_revolute_def hinge = baum_planar_revolute_def_default();
-  baum_joint_id pin;
   baum_joint_id cam;
-  hinge.body_a = BAUM_GROUND;
-  hinge.body_b = scene.crank;
-  hinge.point[0] = 0.5;
-  hinge.point[1] = 0.7;
-  assert_int_equal(baum_mechanism_add_planar_revolute(scene.mechanism, &hinge, &pin), BAUM_OK);
+  baum_joint_id pin = add_planar_pin(scene.mechanism, NULL, BAUM_GROUND, scene.crank, 0.5, 0.7);
   def.joint = pin;
   assert_int_equal(baum_mechanism_add_spline_driver(scene.mechanism, &def, &cam), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_OK);

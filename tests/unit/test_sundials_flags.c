@@ -18,6 +18,7 @@
 #include <cvode/cvode.h>
 #include <ida/ida.h>
 
+#include "construct.h"
 #include "integrate/sundials_driver.h"
 #include "message.h"
 #include "runs.h"
@@ -146,11 +147,10 @@ static int force(double t, const double *q, const double *v, const double *input
 
 static baum_mechanism *make_thrown(fault *now)
 {
-  baum_mechanism *m = NULL;
   baum_body_id body;
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_user_force_def gust = baum_user_force_def_default();
-  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_mechanism *m = create_mechanism();
   particle.velocity[0] = 1.0;
   assert_int_equal(baum_mechanism_add_planar_particle(m, &particle, &body), BAUM_OK);
   gust.name = "gust";

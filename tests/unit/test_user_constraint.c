@@ -13,6 +13,7 @@
 #include <baum/planar.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "point.h"
 #include "user_models.h"
@@ -34,8 +35,7 @@ static int weights_phi(double t, const double *q, double *out, void *user)
 static void coordinates_are_in_the_order_of_the_listed_bodies(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   const double q[3] = {0.1, 0.2, 0.3};
   baum_body_id bodies[3];
   baum_planar_body_def link = baum_planar_body_def_default();
@@ -111,8 +111,7 @@ static int failing_gamma(double t, const double *q, const double *v, double *out
 static void open_failing(test_point *p, failure *f, bool given)
 {
   const double q[2] = {0.1, 0.2};
-  baum_mechanism *mechanism;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_mechanism *mechanism = create_mechanism();
   baum_body_id body = user_add_coordinates(mechanism, 2, q, 1.0);
   baum_user_constraint_def def = baum_user_constraint_def_default();
   def.name = "circle";
@@ -227,7 +226,7 @@ typedef struct fixture {
 static void open_fixture(fixture *f)
 {
   const double q[3] = {0.0};
-  assert_int_equal(baum_mechanism_create(&f->mechanism), BAUM_OK);
+  f->mechanism = create_mechanism();
   for (int i = 0; i < 3; i++) {
     f->bodies[i] = user_add_coordinates(f->mechanism, 2, q, 1.0);
   }

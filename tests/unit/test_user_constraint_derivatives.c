@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "derivatives.h"
 #include "point.h"
 #include "user_models.h"
@@ -335,8 +336,7 @@ static void scratch_memory_is_enough_for_wide_and_for_tall_constraints(void **st
   (void)state;
   const double q[3] = {0.1, 0.2, 0.3};
   for (int rows = 1; rows <= TEST_SIZE_MAX; rows += TEST_SIZE_MAX - 1) {
-    baum_mechanism *mechanism;
-    assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+    baum_mechanism *mechanism = create_mechanism();
     baum_body_id bodies[4];
     for (int i = 0; i < 4; i++) {
       bodies[i] = user_add_coordinates(mechanism, 3, q, 1.0);

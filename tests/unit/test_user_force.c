@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "construct.h"
 #include "definitions.h"
 #include "derivatives.h"
 #include "point.h"
@@ -91,7 +92,7 @@ typedef struct fixture {
 static void open_fixture(fixture *f)
 {
   const double q[3] = {0.2, 0.4, 0.6};
-  assert_int_equal(baum_mechanism_create(&f->mechanism), BAUM_OK);
+  f->mechanism = create_mechanism();
   f->bodies[1] = user_add_coordinates(f->mechanism, 2, q, 1.0);
   f->bodies[0] = user_add_coordinates(f->mechanism, 3, q, 1.0);
   f->spring = (spring){.k = 3.0, .d = 0.5};
