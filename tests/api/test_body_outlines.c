@@ -13,6 +13,7 @@
 
 #include <baum/baum.h>
 
+#include "check.h"
 #include "construct.h"
 #include "draw/drawing.h"
 #include "heap.h"
@@ -24,13 +25,6 @@ enum { BYTES = 1 << 16, FORMS = 6 };
 /* A concave polygon. */
 static const double POINTS[4][3] = {{0.0, 0.0, 0.5}, {2.0, 0.0, 0.5}, {0.5, 0.5, 0.5}, {0, 2, 0.5}};
 static const int32_t TRIANGLES[2][3] = {{0, 1, 2}, {0, 2, 3}};
-
-static void must(baum_status status)
-{
-  if (status != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-}
 
 /* Returns a good outline of any form. */
 static baum_outline outline_of(baum_outline_form form)
@@ -88,16 +82,16 @@ static scene make_scene(void)
   coordinates.mass = mass;
   coordinates.force = no_force;
   s.mechanism = create_mechanism();
-  must(baum_mechanism_add_planar_body(s.mechanism, &flat, &s.flat));
-  must(baum_mechanism_add_spatial_body(s.mechanism, &solid, &s.solid));
-  must(baum_mechanism_add_coordinates(s.mechanism, &coordinates, &s.coordinates));
+  check(baum_mechanism_add_planar_body(s.mechanism, &flat, &s.flat));
+  check(baum_mechanism_add_spatial_body(s.mechanism, &solid, &s.solid));
+  check(baum_mechanism_add_coordinates(s.mechanism, &coordinates, &s.coordinates));
   (void)add_planar_pin(s.mechanism, NULL, BAUM_GROUND, s.flat, 0.0, 0.0);
   return s;
 }
 
 static void draw_design(const baum_mechanism *m, baum_i_drawing *out)
 {
-  must(baum_i_drawing_create(m, &(baum_i_samples){NULL, 0, 0}, out));
+  check(baum_i_drawing_create(m, &(baum_i_samples){NULL, 0, 0}, out));
 }
 
 /* Returns how many shapes a body has. The index of ground is 0. *last is set to the last shape. */
@@ -134,7 +128,7 @@ static void an_outline_replaces_the_shapes_of_its_body(void **state)
     const baum_outline o = outline_of((baum_outline_form)(k / 3));
     baum_i_drawing drawing;
     baum_i_shape shape = {.style = BAUM_I_GAP};
-    must(baum_mechanism_set_outlines(s.mechanism, bodies[k % 3], &o, 1));
+    check(baum_mechanism_set_outlines(s.mechanism, bodies[k % 3], &o, 1));
     draw_design(s.mechanism, &drawing);
     assert_int_equal(shapes_of(&drawing, k % 3, &shape), 1);
     assert_int_equal(shape.form, wanted[k / 3].form);
@@ -152,7 +146,7 @@ static void an_outline_replaces_the_shapes_of_its_body(void **state)
 
 static void print_svg(const baum_mechanism *m, char text[BYTES])
 {
-  must(baum_mechanism_svg(m, NULL, text, BYTES, NULL));
+  check(baum_mechanism_svg(m, NULL, text, BYTES, NULL));
 }
 
 static void without_outlines_a_body_draws_itself_again(void **state)
@@ -162,11 +156,11 @@ static void without_outlines_a_body_draws_itself_again(void **state)
   scene s = make_scene();
   const baum_outline two[2] = {outline_of(BAUM_OUTLINE_CIRCLE), outline_of(BAUM_OUTLINE_MESH)};
   print_svg(s.mechanism, before);
-  must(baum_mechanism_set_outlines(s.mechanism, s.flat, two, 2));
+  check(baum_mechanism_set_outlines(s.mechanism, s.flat, two, 2));
   print_svg(s.mechanism, with);
   assert_string_not_equal(with, before);
   assert_non_null(strstr(with, "fill=\"#12aBcd\""));
-  must(baum_mechanism_set_outlines(s.mechanism, s.flat, NULL, 0));
+  check(baum_mechanism_set_outlines(s.mechanism, s.flat, NULL, 0));
   print_svg(s.mechanism, after);
   assert_string_equal(after, before);
   baum_mechanism_destroy(s.mechanism);
@@ -189,8 +183,8 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";
     /* Gravity along -z makes z vertical, so that the drawing shows the meshes from above. */
-    must(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81));
-    must(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
+    check(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81));
+    check(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
     print_svg(s.mechanism, text);
     const char *red = NULL, *blue = NULL;
     for (const char *at = text; (at = strstr(at, " fill=\"#")) != NULL; at++) {
@@ -215,12 +209,12 @@ static void copies_have_the_outlines_and_no_number_changes(void **state)
   for (int k = 0; k < FORMS; k++) {
     outlines[k] = outline_of((baum_outline_form)k);
   }
-  must(baum_mechanism_freeze(s.mechanism));
+  check(baum_mechanism_freeze(s.mechanism));
   const baum_i_fingerprint before = baum_i_mechanism_fingerprint(s.mechanism);
-  must(baum_mechanism_set_outlines(s.mechanism, BAUM_GROUND, outlines, 2));
-  must(baum_mechanism_set_outlines(s.mechanism, s.solid, outlines, FORMS));
-  must(baum_mechanism_copy(s.mechanism, &copy));
-  must(baum_mechanism_freeze(copy));
+  check(baum_mechanism_set_outlines(s.mechanism, BAUM_GROUND, outlines, 2));
+  check(baum_mechanism_set_outlines(s.mechanism, s.solid, outlines, FORMS));
+  check(baum_mechanism_copy(s.mechanism, &copy));
+  check(baum_mechanism_freeze(copy));
   for (int k = 0; k < 2; k++) {
     const baum_i_fingerprint after = baum_i_mechanism_fingerprint(k ? copy : s.mechanism);
     assert_memory_equal(&after, &before, sizeof before);
@@ -229,12 +223,12 @@ static void copies_have_the_outlines_and_no_number_changes(void **state)
   assert_int_equal(baum_mechanism_outline_count(copy, BAUM_GROUND), 2);
   assert_int_equal(baum_mechanism_outline_count(copy, s.flat), 0);
   assert_int_equal(baum_mechanism_outline_count(copy, s.solid), FORMS);
-  must(baum_mechanism_get_outline(copy, s.solid, BAUM_OUTLINE_MESH, &got, sizeof got));
+  check(baum_mechanism_get_outline(copy, s.solid, BAUM_OUTLINE_MESH, &got, sizeof got));
   assert_memory_equal(got.points, POINTS, sizeof POINTS);
   assert_memory_equal(got.triangles, TRIANGLES, sizeof TRIANGLES);
   assert_string_equal(got.color, "#12aBcd");
   assert_ptr_not_equal(got.points, POINTS);
-  must(baum_mechanism_get_outline(copy, s.solid, BAUM_OUTLINE_BOX, &got, sizeof got));
+  check(baum_mechanism_get_outline(copy, s.solid, BAUM_OUTLINE_BOX, &got, sizeof got));
   assert_true(got.form == BAUM_OUTLINE_BOX && got.size[1] == 3.0 && got.points == NULL);
   baum_mechanism_destroy(copy);
 }
@@ -250,7 +244,7 @@ static void a_copy_without_memory_loses_none(void **state)
   for (int k = 0; k < FORMS; k++) {
     outlines[k] = outline_of((baum_outline_form)k);
   }
-  must(baum_mechanism_set_outlines(s.mechanism, s.flat, outlines, FORMS));
+  check(baum_mechanism_set_outlines(s.mechanism, s.flat, outlines, FORMS));
   const long before = heap_blocks();
   baum_status status = BAUM_ERR_MEMORY;
   long n = 0;
@@ -275,7 +269,7 @@ static void wrong_calls_are_refused(void **state)
   scene s = make_scene(), other = make_scene();
   baum_outline o = outline_of(BAUM_OUTLINE_BOX), got;
   baum_mechanism *m = s.mechanism;
-  must(baum_mechanism_set_outlines(m, s.flat, &o, 1));
+  check(baum_mechanism_set_outlines(m, s.flat, &o, 1));
   ASSERT_SAYS(baum_mechanism_set_outlines(NULL, s.flat, &o, 1), BAUM_ERR_ARGUMENT,
               "mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_set_outlines(m, other.flat, &o, 1), BAUM_ERR_ARGUMENT,
@@ -360,7 +354,7 @@ static void wrong_fields_are_named_and_change_nothing(void **state)
   };
   scene s = make_scene();
   baum_outline two_outlines[2] = {outline_of(BAUM_OUTLINE_BOX), outline_of(BAUM_OUTLINE_BOX)}, got;
-  must(baum_mechanism_set_outlines(s.mechanism, s.flat, two_outlines, 1));
+  check(baum_mechanism_set_outlines(s.mechanism, s.flat, two_outlines, 1));
   for (size_t k = 0; k < sizeof wrongs / sizeof *wrongs; k++) {
     two_outlines[1] = outline_of(wrongs[k].form);
     memcpy((char *)&two_outlines[1] + wrongs[k].offset, wrongs[k].value, wrongs[k].size);
@@ -373,7 +367,7 @@ static void wrong_fields_are_named_and_change_nothing(void **state)
   ASSERT_SAYS(baum_mechanism_set_outlines(s.mechanism, s.flat, two_outlines, 2), BAUM_ERR_ARGUMENT,
               "the same point");
   assert_int_equal(baum_mechanism_outline_count(s.mechanism, s.flat), 1);
-  must(baum_mechanism_get_outline(s.mechanism, s.flat, 0, &got, sizeof got));
+  check(baum_mechanism_get_outline(s.mechanism, s.flat, 0, &got, sizeof got));
   assert_int_equal(got.form, BAUM_OUTLINE_BOX);
   baum_mechanism_destroy(s.mechanism);
 }

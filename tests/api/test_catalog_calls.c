@@ -18,6 +18,7 @@
 #include <baum/catalog.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "heap.h"
 #include "message.h"
@@ -29,9 +30,7 @@ static const baum_catalog_choice CRANK = {.name = "slider_crank"};
 static baum_mechanism *build(const baum_catalog_choice *choice)
 {
   baum_mechanism *out = NULL;
-  if (baum_catalog_build(choice, &out) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_catalog_build(choice, &out));
   return out;
 }
 

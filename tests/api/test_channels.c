@@ -22,17 +22,13 @@ static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integ
                                double step)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   if (baum_integrator_has_fixed_step(integrator)) {
     o.step = step;
   } else {
     o.rtol = 1e-8;
   }
-  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-  return run;
+  return create_run(mechanism, &o);
 }
 
 /* ---- acceleration ---- */

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "check.h"
 #include "construct.h"
 #include "driven.h"
 #include "every_element.h"
@@ -178,9 +179,7 @@ static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
   o.integrator = baum_rk4();
   o.step = 1e-3;
   baum_simulation *next = create_run(mechanism, &o);
-  if (baum_simulation_continue(next, run) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_simulation_continue(next, run));
   double t = baum_simulation_time(run);
   assert_true(baum_simulation_time(next) == t);
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
@@ -319,9 +318,7 @@ static void inputs_and_laws_continue_after_a_failure(void **state)
   assert_true(reached(baum_simulation_advance_to(runs[0], 0.02)));
   assert_int_equal(baum_simulation_set_input(runs[0], parts.throttle, 0.25), BAUM_OK);
   assert_int_equal(baum_simulation_set_driver(runs[0], parts.motor, 0.5403, 2.006, 5.0), BAUM_OK);
-  if (baum_simulation_continue(runs[1], runs[0]) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_simulation_continue(runs[1], runs[0]));
   assert_true(baum_simulation_input(runs[1], parts.throttle) == 0.25);
   for (int k = 0; k < 2; k++) {
     assert_true(reached(baum_simulation_advance_to(runs[k], 0.05)));

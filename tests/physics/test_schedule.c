@@ -49,8 +49,7 @@ static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double dir
 
 static disc make(bool driven)
 {
-  disc d = {.mechanism = NULL};
-  d.mechanism = create_mechanism();
+  disc d = {.mechanism = create_mechanism()};
   assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   baum_planar_body_def body = baum_planar_body_def_default();
   body.inertia = 1.0;

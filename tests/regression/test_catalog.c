@@ -19,6 +19,7 @@
 
 #include "a01_pendulum_reference.h"
 #include "assert_near.h"
+#include "check.h"
 #include "n_four_bar_reference.h"
 #include "runs.h"
 #include "slider_crank_driven_reference.h"
@@ -36,13 +37,6 @@ typedef struct known {
   double *q; /* (n x nq) */
   double *v; /* (n x nv) */
 } known;
-
-static void check(baum_status status)
-{
-  if (status < 0) {
-    fail_msg("%s", baum_message());
-  }
-}
 
 static known know(const baum_catalog_choice *choice)
 {

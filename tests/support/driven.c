@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "driven.h"
-#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -9,16 +8,12 @@
 
 #include <cmocka.h>
 
+#include "check.h"
+#include "construct.h"
+
 static const double HALF_PI = 1.5707963267948966;
 
 /* ---- parts ---- */
-
-static void check(baum_status status)
-{
-  if (status != BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 static baum_mechanism *begin(void)
 {

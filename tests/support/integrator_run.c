@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "integrator_run.h"
-#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -11,14 +10,10 @@
 
 #include <baum/planar.h>
 
-enum { MOST_STEPS = 1000000 };
+#include "check.h"
+#include "construct.h"
 
-static void check(baum_status status)
-{
-  if (status != BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
+enum { MOST_STEPS = 1000000 };
 
 /* ---- runs ---- */
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "joint_scenes.h"
-#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,14 +9,10 @@
 
 #include <cmocka.h>
 
-/* ---- parts ---- */
+#include "check.h"
+#include "construct.h"
 
-static void need(baum_status status)
-{
-  if (status != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-}
+/* ---- parts ---- */
 
 /* The pose of a body in the design configuration, and its initial angular velocity. This velocity
  * is NaN if it is not given. */
@@ -38,7 +33,7 @@ static baum_body_id body(baum_mechanism *m, const char *name, placed at)
   def.position[1] = at.y;
   def.angle = at.angle;
   def.angular_velocity = at.w;
-  need(baum_mechanism_add_planar_body(m, &def, &id));
+  check(baum_mechanism_add_planar_body(m, &def, &id));
   return id;
 }
 
@@ -50,7 +45,7 @@ static baum_body_id particle(baum_mechanism *m, const char *name, double x, doub
   def.mass = 0.8;
   def.position[0] = x;
   def.position[1] = y;
-  need(baum_mechanism_add_planar_particle(m, &def, &id));
+  check(baum_mechanism_add_planar_particle(m, &def, &id));
   return id;
 }
 
@@ -66,7 +61,7 @@ static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, co
     def.point[i] = at[i];
     def.axis[i] = axis[i];
   }
-  need(baum_mechanism_add_planar_translational(m, &def, &id));
+  check(baum_mechanism_add_planar_translational(m, &def, &id));
   return id;
 }
 
@@ -81,7 +76,7 @@ static baum_joint_id slot(baum_mechanism *m, baum_body_id a, baum_body_id b, con
     def.point[i] = at[i];
     def.axis[i] = axis[i];
   }
-  need(baum_mechanism_add_planar_pin_in_slot(m, &def, &id));
+  check(baum_mechanism_add_planar_pin_in_slot(m, &def, &id));
   return id;
 }
 
@@ -118,7 +113,7 @@ static void distance(baum_mechanism *m)
   def.point_a[1] = 0.0;
   def.point_b[0] = -0.1;
   def.point_b[1] = 0.1;
-  need(baum_mechanism_add_planar_distance(m, &def, NULL));
+  check(baum_mechanism_add_planar_distance(m, &def, NULL));
 }
 
 /* Makes a pendulum of two links that are welded together. */
@@ -132,7 +127,7 @@ static void fixed(baum_mechanism *m)
   def.body_b = plate;
   def.point[0] = 0.35;
   def.point[1] = 0.05;
-  need(baum_mechanism_add_planar_fixed(m, &def, NULL));
+  check(baum_mechanism_add_planar_fixed(m, &def, NULL));
 }
 
 /* Makes a pendulum on a driven crank. */
@@ -145,7 +140,7 @@ static void driver(baum_mechanism *m)
   (void)add_planar_pin(m, NULL, crank, link, 0.2, 0.0);
   def.rate = 3.0;
   def.acceleration = 2.0;
-  need(baum_mechanism_add_driver(m, &def, NULL));
+  check(baum_mechanism_add_driver(m, &def, NULL));
 }
 
 /* Makes a pendulum on a crank. A spline driver swings this crank back and forth. */
@@ -162,7 +157,7 @@ static void spline_driver(baum_mechanism *m)
   def.values = angles;
   def.count = 5;
   def.periodic = true;
-  need(baum_mechanism_add_spline_driver(m, &def, NULL));
+  check(baum_mechanism_add_spline_driver(m, &def, NULL));
 }
 
 /* The wire y = 2 x^2. */
@@ -193,7 +188,7 @@ static void user_constraint(baum_mechanism *m)
   def.row_count = 1;
   def.phi = parabola;
   def.jacobian = parabola_jacobian;
-  need(baum_mechanism_add_user_constraint(m, &def, NULL));
+  check(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
 static int across_the_blade(double t, const double *q, double *out, void *user)
@@ -217,7 +212,7 @@ static void velocity_level(baum_mechanism *m)
   def.row_count = 1;
   def.velocity_level = true;
   def.jacobian = across_the_blade;
-  need(baum_mechanism_add_user_constraint(m, &def, NULL));
+  check(baum_mechanism_add_user_constraint(m, &def, NULL));
   add_planar_pin(m, NULL, sleigh, arm, -0.2, 0.0);
 }
 
@@ -246,7 +241,7 @@ static void driver_in_slot(baum_mechanism *m)
   def.joint = slot(m, arm, ball, at, axis);
   def.rate = 0.4;
   def.acceleration = -1.0;
-  need(baum_mechanism_add_driver(m, &def, NULL));
+  check(baum_mechanism_add_driver(m, &def, NULL));
 }
 
 /* Makes a pinion above a sliding rack. The centre of mass of the pinion is off its axis. */
@@ -264,7 +259,7 @@ static void rack_and_pinion(baum_mechanism *m)
   def.point[0] = 0.0;
   def.point[1] = 0.1;
   def.radius = -0.1;
-  need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
+  check(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
 /* Makes a pinion that rolls down a sloping rack. Its centre moves in a slot parallel to the
@@ -283,7 +278,7 @@ static void rolling(baum_mechanism *m)
     def.axis[i] = axis[i];
   }
   def.radius = -0.15;
-  need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
+  check(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
 /* Makes a sun gear and a planet gear on an arm. The centres of mass of all of them are off their
@@ -302,7 +297,7 @@ static void gear(baum_mechanism *m)
   def.carrier = arm;
   def.radius_a = 0.1;
   def.radius_b = 0.15;
-  need(baum_mechanism_add_planar_gear(m, &def, NULL));
+  check(baum_mechanism_add_planar_gear(m, &def, NULL));
 }
 
 /* Adds a crank and a weight that slides vertically. Returns a definition that couples them. */
@@ -323,7 +318,7 @@ static void coupling(baum_mechanism *m)
 {
   baum_coupling_def def = crank_and_weight(m);
   def.ratio = 0.08;
-  need(baum_mechanism_add_coupling(m, &def, NULL));
+  check(baum_mechanism_add_coupling(m, &def, NULL));
 }
 
 static int lift(double x, double f[3], void *user)
@@ -342,7 +337,7 @@ static void cam(baum_mechanism *m)
   baum_coupling_def def = crank_and_weight(m);
   def.law = lift;
   def.user = &height;
-  need(baum_mechanism_add_coupling(m, &def, NULL));
+  check(baum_mechanism_add_coupling(m, &def, NULL));
 }
 
 /* The ellipse ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20 = 0. The gradient at points of the ellipse has a
@@ -372,7 +367,7 @@ static void curve(baum_mechanism *m)
     def.point_b[i] = 0.0;
   }
   def.curve = ellipse;
-  need(baum_mechanism_add_planar_curve(m, &def, NULL));
+  check(baum_mechanism_add_planar_curve(m, &def, NULL));
 }
 
 const joint_scene joint_scenes[JOINT_SCENES] = {
@@ -398,6 +393,6 @@ baum_mechanism *joint_scene_make(const joint_scene *scene)
 {
   baum_mechanism *mechanism = create_mechanism();
   scene->build(mechanism);
-  need(baum_mechanism_freeze(mechanism));
+  check(baum_mechanism_freeze(mechanism));
   return mechanism;
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "planar_scene.h"
-#include "construct.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
+
+#include "construct.h"
 
 static baum_body_id add_body(baum_mechanism *mechanism, const char *name, double x, double y,
                              double angle)

@@ -7,15 +7,13 @@
 
 #include <cmocka.h>
 
+#include "check.h"
 #include "mechanism/manifold.h"
 
 void test_point_open(test_point *p, baum_mechanism *mechanism)
 {
   *p = (test_point){.mechanism = mechanism};
-  baum_status status = baum_mechanism_freeze(mechanism);
-  if (status != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_mechanism_freeze(mechanism));
   p->nv = mechanism->nv;
   p->nc = mechanism->nc;
   assert_true(mechanism->nq <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);

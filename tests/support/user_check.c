@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "user_check.h"
-#include "construct.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -8,6 +7,9 @@
 #include <stdint.h>
 
 #include <cmocka.h>
+
+#include "check.h"
+#include "construct.h"
 
 /* Freezes the mechanism, checks its derivatives and destroys it. */
 baum_status user_check(baum_mechanism *mechanism)
@@ -20,9 +22,7 @@ baum_status user_check(baum_mechanism *mechanism)
 
 void user_check_right(baum_mechanism *mechanism)
 {
-  if (user_check(mechanism) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(user_check(mechanism));
 }
 
 void user_check_wrong(baum_mechanism *mechanism, const char *message)

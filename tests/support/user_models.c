@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "user_models.h"
-#include "construct.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,6 +9,8 @@
 #include <string.h>
 
 #include <cmocka.h>
+
+#include "construct.h"
 
 /* ---- circle ---- */
 

@@ -21,16 +21,12 @@ static baum_simulation *start_run(const baum_mechanism *m, const baum_integrator
                                   double step, baum_gains gains)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = gains;
   o.step = step;
   o.rtol = isnan(step) ? 1e-6 : (double)NAN;
-  if (baum_simulation_create(m, &o, &run) < BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-  return run;
+  return create_run(m, &o);
 }
 
 static double auto_alpha(const baum_mechanism *m, const baum_integrator *integrator)

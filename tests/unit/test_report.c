@@ -11,24 +11,17 @@
 #include <string.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "models.h"
 #include "user_models.h"
 
 #define PI 3.14159265358979323846
 
-static void must(baum_status status)
-{
-  if (status != BAUM_OK) {
-    print_error("%s\n", baum_message());
-  }
-  assert_int_equal(status, BAUM_OK);
-}
-
 static baum_report report_of(const baum_mechanism *m)
 {
   baum_report report;
-  must(baum_mechanism_report(m, &report, sizeof report));
+  check(baum_mechanism_report(m, &report, sizeof report));
   assert_int_equal(report.struct_size, sizeof report);
   return report;
 }
@@ -36,7 +29,7 @@ static baum_report report_of(const baum_mechanism *m)
 /* Freezes the mechanism, computes its report and destroys it. */
 static baum_report report_once(baum_mechanism *m)
 {
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   baum_report report = report_of(m);
   baum_mechanism_destroy(m);
   return report;
@@ -59,7 +52,7 @@ static baum_body_id add_body(baum_mechanism *m, const char *name, double x, doub
   def.name = name;
   def.position[0] = x;
   def.position[1] = y;
-  must(baum_mechanism_add_planar_body(m, &def, &id));
+  check(baum_mechanism_add_planar_body(m, &def, &id));
   return id;
 }
 
@@ -79,7 +72,7 @@ static void a_slider_crank_is_counted(void **state)
   (void)state;
   model m;
   model_slider_crank data = {.driven = true, .angle = 1.0, .doubled_guide = true};
-  must(model_slider_crank_build(data, &m));
+  check(model_slider_crank_build(data, &m));
   baum_report r = report_of(m.mechanism);
   model_destroy(&m);
   assert_int_equal(r.bodies, 3);
@@ -220,9 +213,9 @@ static void a_mechanism_that_cannot_be_assembled_is_reported_too(void **state)
   rod.point_b[0] = 0.0;
   rod.point_b[1] = 0.0;
   rod.length = 1.0;
-  must(baum_mechanism_add_planar_distance(m, &rod, NULL));
+  check(baum_mechanism_add_planar_distance(m, &rod, NULL));
   rod.length = 2.0;
-  must(baum_mechanism_add_planar_distance(m, &rod, NULL));
+  check(baum_mechanism_add_planar_distance(m, &rod, NULL));
   baum_report r = report_once(m);
   assert_int_equal(r.degrees_of_freedom, -1);
   assert_int_equal(r.nodes, 2);

@@ -13,6 +13,7 @@
 #include <baum/planar.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "integrator_run.h"
 #include "one_coordinate.h"
@@ -48,10 +49,7 @@ static void open_run(integrator_run *run, baum_mechanism *mechanism, const metho
 
 static void interpolate_at(integrator_run *run, double t)
 {
-  baum_status status = run->integrator->interpolate(run->self, &run->problem, t, run->q, run->v);
-  if (status != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(run->integrator->interpolate(run->self, &run->problem, t, run->q, run->v));
 }
 
 static int64_t rejected(const integrator_run *run)

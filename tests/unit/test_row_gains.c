@@ -39,7 +39,6 @@ static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *in
                               double gain, const double *factors)
 {
   baum_simulation_options o = baum_simulation_options_default();
-  baum_simulation *run = NULL;
   o.integrator = integrator;
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_fixed(gain, gain);
@@ -47,10 +46,7 @@ static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *in
   o.start = BAUM_START_AS_GIVEN;
   o.row_gains = factors;
   o.row_gain_count = factors ? ROWS : 0;
-  if (baum_simulation_create(m, &o, &run) < BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
-  return run;
+  return create_run(m, &o);
 }
 
 static const double FACTORS[ROWS] = {0.5, 0.25, 2.0, 4.0, 1.0, 3.0, 0.7, 1.5};

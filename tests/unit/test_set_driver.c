@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
@@ -173,10 +174,7 @@ static motion motion_of(baum_simulation *run, baum_joint_id joint)
 static void check_within(baum_simulation *run, baum_joint_id joint, double t, motion want,
                          motion off)
 {
-  baum_status status = baum_simulation_advance_to(run, t);
-  if (status != BAUM_OK && status != BAUM_WARNED) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_simulation_advance_to(run, t));
   motion got = motion_of(run, joint);
   ASSERT_NEAR(got.value, want.value, 0.0, off.value);
   ASSERT_NEAR(got.rate, want.rate, 0.0, off.rate);
