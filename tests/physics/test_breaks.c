@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests break times (times of discontinuities) that a mechanism declares. A torque acts on a body
- * on a pin, without gravity. The torque jumps at three times. Between the jumps the exact motion is
- * a polynomial of degree 2. If no step crosses a jump, methods of order 2 and higher reproduce this
- * motion to rounding. Generalized-alpha is an exception, see allowed(). */
+/* Tests break times (times of discontinuities) that a mechanism declares, with a torque that
+ * jumps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,26 +17,7 @@
 #include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
-
-enum { BREAKS = 3 };
-
-/* The break times [s]. The first is a multiple of STEP, and the other two are not. The last two are
- * less than a step apart. */
-static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
-/* [N m] the torque before, between and after the breaks. The moment of inertia about the pin is 1
- * kg m^2. */
-static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0, 1.0};
-static const double STEP = 0.01;
-static const double RTOL = 1e-8;
-
-static double torque_at(double t)
-{
-  int k = 0;
-  while (k < BREAKS && t >= TIMES[k]) {
-    k++;
-  }
-  return TORQUE[k];
-}
+#include "torque_jumps.h"
 
 static int torque(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user)
@@ -49,21 +28,6 @@ static int torque(double t, const double *q, const double *v, const double *inpu
   (void)user;
   out[2] = torque_at(t);
   return 0;
-}
-
-/* Computes the exact motion. It starts at rest at t = 0. */
-static void exact(double t, double *angle, double *rate)
-{
-  double from = 0.0;
-  *angle = 0.0;
-  *rate = 0.0;
-  for (int k = 0; k <= BREAKS && from < t; k++) {
-    double to = k < BREAKS ? fmin(TIMES[k], t) : t;
-    double h = to - from;
-    *angle += h * (*rate + 0.5 * h * TORQUE[k]);
-    *rate += h * TORQUE[k];
-    from = to;
-  }
 }
 
 static baum_mechanism *make(bool declared)
@@ -83,8 +47,8 @@ static baum_mechanism *make(bool declared)
   force.depends_on_velocity = false;
   assert_int_equal(baum_mechanism_add_user_force(m, &force, NULL), BAUM_OK);
   if (declared) {
-    double mixed[BREAKS + 1] = {TIMES[2], TIMES[0], TIMES[1], TIMES[0]};
-    assert_int_equal(baum_mechanism_add_break_times(m, mixed, BREAKS + 1), BAUM_OK);
+    double mixed[JUMPS + 1] = {TIMES[2], TIMES[0], TIMES[1], TIMES[0]};
+    assert_int_equal(baum_mechanism_add_break_times(m, mixed, JUMPS + 1), BAUM_OK);
   }
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   return m;
@@ -94,29 +58,6 @@ static baum_simulation *open_run(const baum_mechanism *m, step_mode mode)
 {
   baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
   return create_run(m, &o);
-}
-
-static double error_now(const baum_simulation *run)
-{
-  double angle = 0.0;
-  double rate = 0.0;
-  exact(baum_simulation_time(run), &angle, &rate);
-  return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
-}
-
-/* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
- * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
- * first step after a break has a lower order. For all other methods, it is the rounding error of
- * about 200 steps. */
-static double allowed(step_mode mode)
-{
-  if (!mode.fixed) {
-    return 10.0 * RTOL * 6.0;
-  }
-  bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
-  bool first = baum_integrator_order(mode.integrator) == 1;
-  return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
 }
 
 static void declared_breaks_keep_motions_accurate(void **state)
@@ -143,7 +84,7 @@ static void declared_breaks_keep_motions_accurate(void **state)
            mode.fixed ? "h" : " ", errors[0], errors[1], (int)counters[0].rejected,
            (int)counters[1].rejected, (int)counters[0].restarts);
     assert_true(errors[0] <= allowed(mode));
-    assert_int_equal(counters[0].restarts >= BREAKS, step_mode_remembers(mode));
+    assert_int_equal(counters[0].restarts >= JUMPS, step_mode_remembers(mode));
     assert_int_equal(counters[0].short_steps, mode.fixed ? 2 + (counters[0].short_steps == 3) : 0);
   }
   baum_mechanism_destroy(declared);
@@ -189,10 +130,7 @@ static void outputs_at_breaks_do_not_change_the_motion(void **state)
                        BAUM_OK);
       end[i] = baum_simulation_q(run)[2];
       for (int j = 0; j < 6 - first; j++) {
-        double angle = 0.0;
-        double rate = 0.0;
-        exact(times[first + j], &angle, &rate);
-        ASSERT_NEAR(rows[3 * j + 2], angle, 0.0, 2.0 * allowed(mode));
+        ASSERT_NEAR(rows[3 * j + 2], exact(times[first + j]).angle, 0.0, 2.0 * allowed(mode));
       }
       baum_simulation_destroy(run);
     }
@@ -215,9 +153,7 @@ static void the_work_over_breaks_equals_the_energy(void **state)
     baum_simulation *run = create_run(m, &o);
     assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
-    double angle = 0.0;
-    double rate = 0.0;
-    exact(2.0, &angle, &rate);
+    double rate = exact(2.0).rate;
     /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
      * angular velocity times up to 6 rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
@@ -318,7 +254,7 @@ static void break_times_are_checked_sorted_and_copied(void **state)
   assert_int_equal(baum_mechanism_add_break_times(NULL, bad, 1), BAUM_ERR_ARGUMENT);
   assert_int_equal(baum_mechanism_add_break_times(copy, NULL, 0), BAUM_OK);
   const double *times = baum_mechanism_break_times(copy, &count);
-  assert_int_equal(count, BREAKS);
+  assert_int_equal(count, JUMPS);
   assert_memory_equal(times, TIMES, sizeof TIMES);
   assert_null(baum_mechanism_break_times(NULL, &count));
   assert_int_equal(count, 0);

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests schedules of inputs. A torque acts on a body on a pin, without gravity. The torque is an
- * input that jumps at three times. Between the jumps the exact motion is a polynomial of degree 2.
- * If no step crosses a jump, methods of order 2 and higher reproduce this motion to rounding.
- * Generalized-alpha is an exception. */
+/* Tests schedules of inputs. The input is a torque that jumps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <string.h>
 
 #include <cmocka.h>
 
@@ -17,16 +13,7 @@
 #include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
-
-enum { JUMPS = 3 };
-
-/* The times of the jumps [s]. The first is a multiple of STEP, and the other two are not. The last
- * two are less than a step apart. */
-static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
-/* [N m] the torque before, between and after the jumps. The moment of inertia is 1 kg m^2. */
-static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0};
-static const double STEP = 0.01;
-static const double RTOL = 1e-8;
+#include "torque_jumps.h"
 
 typedef struct disc {
   baum_mechanism *mechanism;
@@ -85,59 +72,6 @@ static void close_all(baum_simulation *run, disc *d)
 {
   baum_simulation_destroy(run);
   baum_mechanism_destroy(d->mechanism);
-}
-
-/* ---- the exact motion ---- */
-
-static double torque_at(double t)
-{
-  int k = 0;
-  while (k < JUMPS && t >= TIMES[k]) {
-    k++;
-  }
-  return TORQUE[k];
-}
-
-/* Computes the exact angle, angular velocity and work of the torque. The motion starts at rest at
- * t = 0. For t < 0 the torque has its first value. */
-static void exact(double t, double *angle, double *rate, double *work)
-{
-  double from = 0.0;
-  *angle = 0.0;
-  *rate = 0.0;
-  *work = 0.0;
-  for (int k = 0; k <= JUMPS && (from < t || k == 0); k++) {
-    double h = (k < JUMPS ? fmin(TIMES[k], t) : t) - from;
-    double change = h * (*rate + 0.5 * h * TORQUE[k]);
-    *angle += change;
-    *work += change * TORQUE[k];
-    *rate += h * TORQUE[k];
-    from += h;
-  }
-}
-
-static double error_now(const baum_simulation *run)
-{
-  double angle = 0.0;
-  double rate = 0.0;
-  double work = 0.0;
-  exact(baum_simulation_time(run), &angle, &rate, &work);
-  return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
-}
-
-/* Returns the largest allowed error. For variable steps, it is ten times rtol, multiplied by the
- * largest angular velocity, 6 rad/s. For Euler methods, it is (h/2) |torque| t, the error of the
- * angle. For generalized-alpha, it is 20 times h^2 times 50 N m, because the acceleration in the
- * first step after a jump has a lower order. For all other methods, it is the rounding error of
- * about 200 steps. */
-static double allowed(step_mode mode)
-{
-  if (!mode.fixed) {
-    return 10.0 * RTOL * 6.0;
-  }
-  bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
-  bool first = baum_integrator_order(mode.integrator) == 1;
-  return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
 }
 
 /* ---- the free disc ---- */
@@ -280,10 +214,7 @@ static void the_energy_residual_is_small_over_jumps(void **state)
     assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     baum_energy_account account;
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
-    double angle = 0.0;
-    double rate = 0.0;
-    double work = 0.0;
-    exact(2.0, &angle, &rate, &work);
+    double work = exact(2.0).work;
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
     /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
