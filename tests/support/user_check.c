@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -29,6 +31,35 @@ void user_check_wrong(baum_mechanism *mechanism, const char *message)
 {
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(), message);
+}
+
+void user_check_wrong_entry(baum_mechanism *mechanism, const char *what, int entry)
+{
+  char start[64];
+  char end[64];
+  (void)snprintf(start, sizeof start, "%s()[%d] is ", what, entry);
+  (void)snprintf(end, sizeof end, " but finite differences of %s give ", strrchr(what, ' ') + 1);
+  assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
+  if (!strstr(baum_message(), start) || !strstr(baum_message(), end)) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+void user_check_fails(test_point *p, baum_status status, bool retry, const char *message)
+{
+  double rows[TEST_SIZE_MAX * TEST_SIZE_MAX];
+  const double lambda[TEST_SIZE_MAX] = {1.0};
+  baum_i_joint_blocks blocks = {.jw_q = rows};
+  baum_status (*const functions[])(baum_i_point *, double *) = {
+    baum_i_mechanism_phi, baum_i_mechanism_jacobian, baum_i_mechanism_gamma};
+  for (int i = 0; i <= 3; i++) {
+    test_point_update(p);
+    assert_int_equal(i < 3 ? functions[i](&p->point, rows)
+                           : baum_i_mechanism_linearize_joints(&p->point, p->v, lambda, &blocks),
+                     status);
+    assert_string_equal(baum_message(), message);
+    assert_int_equal(p->point.retry, retry);
+  }
 }
 
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,

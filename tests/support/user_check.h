@@ -3,6 +3,7 @@
 #ifndef BAUM_TEST_USER_CHECK_H
 #define BAUM_TEST_USER_CHECK_H
 
+#include "point.h"
 #include "user_models.h"
 
 /* These functions freeze the mechanism, check its derivatives and destroy it. user_check_right()
@@ -11,6 +12,14 @@
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
+
+/* Like user_check_wrong(), for a wrong derivative in one entry of a function. `what` is the element
+ * and the function, such as "joint 1 "cam": curve". */
+void user_check_wrong_entry(baum_mechanism *mechanism, const char *what, int entry);
+
+/* Checks that phi(), jacobian(), gamma() and linearize() fail with the same status and the same
+ * message. They all call the function of a joint. */
+void user_check_fails(test_point *p, baum_status status, bool retry, const char *message);
 
 /* Makes a mechanism with two coordinates, whose design values are (0.6, -0.8), and one row named
  * "circle". The functions of this row receive NULL as their `user`. */

@@ -6,9 +6,6 @@
 
 #include <cmocka.h>
 
-#include <stdio.h>
-#include <string.h>
-
 #include "assert_near.h"
 #include "balance.h"
 #include "definitions.h"
@@ -233,36 +230,17 @@ static void the_offset_follows_from_the_design_unless_given(void **state)
   test_point_close(&p);
 }
 
-/* Checks that all functions that call the law fail with the same status and the same message. */
-static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
-{
-  double rows[3 * 6 + 6];
-  baum_i_joint_blocks blocks = {.jw_q = rows};
-  baum_status (*const functions[])(baum_i_point *, double *) = {
-    baum_i_mechanism_phi, baum_i_mechanism_jacobian, baum_i_mechanism_gamma};
-  for (int i = 0; i < 3; i++) {
-    test_point_update(p);
-    assert_int_equal(functions[i](&p->point, rows), status);
-    assert_string_equal(baum_message(), message);
-    assert_int_equal(p->point.retry, retry);
-  }
-  test_point_update(p);
-  assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, p->v, p->v, &blocks), status);
-  assert_string_equal(baum_message(), message);
-  assert_int_equal(p->point.retry, retry);
-}
-
 static void a_failing_law_is_named(void **state)
 {
   (void)state;
   test_point p;
   fault f = {.answer = -2};
   test_point_open(&p, make_with(faulty, &f));
-  check_fails(&p, BAUM_ERR_CALLBACK, false, "joint 3 \"C\": law() returned -2 (stop)");
+  user_check_fails(&p, BAUM_ERR_CALLBACK, false, "joint 3 \"C\": law() returned -2 (stop)");
   f.answer = 4;
-  check_fails(&p, BAUM_ERR_CALLBACK, true, "joint 3 \"C\": law() returned 4 (retry)");
+  user_check_fails(&p, BAUM_ERR_CALLBACK, true, "joint 3 \"C\": law() returned 4 (retry)");
   f = (fault){.entry = 2, .error = TEST_NAN};
-  check_fails(&p, BAUM_ERR_NOT_FINITE, true, "joint 3 \"C\": law()[2] is nan at t = 0 s");
+  user_check_fails(&p, BAUM_ERR_NOT_FINITE, true, "joint 3 \"C\": law()[2] is nan at t = 0 s");
   test_point_close(&p);
 }
 
@@ -290,16 +268,7 @@ static void wrong_derivatives_are_named(void **state)
   (void)state;
   for (int entry = 1; entry < 3; entry++) {
     fault f = {.entry = entry, .error = 1e-4};
-    baum_mechanism *mechanism = make_with(faulty, &f);
-    assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
-    assert_int_equal(baum_mechanism_check_derivatives(mechanism), BAUM_ERR_ARGUMENT);
-    char start[64];
-    (void)snprintf(start, sizeof start, "joint 3 \"C\": law()[%d] is ", entry);
-    if (!strstr(baum_message(), start) ||
-        !strstr(baum_message(), " but finite differences of law give ")) {
-      fail_msg("%s", baum_message());
-    }
-    baum_mechanism_destroy(mechanism);
+    user_check_wrong_entry(make_with(faulty, &f), "joint 3 \"C\": law", entry);
   }
 }
 
