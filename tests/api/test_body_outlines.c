@@ -19,6 +19,7 @@
 #include "heap.h"
 #include "mechanism/fingerprint.h"
 #include "message.h"
+#include "user_models.h"
 
 enum { BYTES = 1 << 16, FORMS = 6 };
 
@@ -49,27 +50,6 @@ typedef struct scene {
   baum_body_id flat, solid, coordinates;
 } scene;
 
-static int mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
-static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                    void *user)
-{
-  (void)t;
-  (void)q;
-  (void)v;
-  (void)inputs;
-  (void)user;
-  out[0] = 0.0;
-  return 0;
-}
-
 static scene make_scene(void)
 {
   scene s;
@@ -79,8 +59,8 @@ static scene make_scene(void)
   flat.name = "flat";
   flat.position[0] = 1.0;
   coordinates.size = 1;
-  coordinates.mass = mass;
-  coordinates.force = no_force;
+  coordinates.mass = user_mass_of_first;
+  coordinates.force = user_no_force;
   s.mechanism = create_mechanism();
   check(baum_mechanism_add_planar_body(s.mechanism, &flat, &s.flat));
   check(baum_mechanism_add_spatial_body(s.mechanism, &solid, &s.solid));

@@ -128,15 +128,6 @@ static void index_3_methods_make_several_revolutions(void **state)
 
 /* ---- save and restore ---- */
 
-static void *save(baum_simulation *run, size_t *size)
-{
-  check(baum_simulation_save(run, NULL, 0, size));
-  void *buffer = malloc(*size);
-  assert_non_null(buffer);
-  check(baum_simulation_save(run, buffer, *size, size));
-  return buffer;
-}
-
 /* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
  * must replace its choice by that of the saved run. */
 static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
@@ -154,7 +145,7 @@ static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
     for (int at = 0; at < 5; at++) {
       size_t size = 0;
       check(baum_simulation_advance_to(one, 0.4 * at + 0.15));
-      void *buffer = save(one, &size);
+      void *buffer = save_run(one, &size);
       check(baum_simulation_restore(other, buffer, size));
       free(buffer);
       check(baum_simulation_advance_to(one, 0.4 * at + 0.4));

@@ -257,15 +257,6 @@ static void scenes_move_far(void **state)
 
 /* ---- save and restore ---- */
 
-static void *save(baum_simulation *run, size_t *size)
-{
-  check(baum_simulation_save(run, NULL, 0, size));
-  void *buffer = malloc(*size);
-  assert_non_null(buffer);
-  check(baum_simulation_save(run, buffer, *size, size));
-  return buffer;
-}
-
 static void try_restore(const manifold_scene *scene, const method *with, const void *context)
 {
   (void)context;
@@ -274,7 +265,7 @@ static void try_restore(const manifold_scene *scene, const method *with, const v
   baum_simulation *run = start(scene, with, &nq);
   baum_simulation *other = start(scene, with, &nq);
   advance(run, scene, with, 0.1);
-  void *saved = save(run, &size);
+  void *saved = save_run(run, &size);
   check(baum_simulation_restore(other, saved, size));
   advance(run, scene, with, 0.2);
   advance(other, scene, with, 0.2);

@@ -15,7 +15,6 @@
 #include "assert_near.h"
 #include "check.h"
 #include "construct.h"
-#include "message.h"
 #include "rotation.h"
 #include "runs.h"
 #include "spatial_scenes.h"

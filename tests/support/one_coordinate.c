@@ -9,15 +9,7 @@
 #include "check.h"
 #include "construct.h"
 #include "one_coordinate.h"
-
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
+#include "user_models.h"
 
 baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *user,
                                baum_input_id *input)
@@ -26,7 +18,7 @@ baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *u
   def.size = 1;
   def.q = &x;
   def.v = &v;
-  def.mass = unit_mass;
+  def.mass = user_mass_of_first;
   def.force = force;
   def.user = user;
   baum_mechanism *mechanism = create_mechanism();

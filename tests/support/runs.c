@@ -5,9 +5,11 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
+#include "check.h"
 #include "message.h"
 
 baum_simulation *create_run(const baum_mechanism *mechanism, const baum_simulation_options *options)
@@ -22,10 +24,19 @@ baum_simulation *create_run(const baum_mechanism *mechanism, const baum_simulati
 baum_counters counters_of(baum_simulation *run)
 {
   baum_counters counters;
-  if (baum_simulation_counters(run, &counters, sizeof counters) != BAUM_OK) {
-    fail_msg("%s", baum_message());
-  }
+  check(baum_simulation_counters(run, &counters, sizeof counters));
   return counters;
+}
+
+unsigned char *save_run(baum_simulation *run, size_t *size)
+{
+  size_t most = 0; /* an upper bound, because schedules differ in size */
+  check(baum_simulation_save(run, NULL, 0, &most));
+  unsigned char *buffer = malloc(most);
+  assert_non_null(buffer);
+  check(baum_simulation_save(run, buffer, most, size));
+  assert_in_range(*size, 64, most);
+  return buffer;
 }
 
 void check_run_refused(const baum_mechanism *mechanism, const baum_simulation_options *options,

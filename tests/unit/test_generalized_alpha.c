@@ -19,6 +19,7 @@
 #include "models.h"
 #include "one_coordinate.h"
 #include "runs.h"
+#include "user_models.h"
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -332,15 +333,6 @@ static void only_index_3_without_gains_is_offered(void **state)
 
 /* The coordinate u has unit mass, and a spring of stiffness k acts on it. A constraint sets u to x
  * - 0.4, where x is the position of a link. */
-static int unit(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
 static int spring(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user)
 {
@@ -372,7 +364,7 @@ static baum_mechanism *link_with_gauge(double *k)
   link.position[1] = -0.3;
   gauge.size = 1;
   gauge.scale = &scale;
-  gauge.mass = unit;
+  gauge.mass = user_mass_of_first;
   gauge.constant_mass = true;
   gauge.force = spring;
   gauge.user = k;

@@ -15,6 +15,7 @@
 #include "construct.h"
 #include "runs.h"
 #include "step_mode.h"
+#include "user_models.h"
 
 /* ---- functions that record their inputs ---- */
 
@@ -55,15 +56,6 @@ static int force_q(double t, const double *q, const double *v, const double *inp
   (void)v;
   (void)out;
   return record_inputs(inputs, user);
-}
-
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
 }
 
 /* ---- mechanisms ---- */
@@ -250,7 +242,7 @@ static void user_coordinates_and_their_check_receive_inputs(void **state)
   scene s = empty_scene(true);
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 1;
-  def.mass = unit_mass;
+  def.mass = user_mass_of_first;
   def.force = force;
   def.force_q = force_q;
   def.user = &seen;
