@@ -287,11 +287,31 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
+/* A terminal event that happens again at once cannot be told from rounding errors. If it were
+ * ignored, a body that bounces faster and faster would fall through its stop. */
+static baum_status check_bounce(baum_simulation *run, int k)
+{
+  const baum_event_def *def = &run->events->list[k].def;
+  if (!def->terminal || run->events->marks[k].fresh != BAUM_I_BOUNCES || !leaves_zero(run, k)) {
+    return BAUM_OK;
+  }
+  double t = run->events->begin;
+  for (int i = 0; i < run->events->count; i++) {
+    run->events->list[i].found = (double)NAN;
+  }
+  return baum_i_fail(BAUM_ERR_STEP,
+                     "t = %.9g s: event %d%s%.60s%s happens again at once; if a body bounces off a "
+                     "stop, let it rest there once it is slow",
+                     t, k, def->name ? " \"" : "", def->name ? def->name : "",
+                     def->name ? "\"" : "");
+}
+
 /* Record the events that were found, in the order of their times. At the first terminal event, stop
  * the run. */
 static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
+    BAUM_I_TRY(check_bounce(run, first));
     double end = end_of_group(run, first);
     int terminal = record_group(run, end);
     if (terminal >= 0) {
@@ -333,7 +353,7 @@ static void keep_values(baum_i_events *events, double t)
   events->t = t;
   for (int k = 0; k < events->count; k++) {
     baum_i_event_mark *mark = &events->marks[k];
-    mark->fresh = mark->fresh && !has_passed(events, k);
+    mark->fresh = has_passed(events, k) ? 0 : mark->fresh;
     mark->value = events->list[k].next;
     mark->side = baum_i_sign(mark->value);
   }

@@ -6,12 +6,14 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "base/text.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/coordinate.h"
+#include "mechanism/manifold.h"
 
 /* ---- definition ---- */
 
@@ -137,6 +139,7 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
     baum_i_coordinate coordinate;
     baum_i_coordinate_at(&of, &w->point, &coordinate);
     event->next = coordinate.value - def->value;
+    event->rate = coordinate.rate;
   } else {
     w->point.asking = true;
     answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
@@ -160,6 +163,8 @@ baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *sta
 /* Times count as equal if they differ by less than this fraction of 1/rate. This applies to methods
  * that start exactly at the given state. */
 static const double NO_TIME = 1e-10;
+/* Values of joint coordinates are rounded by less than this fraction. */
+static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
 {
@@ -169,6 +174,50 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
+/* Return by how much the value of an event will change within the window. Returns 0 if this is
+ * unknown, because the event function depends on velocities or fails. */
+static double coming_change(baum_simulation *run, int number)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_state *state = &run->state;
+  baum_i_event *event = &run->events->list[number];
+  baum_i_state *look = &run->events->look;
+  double h = run->problem.direction * baum_i_event_window(run, event, state->t);
+  if (event->joint >= 0) {
+    return event->rate * h;
+  }
+  double value = event->next;
+  look->t = state->t;
+  memcpy(look->q, state->q, (size_t)m->nq * sizeof *look->q);
+  memset(look->v, 0, (size_t)m->nv * sizeof *look->v);
+  bool known = evaluate_one(run, number, look) == BAUM_OK && event->next == value;
+  look->t = state->t + h;
+  baum_i_move(m, h, state->v, look->q);
+  known = known && evaluate_one(run, number, look) == BAUM_OK;
+  double change = known ? event->next - value : 0.0;
+  event->next = value;
+  return change;
+}
+
+/* An event whose value is zero at a start, except for rounding, is on the side to which the value
+ * moves. The run then also finds a return to zero within the first part of a step, such as that of
+ * a body that bounces off a stop. `recorded` is the value at which this event has just been
+ * recorded, or NaN. */
+static void take_side_of_motion(baum_simulation *run, int number, double recorded)
+{
+  baum_i_event_mark *mark = &run->events->marks[number];
+  double change = coming_change(run, number);
+  double rounding = 2.0 * fabs(recorded) + ROUNDING * fabs(run->events->list[number].def.value);
+  if (fabs(mark->value) <= fmax(fabs(change), rounding) && change != 0.0) {
+    mark->value = change;
+    mark->side = baum_i_sign(change);
+    /* IDA starts from a slightly different state, so its value may pass zero although nothing
+     * bounces. */
+    bool exact = !run->integrator->solves_residuals;
+    mark->fresh = exact && !isnan(recorded) ? BAUM_I_BOUNCES : mark->fresh;
+  }
+}
+
 /* Start the search at the present state, with the values of the events there. */
 static void take_values(baum_simulation *run, bool is_start)
 {
@@ -176,10 +225,15 @@ static void take_values(baum_simulation *run, bool is_start)
   events->t = events->begin = events->from = run->state.t;
   for (int k = 0; k < events->count; k++) {
     baum_i_event_mark *mark = &events->marks[k];
+    double since = fabs(run->state.t - mark->last);
+    bool recorded = since <= baum_i_event_window(run, &events->list[k], run->state.t);
+    double value_then = recorded ? mark->value : (double)NAN;
     mark->value = events->list[k].next;
     mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
-    double since = fabs(run->state.t - mark->last);
-    mark->fresh = is_start || since <= baum_i_event_window(run, &events->list[k], run->state.t);
+    mark->fresh = is_start || recorded;
+    if (is_start) {
+      take_side_of_motion(run, k, value_then);
+    }
   }
 }
 
@@ -213,6 +267,7 @@ static baum_status begin_last(baum_simulation *run)
   events->marks[k] = (baum_i_event_mark){
     .value = event->next, .last = (double)NAN, .side = baum_i_sign(event->next), .fresh = 1};
   events->count++;
+  take_side_of_motion(run, k, (double)NAN);
   return BAUM_OK;
 }
 

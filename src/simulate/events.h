@@ -15,15 +15,19 @@ typedef struct baum_i_event_mark {
   double value;
   double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
-  /* 1: the value has not passed zero since the search started. If it was zero then and leaves zero
-   * now, this is not an event. */
+  /* Not 0: the value has not passed zero since the search started. If it was zero then and leaves
+   * zero now, this is not an event. BAUM_I_BOUNCES: the search started at a record of this event,
+   * and the velocities then moved the value back to the side from which it had come. */
   int32_t fresh;
 } baum_i_event_mark;
+
+enum { BAUM_I_BOUNCES = 2 };
 
 typedef struct baum_i_event {
   baum_event_def def; /* this struct owns the string `name` of the definition */
   int joint;          /* the joint whose coordinate is the value of the event, or -1 */
   double next;        /* value in the state that was evaluated last */
+  double rate;        /* rate of the joint coordinate there */
   /* [s] time at which the value passes zero in the present interval, or NaN if it does not. */
   double found;
 } baum_i_event;

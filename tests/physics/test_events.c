@@ -2,6 +2,7 @@
 /* Tests events of a known motion. The pendulum of pendulum_events.h passes its lowest point at odd
  * multiples of a quarter period. It is at rest at even multiples. The tests cover every integrator,
  * with fixed and with variable steps. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,6 +13,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "methods.h"
 #include "pendulum_events.h"
@@ -459,6 +461,62 @@ static void no_event_is_lost_in_random_cases(void **state)
   }
 }
 
+/* ---- impacts that follow each other faster and faster ---- */
+
+static int height(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = q[1];
+  return 0;
+}
+
+/* A particle falls from 1 m, and each impact leaves the fraction E of its velocity. The number of
+ * impacts before a finite time is infinite. The flights soon fit into the first part of a step.
+ * Until they are as short as rounding errors, each impact must be found at the right time. The run
+ * then fails, so that the particle does not fall through the floor. */
+static void a_bouncing_particle_never_falls_through_the_floor(void **state)
+{
+  (void)state;
+  enum { LEAST = 40, MOST = 1000 };
+  const double E = 0.7, G = 9.81;
+  baum_mechanism *m = create_mechanism();
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  particle.mass = 1.0;
+  particle.position[1] = 1.0;
+  check(baum_mechanism_add_planar_particle(m, &particle, NULL));
+  check(baum_mechanism_freeze(m));
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk8();
+  o.rtol = 1e-9;
+  baum_simulation *run = create_run(m, &o);
+  baum_event_def def = baum_event_def_default();
+  def.function = height;
+  def.direction = -1;
+  check(baum_simulation_add_event(run, &def, NULL));
+  double impact = sqrt(2.0 / G), speed = sqrt(2.0 * G);
+  int count = 0;
+  baum_status status = baum_simulation_advance_to(run, 5.0);
+  for (; status == BAUM_STOP_EVENT && count < MOST; count++) {
+    const double *v = baum_simulation_v(run);
+    const double after[2] = {0.0, -E * v[1]};
+    ASSERT_NEAR(baum_simulation_time(run), impact, 0.0, 1e-12);
+    speed *= E;
+    impact += 2.0 * speed / G;
+    check(baum_simulation_set_state(run, baum_simulation_time(run), baum_simulation_q(run), after));
+    status = baum_simulation_advance_to(run, 5.0);
+  }
+  assert_int_equal(status, BAUM_ERR_STEP);
+  assert_true(strstr(baum_message(), "let it rest") != NULL);
+  assert_true(count >= LEAST && count < MOST);
+  assert_true(fabs(baum_simulation_q(run)[1]) < 1e-12);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -470,6 +528,7 @@ int main(void)
     cmocka_unit_test(a_zero_at_the_start_is_only_reported_when_it_recurs),
     cmocka_unit_test(reversing_at_an_event_does_not_report_it_again),
     cmocka_unit_test(no_event_is_lost_in_random_cases),
+    cmocka_unit_test(a_bouncing_particle_never_falls_through_the_floor),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
