@@ -17,13 +17,13 @@
  *  an event, either, because rounding errors of the start may be the cause. Every later zero is an
  *  event. Impacts of a bouncing body may follow each other so fast that a terminal event happens
  *  again shortly after its own record, although the new velocities led away from zero. The run
- *  then fails with BAUM_ERR_STEP (unless the method is IDA), because the body would otherwise fall
- *  through its stop. Let such a body rest once it is slow (docs/cookbook/stop.md). "Shortly" means
- *  within 1e-10 T, or within the tolerance of the event if that is longer. T is 1 / r, where r is
- *  the rate of the motion, which baum_simulation_explain() states. For the method IDA, "shortly"
- *  means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto the constraints.
- *  baum_simulation_set_input() and baum_simulation_set_driver() trigger no event. If such a call
- *  changes the sign of an event function, the run continues with the new sign.
+ *  then fails with BAUM_ERR_STEP (not with IDA and generalized-alpha), because the body would
+ *  otherwise fall through its stop. Let such a body rest once it is slow (docs/cookbook/stop.md).
+ *  "Shortly" means within 1e-10 T, or within the tolerance of the event if that is longer. T is
+ *  1/r, where r is the rate of the motion, which baum_simulation_explain() states. For the method
+ *  IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto the
+ *  constraints. baum_simulation_set_input() and baum_simulation_set_driver() trigger no event. If
+ *  such a call changes the sign of an event function, the run continues with the new sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
  *  begins a new grid of steps there. */

@@ -465,11 +465,12 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *
  *  The library checks that both mechanisms have the same elements in the same order, with the same
  *  numbers, and that both runs have the same integrator, formulation, gains, row_gains, step,
- *  tolerances, max_step, solver and energy_account. It cannot check user functions. They must be
- *  the same, and if they keep a state of their own, this state is not saved. The gains and the
- *  choice of redundant rows come from the saved run. Restoring allocates memory in three cases
- *  only: drivers were set in the saved run, its schedules are longer than those of this run, or the
- *  redundant rows that it omits differ from those that this run omits.
+ *  tolerances, max_step, solver, energy_account and events. Events must therefore be added before
+ *  the run is restored. The library cannot check user functions. They must be the same, and if
+ *  they keep a state of their own, this state is not saved. The gains and the choice of redundant
+ *  rows come from the saved run. Restoring allocates memory in three cases only: drivers were set
+ *  in the saved run, its schedules are longer than those of this run, or the redundant rows that
+ *  it omits differ from those that this run omits.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -683,7 +684,8 @@ typedef struct baum_counters {
    *  method, but also the work of drivers, inputs and dampers. */
   double energy_change;
   /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad. It
-   *  does not include the motion of drivers to their initial values. */
+   *  includes the motion of drivers to their initial values only if assembly reaches these values
+   *  directly; assembly follows drivers that begin far away in several steps. */
   double start_change;
   double alpha; /**< [1/s] gain in use. */
   double beta;  /**< [1/s] gain in use. */

@@ -174,29 +174,38 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-/* Return by how much the value of an event will change within the window. Returns 0 if this is
- * unknown, because the event function depends on velocities or fails. */
-static double coming_change(baum_simulation *run, int number)
+/* Set the rate of the value of an event, which has been evaluated in this state. For event
+ * functions it is a difference along v, or 0 if the function depends on v. */
+static baum_status find_rate(baum_simulation *run, int number, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  const baum_i_state *state = &run->state;
   baum_i_event *event = &run->events->list[number];
   baum_i_state *look = &run->events->look;
-  double h = run->problem.direction * baum_i_event_window(run, event, state->t);
   if (event->joint >= 0) {
-    return event->rate * h;
+    return BAUM_OK;
   }
+  double h = run->problem.direction * baum_i_event_window(run, event, state->t);
   double value = event->next;
   look->t = state->t;
   memcpy(look->q, state->q, (size_t)m->nq * sizeof *look->q);
   memset(look->v, 0, (size_t)m->nv * sizeof *look->v);
-  bool known = evaluate_one(run, number, look) == BAUM_OK && event->next == value;
+  BAUM_I_TRY(evaluate_one(run, number, look));
+  bool depends_on_v = event->next != value;
   look->t = state->t + h;
   baum_i_move(m, h, state->v, look->q);
-  known = known && evaluate_one(run, number, look) == BAUM_OK;
-  double change = known ? event->next - value : 0.0;
+  BAUM_I_TRY(evaluate_one(run, number, look));
+  event->rate = depends_on_v ? 0.0 : (event->next - value) / h;
   event->next = value;
-  return change;
+  return BAUM_OK;
+}
+
+baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_state *state)
+{
+  BAUM_I_TRY(baum_i_events_evaluate(run, state));
+  for (int k = 0; k < run->events->count; k++) {
+    BAUM_I_TRY(find_rate(run, k, state));
+  }
+  return BAUM_OK;
 }
 
 /* An event whose value is zero at a start, except for rounding, is on the side to which the value
@@ -206,8 +215,10 @@ static double coming_change(baum_simulation *run, int number)
 static void take_side_of_motion(baum_simulation *run, int number, double recorded)
 {
   baum_i_event_mark *mark = &run->events->marks[number];
-  double change = coming_change(run, number);
-  double rounding = 2.0 * fabs(recorded) + ROUNDING * fabs(run->events->list[number].def.value);
+  const baum_i_event *event = &run->events->list[number];
+  double h = run->problem.direction * baum_i_event_window(run, event, run->state.t);
+  double change = event->rate * h;
+  double rounding = 2.0 * fabs(recorded) + ROUNDING * fabs(event->def.value);
   if (fabs(mark->value) <= fmax(fabs(change), rounding) && change != 0.0) {
     mark->value = change;
     mark->side = baum_i_sign(change);
@@ -260,6 +271,7 @@ static baum_status begin_last(baum_simulation *run)
   event->joint = event->def.joint.index1 != 0 ? baum_i_joint_index(m, event->def.joint) : -1;
   baum_i_point_set(&run->workspace->point, run->state.t, run->state.q, run->state.v);
   baum_status status = evaluate_one(run, k, &run->state);
+  status = status == BAUM_OK ? find_rate(run, k, &run->state) : status;
   if (status != BAUM_OK) {
     baum_i_free(event->def.name);
     return status;

@@ -27,7 +27,9 @@ typedef struct baum_i_event {
   baum_event_def def; /* this struct owns the string `name` of the definition */
   int joint;          /* the joint whose coordinate is the value of the event, or -1 */
   double next;        /* value in the state that was evaluated last */
-  double rate;        /* rate of the joint coordinate there */
+  /* [1/s] rate of the value at the start of the search; 0 if it is unknown, because an event
+   * function depends on v */
+  double rate;
   /* [s] time at which the value passes zero in the present interval, or NaN if it does not. */
   double found;
 } baum_i_event;
@@ -56,9 +58,12 @@ void baum_i_events_destroy(baum_i_events *events);
  * BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
-/* Start the search at the present state. The events must have been evaluated in this state. begin()
- * is for a new start. go_on() is for a motion that continues after its equations or its direction
- * have changed. */
+/* The same for the state of a new start. Also finds the rates of the values. */
+baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_state *state);
+
+/* Start the search at the present state. The events must have been evaluated in this state.
+ * begin() is for a new start, after baum_i_events_evaluate_start(). go_on() is for a motion that
+ * continues after its equations or its direction have changed. */
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 

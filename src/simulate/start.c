@@ -469,7 +469,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   }
   BAUM_I_TRY(baum_i_run_measure(run, energy));
   if (run->events) {
-    BAUM_I_TRY(baum_i_events_evaluate(run, &run->trial));
+    BAUM_I_TRY(baum_i_events_evaluate_start(run, &run->trial));
   }
   baum_i_run_choose_rows_anew(run, &run->trial);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {

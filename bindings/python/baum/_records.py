@@ -129,7 +129,9 @@ class Counters(NamedTuple):
     energy_change: [J] change of kinetic plus potential energy since the start. It contains the
         error of the method, but also the work of drivers, inputs and dampers.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
-        lengths or rad. It does not include the motion of drivers to their initial values.
+        lengths or rad. It includes the motion of drivers to their initial values only if
+        assembly reaches these values directly; assembly follows drivers that begin far away in
+        several steps.
     alpha: [1/s] gain in use.
     beta: [1/s] gain in use.
     spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
