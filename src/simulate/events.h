@@ -17,7 +17,7 @@ typedef struct baum_i_event_mark {
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
   /* Not 0: the value has not passed zero since the search started. If it was zero then and leaves
    * zero now, this is not an event. BAUM_I_BOUNCES: the search started at a record of this event,
-   * and the velocities then moved the value back to the side from which it had come. */
+   * with velocities that moved the value away from zero. */
   int32_t fresh;
 } baum_i_event_mark;
 

@@ -94,7 +94,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   return goes_on(run) ? BAUM_OK : restart(run);
 }
 
-void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state)
+void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state)
 {
   if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, true)) {
     tell_others(run);

@@ -344,7 +344,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run);
 
 /* Choose the omitted rows for a given state, and end the present crossing. The caller must restart
  * the method afterwards. */
-void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
+void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state);
 
 /* Omit the rows i for which omitted[i] is not 0 (nc entries). Returns the statuses of
  * baum_i_omit_rows(); on failure nothing changes. */

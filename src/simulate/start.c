@@ -471,7 +471,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
   if (run->events) {
     BAUM_I_TRY(baum_i_events_evaluate_start(run, &run->trial));
   }
-  baum_i_run_choose_rows_anew(run, &run->trial);
+  baum_i_run_restart_rows(run, &run->trial);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
     /* this comes last, because a restart cannot be undone */
     BAUM_I_TRY(run->integrator->restart(run->self, &run->problem, &run->trial));

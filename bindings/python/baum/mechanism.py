@@ -390,8 +390,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         moved = {name for name in moved if given[name] & {"position", "angle", "orientation"}}
         angles = list(self._used_angles()) if moved else []
         for element in self if moved else ():
-            placed_anew = given.get(element.name, set()) & {"point", "point_a", "point_b"}
-            if element.family in ("joint", "force") and not placed_anew:
+            new_place = given.get(element.name, set()) & {"point", "point_a", "point_b"}
+            if element.family in ("joint", "force") and not new_place:
                 design_space.check_turned(element, angles, changes)
                 yield element.name, design.taken(element, moved)
 
