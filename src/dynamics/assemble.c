@@ -29,6 +29,9 @@ static const double STEP_LIMIT = 0.25;
 static const double CONVERGED = 1e-11; /* the error after a step of this size is about its square */
 static const double ROUNDING = 1e-13;  /* a violation up to this displacement counts as zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
+/* A violation below this displacement suggests that the dimensions of redundant constraints are
+ * rounded. */
+static const double SLIGHT = 1e-4;
 /* Corrections of velocities end when they have reduced the violation to this fraction of its first
  * value. The remaining violation is then far below rounding errors. */
 static const double CORRECTED = 1e-20;
@@ -210,8 +213,15 @@ static void name_contradicting(const assembly *s, const double *rows, const char
 static baum_status fail_positions(const assembly *s)
 {
   char text[BAUM_I_MESSAGE_SIZE];
-  name_contradicting(s, s->w->phi, "", text);
+  name_contradicting(s, s->w->phi, " m or rad", text);
   const baum_mechanism *m = s->w->mechanism;
+  if (worst_displacement(s, s->w->phi) < SLIGHT) {
+    return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                       "t = %.9g s: assembly does not satisfy %s; these violations are small, as "
+                       "if dimensions of redundant constraints were rounded; give the dimensions "
+                       "with all digits, or remove redundant constraints",
+                       s->t, text);
+  }
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: assembly does not satisfy %s; either constraints and held bodies "
                      "contradict each other, or the design configuration is too far from an "

@@ -13,6 +13,7 @@
 #include <math.h>
 
 #include "base/text.h"
+#include "simulate/crossing.h"
 #include "simulate/run.h"
 
 /* The message mentions a violation only if it is larger than this scaled displacement. */
@@ -78,6 +79,25 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
+/* Name the singular configuration that the motion is near, or after which it may have left its
+ * branch. */
+static void append_crossing(const baum_simulation *run, char *text, size_t size)
+{
+  const baum_i_crossings *crossings = run->crossings;
+  int64_t count = run->counters.near_singular_intervals;
+  if (!crossings || (count == 0 && !crossings->open)) {
+    return;
+  }
+  int64_t last = count < BAUM_I_NEAR_SINGULAR_KEPT ? count - 1 : BAUM_I_NEAR_SINGULAR_KEPT - 1;
+  if (crossings->open || crossings->kept[last].branch != BAUM_BRANCH_CONTINUED) {
+    baum_i_append(
+      text, size,
+      ", and the mechanism may lock up near t = %.9g s, where it is close to a singular "
+      "configuration",
+      crossings->open ? crossings->lowest.t : crossings->kept[last].t);
+  }
+}
+
 /* Add the facts about the run for which no solution of the equations is needed. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
@@ -106,6 +126,7 @@ static void append_place(baum_simulation *run, const baum_i_state *at, char *tex
   } else {
     append_history(run, text, size);
   }
+  append_crossing(run, text, size);
   w->evaluations = evaluations;
 }
 

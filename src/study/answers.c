@@ -416,8 +416,21 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
       return BAUM_OK;
     }
   }
-  return baum_i_fail(BAUM_ERR_STATE,
-                     "%s: no entry has been run and timed; call baum_study_run() first", call);
+  return baum_i_fail(
+    BAUM_ERR_STATE,
+    "%s: no entry is finished; call baum_study_run(), again if its time budget was spent", call);
+}
+
+/* Fails because no finished entry has a known error. */
+static baum_status refuse_all(const baum_study *study, const char *call)
+{
+  if (study->reference.out.trusted) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: none of the finished entries followed the true motion", call);
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: no entry can be judged without a trusted reference: %s", call,
+                     study->reference.text);
 }
 
 static baum_status refuse_error(const baum_study *study, double error, const char *call)
@@ -430,8 +443,7 @@ static baum_status refuse_error(const baum_study *study, double error, const cha
     }
   }
   if (!best) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: none of the finished entries followed the true motion", call);
+    return refuse_all(study, call);
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: no entry reaches an error of %.2g; the smallest is %.2g, of %s, and the "
@@ -527,8 +539,7 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   setting p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
   if (!isfinite(quickest)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: none of the finished entries followed the true motion", call);
+    return refuse_all(study, call);
   }
   if (!p.fine) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,

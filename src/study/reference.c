@@ -200,12 +200,18 @@ static void set_outcome(baum_study *study, const found *best)
     baum_i_append(r->text, sizeof r->text, "; there is no reference");
     return;
   }
-  baum_i_append(r->text, sizeof r->text, " agree to %.1f digits", out->digits);
+  if (out->digits > 0.0) {
+    baum_i_append(r->text, sizeof r->text, " agree to %.1f digits", out->digits);
+  } else {
+    baum_i_append(r->text, sizeof r->text, " differ by %.2g", out->uncertainty);
+  }
   if (best->singular) {
     baum_i_append(r->text, sizeof r->text,
                   "; not trusted: the motion passes near a singular configuration");
   } else if (!out->trusted) {
-    baum_i_append(r->text, sizeof r->text, "; not trusted: they differ too much");
+    baum_i_append(r->text, sizeof r->text,
+                  "; not trusted: they differ too much; take a shorter span, because the motion "
+                  "may be chaotic");
   }
 }
 

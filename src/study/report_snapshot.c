@@ -2,6 +2,7 @@
 /* Reads all data of a report from a study, through its public interface. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "study/report.h"
@@ -71,12 +72,19 @@ static baum_status read_front(baum_i_snapshot *out, baum_study_cost cost)
   return BAUM_OK;
 }
 
+/* The name of the function at the start of a message does not help the reader of a report. */
+static const char *without_call(const char *message)
+{
+  const char *colon = strstr(message, ": ");
+  return colon ? colon + 2 : message;
+}
+
 static void read_advice(const baum_study *study, baum_study_cost cost, baum_i_advice *out)
 {
   out->status = baum_study_recommend(study, out->error, cost, &out->options, sizeof out->options,
                                      out->why, sizeof out->why);
   if (out->status < BAUM_OK) {
-    (void)snprintf(out->why, sizeof out->why, "%s", baum_message());
+    (void)snprintf(out->why, sizeof out->why, "%s", without_call(baum_message()));
     return;
   }
   out->setting = baum_i_options_name(&out->options);

@@ -44,7 +44,8 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
     }
   }
   baum_i_putf(out, "\nerror      %s\n", snapshot->error);
-  baum_i_putf(out, "reference  %s digits%s; %s\n", baum_i_short(r->digits, 3).text,
+  baum_i_putf(out, "reference  %s digits%s; %s\n",
+              baum_i_short(r->digits < 0.0 ? 0.0 : r->digits, 3).text,
               r->trusted ? "" : ", NOT TRUSTED", r->text ? r->text : "not made");
   baum_i_putf(out, "made by    baum %s, SUNDIALS %s, %s, %s, %s\n", e->baum, e->sundials,
               e->compiler, e->cpu, e->date);

@@ -208,6 +208,15 @@ static void given_velocities_that_fit_are_held_exactly(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+static void rounded_dimensions_of_redundant_joints_are_named_as_a_cause(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.second_length = 1.000001;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE,
+                     "\"rod\"|m or rad|redundant constraints were rounded|with all digits");
+}
+
 static void joints_that_contradict_each_other_are_named(void **state)
 {
   (void)state;
@@ -520,6 +529,7 @@ int main(void)
     cmocka_unit_test(drivers_with_different_velocities_are_named),
     cmocka_unit_test(a_large_angle_may_be_in_degrees),
     cmocka_unit_test(given_velocities_that_fit_are_held_exactly),
+    cmocka_unit_test(rounded_dimensions_of_redundant_joints_are_named_as_a_cause),
     cmocka_unit_test(joints_that_contradict_each_other_are_named),
     cmocka_unit_test(a_held_body_out_of_place_is_named),
     cmocka_unit_test(a_design_too_far_off_is_refused),

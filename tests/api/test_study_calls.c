@@ -289,7 +289,7 @@ static void results_of_entries_that_were_not_run_are_refused(void **state)
   o.integrator = NULL;
   ASSERT_SAYS(baum_study_add(study, &o), BAUM_ERR_ARGUMENT, "integrator is NULL");
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_STATE, "no entry has been run");
+              BAUM_ERR_STATE, "no entry is finished");
   ASSERT_SAYS(baum_study_cost_at(study, 1, 1e-3, BAUM_STUDY_WORK, &cost), BAUM_ERR_ARGUMENT,
               "no method 1");
   ASSERT_SAYS(baum_study_reference_sample(study, 0, NULL, NULL, NULL, NULL), BAUM_ERR_STATE,

@@ -54,6 +54,24 @@ class Studies(unittest.TestCase):
             # is therefore smaller.
             self.assertLess(np.abs(run.q - exact).max(), error)
 
+    def test_texts_of_an_unfinished_study_name_what_is_missing(self):
+        study = small(self.m)
+        self.assertIn("no entry is finished; call run()", study.report())
+        m = baum.Mechanism(gravity=(0, -9.81))
+        for name, x in (("upper", 0.5), ("lower", 1.5)):
+            m.planar_body(name, mass=1, inertia=0.1, position=(x, 0))
+        m.revolute("A", "ground", "upper", point=(0, 0))
+        m.revolute("B", "upper", "lower", point=(1, 0))
+        chaotic = baum.study(m.freeze(), 0, 60, samples=20, repeats=1, validate=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            chaotic.add("rk4", step=0.05).add("kinematics").run()
+        self.assertIn("reference  0 digits, NOT TRUSTED", chaotic.report())
+        self.assertRegex(chaotic.reference.text, r"differ by .*; not trusted: .* shorter span")
+        with self.assertRaisesRegex(baum.Error, "no entry can be judged without a trusted reference: rk8"):
+            chaotic.recommend(1e-3)
+        self.assertNotIn("baum_", study.report() + chaotic.report())
+
     def test_stress_settings_are_entries_that_work_or_say_why(self):
         study = baum.study(self.m, 0, 1, samples=20, repeats=1, entry_limit=0.02, validate=False)
         entries = study.add_stress("rk4").run().entries

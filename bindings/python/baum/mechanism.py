@@ -604,3 +604,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         functions.
         """
         fmu.export(self, path, integrator, outputs, inputs, parameters, options)
+
+
+# Python's own messages, for example about a misspelt keyword, shall name the public class.
+for _methods in (Adding, AddingInSpace, Scenes):
+    for _method in filter(inspect.isfunction, vars(_methods).values()):
+        _method.__qualname__ = f"Mechanism.{_method.__name__}"

@@ -15,6 +15,7 @@ from . import _abi, _calls, _html
 from ._lib import default, lib, text
 from ._records import StudyEntry, StudyMethod, StudyReference
 from ._values import address, integer, number, numbers, there_are, truth, vector, word
+from ._words import in_python
 from .channels import Channel
 from .errors import Status, Warning, as_status, warn
 from .gains import Gains
@@ -531,7 +532,8 @@ class Study(_calls.Closing):
         # The report is made twice, and its date may be longer the second time.
         room = ctypes.create_string_buffer(size.value + 1024)
         self._owner.call(lib.baum_study_print, *how, room, len(room), None)
-        return room.value.decode(errors="replace")
+        report = room.value.decode(errors="replace")
+        return in_python(report) if form == "text" else report
 
     def write(self, path: str | os.PathLike[str], title: str | None = None) -> None:
         """Write a report to a file. The suffix determines its form: .txt, .csv, .json or .html. If
