@@ -708,8 +708,10 @@ typedef struct baum_counters {
   double energy_residual;
   int64_t doubts; /**< [-] kinds of warnings that put the motion in doubt. */
   /** [-] estimate of the largest global error of the positions since the start. Errors of lengths
-   *  are relative to the characteristic length, and errors of angles are in radians. With a fixed
-   *  step, it is 0 as long as the local errors are negligible. It is NaN, which means unknown, if
+   *  are relative to the characteristic length, and errors of angles are in radians. Without the
+   *  option error_check it shows only whether the error is large: values up to 0.01 may be errors
+   *  of the estimate itself. With a fixed step, it is 0 as long as the local errors are
+   *  negligible. It is NaN, which means unknown, if
    *  inputs change every few steps, or if the estimate failed or would cost too much. With variable
    *  steps it is known only with the option error_check and rtol >= 2e-14, or after a singularity
    *  crossing at a loose tolerance; otherwise it is NaN. */
