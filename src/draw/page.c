@@ -255,9 +255,9 @@ static int mark_extremes(const table *t, bool *kept)
   return marked;
 }
 
-/* Chooses the samples that the page contains. If there are more than FRAMES samples, these are
- * samples at equal intervals and those with the extreme values of plots. Otherwise these are all
- * samples. */
+/* Chooses the samples that the page contains. If there are more than FRAMES samples, the page
+ * contains samples at equal intervals, and the samples in which a plotted column has an extreme
+ * value. Otherwise it contains all samples. */
 static baum_status choose_frames(table *t)
 {
   const int64_t n = t->page->count;

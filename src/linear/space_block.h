@@ -267,10 +267,11 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 /* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
-  /* Returns the largest acceleration of a body that the multipliers of one node cause, divided by
-   * the largest resulting acceleration of all bodies of the island. The spin of a thin body is
-   * divided by the resulting spin of this body, if this spin is larger than that acceleration. If
-   * the returned quotient is large, digits have cancelled. */
+  /* Compares, for each node, the accelerations of its bodies that its multipliers alone cause with
+   * the accelerations that all multipliers and forces cause. Returns the largest acceleration by
+   * one node, divided by the largest acceleration of a body of the same island. The spin of a thin
+   * body is divided by the whole spin of this body instead, if this spin is larger than that
+   * acceleration. If the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. The residual of the equations of

@@ -416,9 +416,10 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
       return BAUM_OK;
     }
   }
-  return baum_i_fail(
-    BAUM_ERR_STATE,
-    "%s: no entry is finished; call baum_study_run(), again if its time budget was spent", call);
+  return baum_i_fail(BAUM_ERR_STATE,
+                     "%s: no entry is finished; call baum_study_run(); if it has spent its time "
+                     "budget, call it again",
+                     call);
 }
 
 /* Fails because no finished entry has a known error. */

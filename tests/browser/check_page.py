@@ -212,8 +212,8 @@ def count(browser, selector):
 
 
 def check_maps(browser, study, checks):
-    """Check that the maps show the gains of every run. They may also show gains of refused runs,
-    which follow from the rules of these runs."""
+    """Check that the maps show the gains of every run. A refused run reports
+    no gains, but a map may show the gains that its gain rule would give."""
     candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
     known = [entry for entry in candidates if entry.alpha >= 0]
     titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")

@@ -2,7 +2,7 @@
 # Functions that follow the instructions of the documents, as users do. readme.sh and wheels.sh
 # source this file.
 
-# first_block FILE LANGUAGE prints the first code block of a document that is in this language.
+# first_block FILE LANGUAGE prints the first code block in LANGUAGE of the document FILE.
 first_block() {
   awk -v fence="\`\`\`$2" '$0 == fence { inside = 1; next } /^```/ && inside { exit } inside' "$1"
 }

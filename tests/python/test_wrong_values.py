@@ -131,7 +131,7 @@ class Instead(unittest.TestCase):
         self.says(baum.Error, "rk4 needs it; rtol is only for integrators", m.simulation, "rk4", rtol=1e-6)
         self.says(baum.Error, "call again to continue, or raise max_steps", m.simulation("rk4", step=1e-3,
                   max_steps=2).advance_to, 1)
-        self.says(baum.Error, r"no entry is finished; call run\(\), again if its time budget was spent", baum.study(
+        self.says(baum.Error, r"no entry is finished; call run\(\); if it has spent", baum.study(
             m, 0, 1, progress=False).recommend, 1e-3)
 
     def test_a_mechanism_that_is_not_frozen(self):
