@@ -49,9 +49,9 @@ static const double ANDREWS_C[2] = {.014, .072};
 
 enum { ANDREWS_ANGLES = 7 };
 
-/* Computes the angles beta, Theta, gamma, Phi, delta, Omega and epsilon for a given beta. The
- * equations have several solutions. The function finds the one that is reached by continuous motion
- * from the initial configuration of the test set. */
+/* Computes the angles beta, Theta, gamma, Phi, delta, Omega and epsilon for a given beta. The loop
+ * equations have several solutions. The function finds the solution that is reached by continuous
+ * motion from the initial configuration of the test set. */
 void baum_i_andrews_pose(double beta, double angles[ANDREWS_ANGLES]);
 
 #endif

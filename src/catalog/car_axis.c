@@ -2,8 +2,8 @@
 /* The car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini). Its coordinates are
  * the positions of the two ends of the axis, q = (xl, yl, xr, yr). The ends stand on springs. The
  * left spring stands on the ground at (0, 0), and the right one on a moving bump at (xb, yb), with
- * yb = r sin(w t) and xb = sqrt(L^2 - yb^2). With k = eps^2 M / 2 (eps = 0.01, M = 10), the
- * equations are
+ * yb = r sin(w t) and xb = sqrt(L^2 - yb^2). L is the length of the axis, and L0 the free length of
+ * both springs. With k = eps^2 M / 2 (eps = 0.01, M = 10), the equations are
  *
  *   k xl'' = (L0 - Ll) xl / Ll              + multipliers          Ll = |(xl, yl)|
  *   k yl'' = (L0 - Ll) yl / Ll - k g        + multipliers

@@ -134,7 +134,7 @@ static int find_parameter(const baum_i_catalog_mechanism *of, const char *name)
   return -1;
 }
 
-/* Texts for messages that say what the values in a range must be. */
+/* For each range: the words by which a message says what a value must be. */
 static const char *const RULES[] = {[BAUM_I_ANY] = "finite",
                                     [BAUM_I_NONZERO] = "other than 0",
                                     [BAUM_I_ACUTE] = "between -pi/2 and pi/2",

@@ -66,7 +66,8 @@ typedef struct baum_i_catalog_mechanism {
   baum_i_body_state (*state)(const double *p, const double *q, const double *v, int body);
 } baum_i_catalog_mechanism;
 
-/* Sets the members that describe a mechanism. BODIES is 0 if count() returns the number. */
+/* Sets the members that describe a mechanism. BODIES is the number of bodies, or 0 if count()
+ * returns it. */
 #define BAUM_I_CATALOG_MODEL(PARAMETERS, BUILD, STATE, UNITS, BODIES)                  \
   .parameter_count = sizeof PARAMETERS / sizeof *PARAMETERS, .parameters = PARAMETERS, \
   .build = BUILD, .state = STATE, .units = UNITS, .bodies = BODIES
@@ -118,8 +119,8 @@ __attribute__((format(printf, 2, 3)))
 baum_status
 baum_i_catalog_fail(baum_status status, const char *format, ...);
 
-/* Copies a struct to the caller, but at most caller_size bytes of it, and sets its struct_size.
- * Returns BAUM_OK or BAUM_ERR_ARGUMENT. */
+/* Copies a struct to the caller, but at most caller_size bytes of it, and sets struct_size in the
+ * copy. Returns BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size);
 
 /* Finds a mechanism by its name. If there is no such mechanism, returns NULL and sets the

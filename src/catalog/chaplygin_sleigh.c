@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Chaplygin's sleigh: a body on a plane with a blade. The blade is parallel to the x axis of the
- * body, at the distance D behind the centre of mass. u is the velocity of the blade in its own
- * direction, and w is the angular velocity of the body. The equations of motion are
+ * body, at the distance D behind the centre of mass. m is the mass of the body, and I its moment of
+ * inertia about the centre of mass. u is the velocity of the blade in its own direction, and w is
+ * the angular velocity of the body. The equations of motion are
  *
  *   m u' = m D w^2,   (I + m D^2) w' = -m D u w
  *
@@ -11,10 +12,10 @@
  *   u = U tanh s,  w = W / cosh s,  k = m D U / (I + m D^2),  U k = D W^2,  angle' = w
  *
  * The angle is W / k times the Gudermannian of s, plus a constant. The path of the blade is the
- * integral of u (cos angle, sin angle). It is computed by Gauss's quadrature with five points in
- * each interval. The integrand has its singularities at the distance pi / 2 from the real s axis,
- * and each interval has at most the length 0.1 in s. The truncation error of the quadrature is
- * therefore below 1e-17.
+ * integral of u (cos angle, sin angle). This integral is computed by Gauss's quadrature with five
+ * points in each interval. The integrand has its singularities at the distance pi / 2 from the real
+ * s axis, and each interval has at most the length 0.1 in s. The truncation error of the quadrature
+ * is therefore below 1e-17.
  */
 #include <float.h>
 #include <math.h>

@@ -96,8 +96,8 @@ static double distance(const double a[3], const double b[3])
 }
 
 /* Rotates axes about their x axis until the point `local`, which is fixed in them, has the distance
- * `length` from `target`. If a is the angle, and d are the coordinates of the target in the axes,
- * then
+ * `length` from `target`. If a is the angle, (x, y, z) are the components of `local`, and d are the
+ * coordinates of the target in the axes, then
  *
  *   (y d_y + z d_z) cos a + (y d_z - z d_y) sin a = (|local|^2 + |d|^2 - length^2) / 2 - x d_x
  *
@@ -322,7 +322,7 @@ const baum_i_catalog_mechanism baum_i_double_wishbone = {
   .title = "wheel on two wishbones, with steering and a road",
   .source = "chosen for this catalogue",
   .provenance = "closed form, with Newton's method for the height of the wheel",
-  .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
+  .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES),
   .defaults = (const double[COUNT]){4.0, 3.0, 30.0, 3.0, 20.0, 4e4, 2e3, 9.81},
   .end = 2.0,

@@ -50,7 +50,7 @@ void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, d
 baum_i_body_state baum_i_mover_state(const baum_i_mover *centre, double angle, double rate);
 
 /* Finds an intersection of two circles, one with radius ra about a, the other with radius rb about
- * b. If side is -1, it is the intersection to the right of the line from a to b, otherwise the one
+ * b. If side is -1, finds the intersection to the right of the line from a to b, otherwise the one
  * to the left. Returns NaN if the circles do not intersect. */
 void baum_i_meet(const double a[2], double ra, const double b[2], double rb, double side,
                  double out[2]);
@@ -65,8 +65,8 @@ baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spo
 /* Adds a pin. It is at (xa, 0) on body a and at (xb, 0) on body b. */
 baum_joint_id baum_i_parts_hinge(baum_i_parts *parts, const char *name, baum_body_id a, double xa,
                                  baum_body_id b, double xb);
-/* Adds a guide that keeps the centre of mass of a slider on the line y = height of the ground. Both
- * points of the guide are shifted by `along` in the direction of this line. */
+/* Adds a guide that keeps the centre of mass of a slider on the line y = `height`, which is fixed
+ * to the ground. Both points of the guide are shifted by `along` in the direction of this line. */
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,
                         double along);
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A quadruped that falls freely: a trunk, four legs of hip, thigh and shank, and a neck, with 13
  * revolute joints. No force but gravity acts, so the centre of mass moves on a parabola, and the
- * angular momentum about it and the energy are constant. */
+ * angular momentum about the centre of mass and the energy are constant. */
 #include "catalog/catalog.h"
 #include "catalog/spatial_parts.h"
 
@@ -83,8 +83,8 @@ const baum_i_catalog_mechanism baum_i_quadruped = {
   .title = "quadruped of 14 bodies and 13 revolute joints in free fall",
   .source = "chosen for this catalogue",
   .provenance = "",
-  .note = "the centre of mass moves on a parabola; the angular momentum about it and the energy "
-          "are constant",
+  .note = "the centre of mass moves on a parabola; the angular momentum about the centre of mass "
+          "and the energy are constant",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "mmmqqqq", 14),
   .defaults = (const double[COUNT]){10.0, 1.0, 9.81, 0.5},
   .end = 1.0,

@@ -226,8 +226,8 @@ static void subtract(const baum_i_catalog_mechanism *of, const double *from, con
   }
 }
 
-/* Compares a state with the reference. q and v contain the numbers of all bodies, and either of
- * them may be NULL. */
+/* Compares a state with the reference. q and v contain the positions and velocities of all bodies.
+ * Each of them may be NULL. */
 static measure measure_state(const sample *at, double scale, const double *q, const double *v)
 {
   measure out = {0};

@@ -94,7 +94,7 @@ const baum_i_catalog_mechanism baum_i_robot_arm = {
   .title = "robot arm of six revolute joints, all driven",
   .source = "chosen for this catalogue",
   .provenance = "closed form",
-  .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
+  .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", JOINTS),
   .defaults = (const double[COUNT]){1.0, 2.5, 9.81},
   .end = 2.0,

@@ -123,7 +123,7 @@ const baum_i_catalog_mechanism baum_i_rssr = {
   .title = "spatial four-bar (RSSR), the crank driven",
   .source = "chosen for this catalogue",
   .provenance = "closed form",
-  .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
+  .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.1, 0.4, 0.25, 0.2, 0.3, 0.05, 0.3, 0.5, 0.6, 0.01, 9.81,
                                     12.566370614359172},

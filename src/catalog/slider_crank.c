@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A slider-crank. Crank 1 rotates about the origin, slider 3 moves on the line y = e, and rod 2
- * connects them. The centres of mass of crank and rod are at half their lengths:
+ * connects them. The centres of mass of crank and rod are at half their lengths. With the lengths
+ * l1 and l2 and the angles a1 and a2 of crank and rod, and the position x3 of the slider:
  *
  *   l1 sin a1 + l2 sin a2 = e,  x3 = l1 cos a1 + l2 cos a2
  *
  * The rod points to the right, so cos a2 > 0. The crank can make full revolutions if
- * l2 > l1 + abs(e). If the crank is driven, its angle a1 = a1(0) + w t determines the motion.
+ * l2 > l1 + abs(e). If the crank is driven at the angular velocity w, its angle a1 = a1(0) + w t
+ * determines the motion.
  */
 #include "catalog/slider_crank.h"
 
@@ -133,8 +135,8 @@ static void build_driven(baum_i_parts *parts, const double *p)
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3), \
     BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                               \
     .provenance = "closed form; agrees with extrapolation in 160-bit arithmetic",      \
-    .note = "no degrees of freedom; baum_kinematics() can simulate it, too. The "      \
-            "reference requires rod > crank + |eccentricity|"
+    .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, "   \
+            "too. The reference requires rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
   FREE,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Adds a slider-crank in two steps: first its bodies, then its joints. Other elements may be added
- * between the two. */
+ * between these steps. */
 #ifndef BAUM_I_CATALOG_SLIDER_CRANK_H
 #define BAUM_I_CATALOG_SLIDER_CRANK_H
 

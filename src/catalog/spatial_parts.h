@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts of spatial mechanisms. Their states are computed with axes that are moved from body to
- * body. */
+/* Parts of spatial mechanisms. The states of the bodies are computed with axes that are moved from
+ * body to body. */
 #ifndef BAUM_I_CATALOG_SPATIAL_PARTS_H
 #define BAUM_I_CATALOG_SPATIAL_PARTS_H
 
@@ -41,8 +41,8 @@ typedef struct baum_i_place {
 } baum_i_place;
 
 /* Defines `six_laws`, the laws of six drivers. Each law calls DRIVE with the number of its driver
- * as the first argument. The argument `user` cannot contain this number, because it is NULL in the
- * catalogue. */
+ * as the first argument. The argument `user` cannot contain this number, because `user` is NULL in
+ * the catalogue. */
 #define BAUM_I_SIX_LAW(DRIVE, K)                        \
   static int law_##K(double t, double s[3], void *user) \
   {                                                     \

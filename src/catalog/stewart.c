@@ -210,7 +210,7 @@ const baum_i_catalog_mechanism baum_i_stewart = {
   .title = "Stewart platform, its six legs driven",
   .source = "chosen for this catalogue",
   .provenance = "closed form",
-  .note = "no degrees of freedom; baum_kinematics() can simulate it, too",
+  .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, too",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", BODIES),
   .defaults = (const double[COUNT]){5.0, 1.0, 0.8, 9.81},
   .end = 2.0,

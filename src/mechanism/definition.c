@@ -85,7 +85,7 @@ static baum_status fill(baum_i_element *element, const void *def)
     baum_i_copy_text(given ? given : baum_i_text_of("%s%d", element->family, element->index).text);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
-    /* the copy contains no memory of its own, because own() has failed */
+    /* the copy contains no memory of its own, because baum_i_fields_own() has failed */
     baum_i_free(element->def);
     element->def = NULL;
   }

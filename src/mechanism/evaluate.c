@@ -172,8 +172,8 @@ static baum_status add_of_forces(const baum_i_force_group *group, baum_i_point *
 }
 
 /* Some elements compute their power from the whole force, including the part that has a potential.
- * If `whole_power` is set, include only these elements, and add each potential to that of its class
- * in sum (BAUM_I_POWERS). Otherwise add all potentials to *sum. */
+ * If `whole_power` is set, include only these elements. Each potential is then added to the entry
+ * of `sum` (BAUM_I_POWERS) for the class of the element. Otherwise add all potentials to *sum. */
 static baum_status add_potentials(baum_i_point *point, bool whole_power, double *sum)
 {
   const baum_mechanism *m = point->mechanism;

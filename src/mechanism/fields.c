@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions that use the tables of fields. They set the defaults of definitions, check, copy and
- * digest definitions, and find the bodies that a definition names. */
+/* Functions that use the tables of fields. They set the defaults of definitions, check and copy
+ * definitions, add them to digests, and find the bodies that a definition names. */
 #include "mechanism/fields.h"
 
 #include <string.h>
@@ -291,7 +291,7 @@ static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *
     return baum_i_check_joint(mechanism, *(const baum_joint_id *)at, label, f->name);
   case BAUM_I_FIELD_INPUT: return check_input(mechanism, at, label, f->name);
   case BAUM_I_FIELD_FUNCTION: return check_function(f, def, label);
-  /* the rule allows every value, or the definition has its own check of this field */
+  /* every value of this field is allowed, or the definition has its own check of the field */
   default: return BAUM_OK;
   }
 }

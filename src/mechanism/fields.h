@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Each definition has a table of its fields. From this table, the library sets defaults, checks
- * single fields, copies and digests definitions, and finds the bodies on which an element acts.
- * Tests of the public headers also use the table. */
+ * single fields, copies definitions, adds them to digests (fingerprint.h), and finds the bodies on
+ * which an element acts. Tests of the public headers also use the table. */
 #ifndef BAUM_I_MECHANISM_FIELDS_H
 #define BAUM_I_MECHANISM_FIELDS_H
 
@@ -31,8 +31,8 @@ typedef enum baum_i_rule {
 } baum_i_rule;
 
 /* Fields whose kind contains OWN are not handled here, but by functions of the definition, which
- * check, copy and release them. Scenes rely on the order of the groups in this list: first numbers
- * and counts, then flags, then references, then functions. */
+ * check, copy and release them. Scenes (baum/scene.h) rely on the order of the groups in this list:
+ * first numbers and counts, then flags, then references, then functions. */
 typedef enum baum_i_field_kind {
   BAUM_I_FIELD_NUMBERS, /* double or double[] */
   /* array of doubles or NULL; `counter` gives its length; used only at the start of a run */
@@ -80,7 +80,7 @@ typedef struct baum_i_def_field {
   double value[BAUM_I_FIELD_DEFAULTS];
   /* for an array: the offset of the field that counts its entries */
   size_t counter;
-  /* for an array: the offset of the count to use if `counter` is 0 */
+  /* for an array: the offset of the count that is used if the field at `counter` is 0 */
   size_t instead;
 } baum_i_def_field;
 
@@ -196,8 +196,8 @@ void baum_i_fields_release(const baum_i_definition *definition, void *def);
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
 /* Find the bodies on which an element acts. These are the bodies that its definition names, and the
- * bodies of the joints that it names. Each body is listed once. Returns the number of bodies. If
- * `bodies` is NULL, returns an upper bound of this number. */
+ * bodies of the joints that the definition names. Each body is listed once. Returns the number of
+ * bodies. If `bodies` is NULL, returns an upper bound of this number. */
 int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechanism *mechanism,
                          const void *def, int *bodies);
 

@@ -13,8 +13,8 @@
 
 #include "mechanism/mechanism.h"
 
-/* ---- for mechanisms that are not flat; the functions without `bodies` in their names, which are
- * below, call these functions, and the comments there describe them ---- */
+/* ---- for mechanisms that are not flat; comments are at the functions of the next section, which
+ * call these functions ---- */
 
 void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
                         double *dq);
@@ -119,8 +119,8 @@ static inline const double *baum_i_tangent(const baum_mechanism *mechanism, cons
 
 /* Set `blocks` to N^+ (N v)_q N. This is the derivative of N v with respect to q at constant v,
  * where both the displacement of q and the result are expressed in velocity coordinates. The block
- * (nv x nv) of a body with a manifold begins at the body's `mass`. Blocks of other bodies are not
- * set. work (6 nq) is scratch memory. */
+ * (nv x nv) of a body with a manifold begins at the index `mass` of the body. Blocks of other
+ * bodies are not set. work (6 nq) is scratch memory. */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 

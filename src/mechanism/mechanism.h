@@ -52,8 +52,8 @@ baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /*
 baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma);       /* (nc) */
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass);         /* (mass_size) */
 baum_status baum_i_mechanism_force(baum_i_point *point, double *force);       /* (nv) */
-/* Add the forces of some bodies to force (nv). If `constant` is set, these are the bodies whose
- * force depends only on parameters, otherwise they are all other bodies. */
+/* Add forces of bodies to force (nv). If `constant` is set, add the forces of those bodies whose
+ * force depends only on parameters. Otherwise add the forces of all other bodies. */
 baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force);
 /* Add the forces of all bodies whose force is not constant, and of all force elements. */
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force);

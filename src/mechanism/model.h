@@ -269,16 +269,16 @@ typedef struct baum_i_joint_blocks {
   double *nu_q;    /* rows x nl */
 } baum_i_joint_blocks;
 
-/* Arrays for the derivatives of bodies. The nv x nv block of a body starts at the body's `mass`.
- * Functions set the blocks and do not add to them. */
+/* Arrays for the derivatives of bodies. The nv x nv block of a body begins at the index `mass` of
+ * the body. Functions set the blocks and do not add to them. */
 typedef struct baum_i_body_blocks {
   double *ma_q; /* (M a)_q */
   double *force_q;
   double *force_v;
 } baum_i_body_blocks;
 
-/* Arrays for the derivatives of forces. The nl x nl block of a force starts at the force's
- * `square`. Functions set the blocks and do not add to them. */
+/* Arrays for the derivatives of forces. The nl x nl block of a force begins at the index `square`
+ * of the force. Functions set the blocks and do not add to them. */
 typedef struct baum_i_force_blocks {
   double *force_q;
   double *force_v;
@@ -411,8 +411,9 @@ struct baum_i_joint_type {
   int row_count;
   /* returns the number of rows of a joint; NULL if row_count is not 0 */
   int (*rows)(const void *def);
-  /* Number of velocity-level rows, in the same two forms. They are the last rows of the joint, and
-   * their Phi is 0. */
+  /* Number of velocity-level rows. Like the number of all rows, it is either the same for all
+   * joints of the type, or a function returns it. Velocity-level rows are the last rows of the
+   * joint, and their Phi is 0. */
   int velocity_row_count;
   int (*velocity_rows)(const void *def);
   /* Set the parameters from the definition and the design configuration. Returns BAUM_OK, or

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The wheel of the catalogue's double wishbone. Columns: elevation of its axis, which points
- * outward, above the horizontal (= minus the camber), angle of its axis from y towards x (toe-out),
- * x and y of its centre. README.md in this folder says where the values come from. */
+/* The wheel of the catalogue's double wishbone. The axis of the wheel points outward. Columns:
+ * elevation of the axis above the horizontal (= minus the camber), angle of the axis from y towards
+ * x (toe-out), x and y of the centre of the wheel. README.md in this folder says where the values
+ * come from. */
 #ifndef BAUM_TEST_DOUBLE_WISHBONE_REFERENCE_H
 #define BAUM_TEST_DOUBLE_WISHBONE_REFERENCE_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Problem A02 with 40 windows. It starts upright and ends 1e-6 s before the first flat
- * configuration. The columns are the common angle of the cranks, and the largest deviation from
- * parallel cranks and horizontal couplers. README.md in this folder says where the values come
- * from. */
+/* The N-four-bar of problem A02 of IFToMM and A Coruna, with 40 windows. The motion starts with
+ * upright cranks and ends 1e-6 s before the first flat configuration. The columns are the common
+ * angle of the cranks, and the largest deviation from parallel cranks and horizontal couplers.
+ * README.md in this folder says where the values come from. */
 #ifndef BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 #define BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 

@@ -136,8 +136,8 @@ typedef struct model_n_four_bar {
   const model_units *units; /* NULL for SI units */
 } model_n_four_bar;
 
-/* Returns the data of problem A02 of IFToMM and A Coruna. The cranks start upright, and move to the
- * right at 1 m/s. */
+/* Returns the data of problem A02 of IFToMM and A Coruna. The cranks start upright, and their tips
+ * move to the right at 1 m/s. */
 model_n_four_bar model_n_four_bar_a02(int loops);
 /* Makes an N-four-bar. Its positions are q = (x, y, angle) of crank 0, coupler 0, crank 1, ...,
  * crank N. It has 2 N + 1 bodies and 6 N + 2 rows. */
@@ -179,7 +179,7 @@ typedef struct model_parallelogram_data {
   /* Whether a second pin, "pin again", joins the tip of the last crank to the coupler. It adds two
    * rows. */
   bool doubled;
-  double aside; /* [m] how far the second pin is from the first, on both of its bodies */
+  double aside; /* [m] how far the second pin is from the first, on both bodies of the pins */
   double gap;   /* [m] distance along the crank between the two points that the second pin joins */
   double above; /* [m] how much higher the foot of the middle crank is than those of the others */
   bool framed;  /* whether there is an additional body, which is welded to the ground */

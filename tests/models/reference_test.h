@@ -18,8 +18,8 @@ static inline baum_simulation_options adams_options(void)
   return options;
 }
 
-/* Returns options for IDA with GGL. Its equations contain the constraints on positions and on
- * velocities. */
+/* Returns options for IDA with GGL. The equations of GGL contain the constraints on positions and
+ * on velocities. */
 static inline baum_simulation_options ggl_options(void)
 {
   baum_simulation_options options = baum_simulation_options_default();

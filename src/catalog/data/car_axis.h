@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis. The multipliers have the sign of the test set: M a = f + G^T lambda.
- * Columns: xl, yl, xr, yr. */
+/* Car axis of the Bari test set. CAR_AXIS_LAMBDA contains multipliers with the sign of the test
+ * set, M a = f + G^T lambda. Columns: xl, yl, xr, yr. */
 #ifndef BAUM_I_CATALOG_DATA_CAR_AXIS_H
 #define BAUM_I_CATALOG_DATA_CAR_AXIS_H
 

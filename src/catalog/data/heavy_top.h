@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Heavy top of Bruels, Cardona and Arnold.
- * Columns: precession about z, elevation of the axis, spin about it. */
+ * Columns: precession about z, elevation of the axis, spin about the axis. */
 #ifndef BAUM_I_CATALOG_DATA_HEAVY_TOP_H
 #define BAUM_I_CATALOG_DATA_HEAVY_TOP_H
 

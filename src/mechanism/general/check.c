@@ -58,7 +58,8 @@ typedef struct column {
   const baum_i_field *field;
   const baum_i_ray *ray;
   const double *row_size; /* (field->size) result of find_row_size(), or NULL */
-  int first;              /* entry i of the ray is entry first + i * stride of the claim */
+  /* Entry i of the derivative along the ray is entry first + i * stride of the claim. */
+  int first;
   int stride;
 } column;
 

@@ -61,7 +61,8 @@ baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable
 /* ---- one step size at a time, for check.c ---- */
 
 /* A difference formula for the first or second derivative, and the step sizes that are tried. Each
- * formula has a variant of sixth and one of fourth order, whose difference estimates the error. */
+ * formula has a variant of sixth order and one of fourth order. The difference between the two
+ * results estimates the error. */
 typedef struct baum_i_stencil {
   int order;
   double sixth[3]; /* weights of the values of f at 1, 2 and 3 steps on both sides */

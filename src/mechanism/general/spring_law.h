@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The part that all springs have in common: the tension T as a function of a length l and its rate
- * l'. For a torsion spring, l is an angle; for a joint spring, it is a coordinate of a joint.
+ * l'. For a torsion spring, l is an angle; for a joint spring, it is a coordinate of a joint. k is
+ * the stiffness, c the damping, and l_0 the free length.
  *
  *   T = k (l - l_0) + c l' with the potential V = k (l - l_0)^2 / 2,
  *   or a user's law T(l, l'), which has no potential

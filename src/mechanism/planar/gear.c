@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gear, planar: two wheels a and b on a carrier c roll on each other without slip (Nikravesh 1988,
  * chapter 4; Haug 1989, chapter 3). Seen from the carrier, both pitch circles have the same speed
- * at the point of contact. For external gears, R_a w_a = -R_b w_b:
+ * at the point of contact. With the pitch radii R_a and R_b and the angular velocities w_a and w_b
+ * relative to the carrier, external gears satisfy R_a w_a = -R_b w_b:
  *
  *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1 row)
  *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9 columns), constant

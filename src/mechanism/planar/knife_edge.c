@@ -7,10 +7,12 @@
  *   J v = n . (r_a' + w_a k x p - r_b' - w_b k x D),   nu = 0
  *   J   = [ n   c   -n   -(t . R + c) ],   c = t . p                       (6 columns)
  *
- * c is constant, because both vectors are fixed in body_a. With d = r_a' - r_b':
+ * c is constant, because both vectors are fixed in body_a. Let d = r_a' - r_b'. In the formula of
+ * (J w)_q, w_ra, w_rb and w_b are the entries of the vector w for r_a, r_b and angle_b. In all other
+ * formulas, w_a and w_b are the angular velocities of the bodies:
  *
  *   gamma   = -J' v = (w_a + w_b) t . d + w_a w_b n . R
- *   (J w)_q = [ -t w_b   -t . (w_ra - w_rb) - n . R w_b   t w_b   0 ]      w_b: entry of angle_b
+ *   (J w)_q = [ -t w_b   -t . (w_ra - w_rb) - n . R w_b   t w_b   0 ]
  *   gamma_q = w_a w_b [ n   -t . R   -n   0 ] + (w_a + w_b) [ 0   n . d   0   0 ]
  *   gamma_v = (w_a + w_b) [ t   0   -t   0 ] + t . d [ 0 1 0 1 ] + n . R [ 0   w_b   0   w_a ]
  *

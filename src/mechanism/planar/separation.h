@@ -31,8 +31,8 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
   };
 }
 
-/* Return the length of the vector (x, y). The function hypot() is slower than sqrt(). It is needed
- * only if squares could overflow or become zero. */
+/* Return the length of the vector (x, y). The function hypot() is slower than sqrt(), so it is
+ * called only if squares could overflow or become zero. */
 static inline double baum_i_length_of(double x, double y)
 {
   double square = x * x + y * y;

@@ -166,8 +166,8 @@ static baum_status lower_axes_b(const baum_mechanism *mechanism, const baum_i_jo
   if (baum_i_spatial_is_given(def->axis_b)) {
     to_ground(&def->head, &b, def->axis_b, z);
   }
-  /* With n = z_a x z_b and c = z_a . z_b, this rotation takes y to y + n x y + n x (n x y) /
-   * (1 + c). */
+  /* Let n = z_a x z_b and c = z_a . z_b. This rotation takes any vector y to
+   * y + n x y + n x (n x y) / (1 + c). */
   double c = baum_i_dot3(axes + 6, z);
   double n[3];
   double first[3];

@@ -13,8 +13,9 @@
  *
  *   U(z) = V_b + W_b x (p + rho) - V_a - W_a x (d + rho)
  *
- * The first row is a row of positions, k . (d + rho) - k . s_a = 0. Its J is k . U. The other two
- * rows are of velocity level. They are e . U = 0 for two directions e in the plane.
+ * The first row is a row of positions, k . (d + rho) - k . s_a = 0. Here s_a is the vector from the
+ * origin of body_a to a point of the plane. The J of this row is k . U. The other two rows are of
+ * velocity level. They are e . U = 0 for two directions e in the plane.
  *
  * Let D_y be the derivative along a motion y. For this derivative, the V of a motion z are constant
  * in ground axes, and its W are constant in body axes:

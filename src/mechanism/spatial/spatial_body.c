@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies in space. A particle has q = r and v = r'. A rigid body has q = (r, p) and v = (r', w).
  * Here r is the centre of mass in ground axes, p is a unit quaternion, and w is the angular
- * velocity in body axes.
+ * velocity in body axes. m is the mass, I the inertia tensor in body axes, and E the unit matrix.
  *
  *   p' = p o (0, w) / 2,  where o is the product of quaternions
  *   M = diag(m E, I), constant; for a particle M = m E

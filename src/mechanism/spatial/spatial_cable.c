@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cable over points that are fixed in bodies. d is the field `transition` of the definition. Let
- * e_k be the vector from point k to point k + 1, l_k = |e_k|, l = sum of l_k, and h = l_q. T(l, l')
- * is the tension. It is the result of a user's law, or, with s = l - l_0,
+/* Cable over points that are fixed in bodies. Let e_i be the vector from point i to point i + 1,
+ * l_i = |e_i|, l = sum of l_i, and h = l_q. The stiffness k, the damping c and the free length l_0
+ * are those of general/spring_law.h. d is the field `transition` of the definition. T(l, l') is the
+ * tension. It is the result of a user's law, or, with s = l - l_0,
  *
  *   T = max(0, k s + c w(s / d) l') for s > 0, otherwise 0;   w(x) = x^2 (3 - 2 x), 1 for x > 1
  *
@@ -9,8 +10,8 @@
  *   g_q = -h T_q - T h_q,   T_q = T_l h + T_l' (l')_q
  *   g_v = -T_l' h h^T
  *
- * h, h_q and (l')_q are sums over the parts k, each from point k to point k + 1. The squared length
- * of a part is a product e_k . e_k (spatial_spring.c). A part with l_k = 0 has no direction and is
+ * h, h_q and (l')_q are sums over the parts i, each from point i to point i + 1. The squared length
+ * of a part is a product e_i . e_i (spatial_spring.c). A part with l_i = 0 has no direction and is
  * omitted. If consecutive points are on the same body, the part between them has a constant length,
  * and its derivatives cancel.
  */
@@ -154,8 +155,8 @@ static baum_status potential(const baum_i_force *force, baum_i_point *point, dou
 
 /* While the damper of a slackening cable cancels its spring, the cable exerts no force, but its
  * potential decreases. The step control of a run does not notice this decrease, which ends suddenly
- * at s = 0. Integrating its power would therefore be inaccurate. For a damped cable, power() uses
- * the whole force, and the decrease is a difference of two potentials. */
+ * at s = 0. The integral of the power of the spring would therefore be inaccurate. For a damped
+ * cable, power() uses the whole force, and the decrease is a difference of two potentials. */
 static bool power_is_whole(const baum_i_force *force)
 {
   const baum_spatial_cable_def *def = force->element.def;
