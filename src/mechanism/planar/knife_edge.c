@@ -8,8 +8,8 @@
  *   J   = [ n   c   -n   -(t . R + c) ],   c = t . p                       (6 columns)
  *
  * c is constant, because both vectors are fixed in body_a. Let d = r_a' - r_b'. In the formula of
- * (J w)_q, w_ra, w_rb and w_b are the entries of the vector w for r_a, r_b and angle_b. In all other
- * formulas, w_a and w_b are the angular velocities of the bodies:
+ * (J w)_q, w_ra, w_rb and w_b are the entries of the vector w for r_a, r_b and angle_b. In the
+ * other formulas, w_a and w_b are the angular velocities of the bodies:
  *
  *   gamma   = -J' v = (w_a + w_b) t . d + w_a w_b n . R
  *   (J w)_q = [ -t w_b   -t . (w_ra - w_rb) - n . R w_b   t w_b   0 ]
