@@ -90,8 +90,8 @@ class _Task:
     def claim(self) -> bool:
         """Claim this call. Return whether the caller is the first one to claim it.
 
-        The worker claims a call before it makes the call. If Ctrl-C comes before that, the main
-        thread claims the call in order to discard it.
+        The worker claims a call before it makes the call. If Ctrl-C comes before the worker has
+        claimed the call, the main thread claims the call in order to discard it.
         """
         me = object()
         return self._claims.setdefault("first", me) is me
@@ -160,8 +160,8 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
     """Make a call that Ctrl-C can stop.
 
     When KeyboardInterrupt comes, cancel the call, wait until it returns, and then raise the
-    exception. When it comes a second time, raise it without waiting. The objects that the call uses
-    then stay alive and busy until the call returns.
+    exception. When a second KeyboardInterrupt comes, raise it without waiting. The objects that the
+    call uses then stay alive and busy until the call returns.
     """
     global _worker
     if not in_main_thread():

@@ -362,9 +362,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
         If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
         is placed in the new design configuration. Angles of spatial joints are 0 in the new design
-        configuration. Therefore some changes raise ValueError: those that alter the angle of a
-        spatial joint that a driver, a coupling or a spring uses, and those that alter the relative
-        orientation of a spatial weld or prismatic joint.
+        configuration. Therefore some changes raise ValueError: those that alter an angle of a
+        spatial joint if a driver, a coupling or a spring uses this angle, and those that alter the
+        relative orientation of the bodies of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -463,7 +463,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     def check_derivatives(self) -> None:
         """Check the derivatives that your functions return, by finite differences. Raises
-        baum.Error if a derivative is wrong; the message names the wrong entry."""
+        baum.Error if a derivative is wrong; the message names this derivative."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:

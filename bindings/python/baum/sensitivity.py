@@ -72,7 +72,8 @@ def sensitivities(
 ) -> Sensitivities:
     """Compute derivatives of results with respect to parameters by central differences. Four runs
     for each number of a parameter give two difference quotients, with different steps. Richardson's
-    extrapolation from both gives the derivative, and their difference shows how certain it is.
+    extrapolation from both quotients gives the derivative. The difference of the two quotients
+    shows how certain the derivative is.
 
     parameters: a dict from "element.field" to the value at which the derivatives are computed, such
         as {"rod.mass": 0.2}. An orientation cannot be a parameter.

@@ -231,8 +231,8 @@ class Simulation(_calls.Closing):
     check_derivatives: True first compares the derivatives of your functions with finite
         differences.
     max_steps: number of steps after which a call fails.
-    energy_account: True computes the work of all forces during the run, which the property and the
-        channel `energy_account` report.
+    energy_account: True computes the work of all forces during the run. The property and the
+        channel `energy_account` report this work.
     error_check: True estimates the error of the motion by a second integration
         (counters.error_estimate), and warns if the error is large. Without this option, a run with
         fixed steps makes this second integration only if the sum of its local errors becomes large
