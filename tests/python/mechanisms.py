@@ -33,7 +33,7 @@ def pendulum(phi=circle, **functions):
 
 
 def rod_pendulum():
-    """The same pendulum, with a distance joint instead of Python functions."""
+    """The pendulum of pendulum(), with a distance joint instead of Python functions."""
     m = baum.Mechanism()
     m.planar_particle("bob", mass=1, position=(1, 0))
     m.distance("rod", "ground", "bob", point_a=(0, 0), point_b=(0, 0))

@@ -2,7 +2,7 @@
 """Call the C library. This module converts statuses, raises the exceptions of callbacks, lets
 Ctrl-C stop a call, and allows only one thread at a time to use an object.
 
-Python handles signals in the main thread, between two of its instructions. If the main thread made
+Python handles signals in the main thread, between two Python instructions. If the main thread made
 a long call of the library, Ctrl-C would have no effect before the end of this call. If the call
 runs Python callbacks, KeyboardInterrupt could even be raised where nothing can catch it. The main
 thread therefore hands such calls to a second thread, and waits in a way that Ctrl-C can interrupt.

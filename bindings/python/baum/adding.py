@@ -146,7 +146,7 @@ class Adding:
         potential(t, q): potential energy of the force [J].
         q: (size) positions in the design configuration, by default 0.
         v: (size) velocities at the start. By default assembly determines them.
-        scale: (size) how much each position typically changes. Tolerances are relative to it.
+        scale: (size) typical change of each position. Tolerances are relative to this change.
         constant_mass: True if M is constant.
         held: True if assembly must not move these coordinates.
         inputs: inputs whose values force, force_q and force_v receive as further arguments after v.

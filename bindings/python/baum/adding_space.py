@@ -366,7 +366,7 @@ class AddingInSpace:
 
         The joint has three rows: the height of the disc over the plane [m], and the velocities of
         the contact point in two directions of the plane, which are rows at velocity level [m/s].
-        Its reaction is the force and the moment on body_b at the contact point.
+        The reaction of the joint is the force and the moment on body_b at the contact point.
 
         radius: largest radius of the disc [m], positive.
         body_a: the body of the plane, by default ground.

@@ -246,7 +246,7 @@ class Joint(Element):
     @property
     def effort(self) -> Channel:
         """Channel: force [N] or torque [N m] that a driver exerts on the coordinate it prescribes.
-        Its product with the joint velocity is the power that the driver supplies."""
+        The effort times the velocity of the coordinate is the power that the driver supplies."""
         return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
 
     def _coordinate(self, name: str) -> Channel:

@@ -518,10 +518,10 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         A notebook shows the returned picture. Its method save("x.svg") writes it to a file. The
         suffixes .pdf and .png need Matplotlib.
 
-        Red lines show where the constraints of a joint are violated. They connect points that
-        should coincide, a point with the line, plane or curve on which it should be, and the tips
-        of axes that should be parallel. If the mechanism cannot be assembled, "assembled" shows the
-        configuration in which assembly stopped.
+        Red lines show where the constraints of a joint are violated. A red line connects two points
+        that should coincide, a point with the line, plane or curve on which it should be, or the
+        tips of two axes that should be parallel. If the mechanism cannot be assembled, "assembled"
+        shows the configuration in which assembly stopped.
         """
         return drawings.draw(self, q)
 
