@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows mechanisms of the catalogue in motion. Writes a page for each of them, which any browser
-can show without a network, and a drawing of its initial configuration."""
+"""Shows mechanisms of the catalogue in motion. For each mechanism, the program writes a page and a
+drawing of the initial configuration. Any browser can show the page without a network."""
 
 import sys
 import warnings

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A control loop. Every millisecond a controller reads the angle and the speed of the crank of a
  * slider-crank, and sets the torque of the motor. It keeps the speed constant, even when a brake is
- * switched on. Each of these intervals consists of ten steps of fixed length. These steps allocate
- * no memory, so the computing time of an interval is bounded. A table shows the wall times of the
- * intervals. */
+ * switched on. In each interval of one millisecond, the run takes ten steps of fixed length. These
+ * steps allocate no memory, so the computing time of an interval is bounded. A table shows the wall
+ * times of the intervals. */
 #include <time.h>
 
 #include "slider_crank_model.h"
@@ -15,7 +15,7 @@ static const double SPEED = 150.0;       /* [rad/s] set point and initial speed 
 static const double PROPORTIONAL = 0.02; /* [N m s/rad] */
 static const double INTEGRAL = 0.1;      /* [N m/rad] */
 static const double BRAKE = -0.2;        /* [N m] */
-static const double BRAKE_TIME = 1.0;    /* [s] the brake is switched on */
+static const double BRAKE_TIME = 1.0;    /* [s] time at which the brake is switched on */
 
 typedef struct loop {
   baum_simulation *run;
@@ -23,7 +23,7 @@ typedef struct loop {
   baum_input_id motor;
   baum_input_id brake;
   double crank[2];     /* [rad] angle and [rad/s] angular velocity */
-  double work;         /* [J] net work of motor and brake; the brake's is negative */
+  double work;         /* [J] net work of motor and brake; the work of the brake is negative */
   double longest;      /* [s] longest wall time of an interval */
   double longest_step; /* [s] largest mean wall time of a step in an interval */
   /* Element k counts the intervals that take 2^k to 2^(k+1) us. The last element counts all longer

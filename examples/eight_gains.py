@@ -72,7 +72,7 @@ def main() -> int:
         marks=[
             (
                 np.nan,
-                "Curves: log10 of the largest violation [m] of the slider-crank in their colour",
+                "Curves: log10 of the largest violation [m] of the slider-crank of the same colour",
             )
         ],
     )

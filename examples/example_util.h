@@ -3,7 +3,8 @@
  * library.
  *
  * - example_begin() reads the command line: [--json FILE] [--data FILE] [--page FILE].
- * - example_table() begins a table. Its cells follow row by row.
+ * - example_table() begins a table. Calls of example_text() and example_number() then write its
+ *   cells, row by row.
  * - example_expect() makes a check. If a check fails, the program fails. All checks must come after
  *   all tables.
  * - example_end() closes the files and returns the exit code.

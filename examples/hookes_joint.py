@@ -26,8 +26,8 @@ COLUMNS = {
 
 
 def shafts(joint: str) -> baum.Mechanism:
-    """Build both shafts. They meet at the origin. The joint and a support at its far end hold the
-    second shaft, so no row is redundant."""
+    """Build both shafts. They meet at the origin. The second shaft is held only by the joint and by
+    a support at its far end, so no row is redundant."""
     m = baum.Mechanism(gravity=(0, 0, 0))
     first_tensor = inertia.cylinder(2, radius=0.02, length=LENGTH, axis="x")
     first = m.spatial_body("first", mass=2, inertia=first_tensor, position=-LENGTH / 2 * INTO)

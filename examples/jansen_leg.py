@@ -12,8 +12,8 @@ import numpy as np
 from baum.typing import Array
 from support.report import Report
 
-# [m] Jansen's thirteen lengths. The length of the crank is m. Relative to the axle of the crank,
-# the hip is at (-a, -l).
+# Jansen's thirteen lengths [m]. The letter m stands for the length of the crank. Relative to the
+# axle of the crank, the hip is at (-a, -l).
 LENGTH = SimpleNamespace(
     **{"a": 0.38, "b": 0.415, "c": 0.393, "d": 0.401, "e": 0.558, "f": 0.394, "g": 0.367},
     **{"h": 0.657, "i": 0.49, "j": 0.5, "k": 0.619, "l": 0.078, "m": 0.15},

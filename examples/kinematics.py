@@ -4,8 +4,8 @@ freedom, so every configuration follows from the constraints alone. The torque o
 from the accelerations.
 
 A pin of the crank slides in a slot of the rocker. A pin of the ram slides in the same slot, and a
-guide lets the ram move only horizontally. With the crank at angle p the ram is at
-x = H R cos(p) / (D + R sin(p)).
+guide lets the ram move only horizontally. With the lengths R, D and H that are defined below, and
+with the crank at angle p, the ram is at x = H R cos(p) / (D + R sin(p)).
 """
 
 import sys
@@ -88,8 +88,8 @@ def main() -> int:
     report.expect("its acceleration, off by [m/s^2]", error[2], 1e-9)
     turned = m.simulate(turning_times(), "kinematics")["ram.velocity"][:, 0]
     report.expect("velocity where the ram reverses [m/s]", abs(turned).max(), 1e-11)
-    # These values are periodic, so the trapezoidal rule gives their means exactly, up to rounding
-    # errors.
+    # The torque of the motor and the velocity of the ram are periodic. The trapezoidal rule gives
+    # the mean torque and the mean square of this velocity exactly, up to rounding errors.
     work = OMEGA * effort[1:].mean() * times[-1]
     lost = DAMPING * (ram[1, 1:] ** 2).mean() * times[-1]
     report.expect("work of the motor minus loss in oil [J]", abs(work - lost), 1e-9 * lost)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Peaucellier's linkage, which draws an exactly straight line with rods and pins only. Two equal
-rods connect two opposite corners of a rhombus to a fixed point. If the third corner moves on a
-circle through this point, the fourth corner moves on a straight line."""
+rods connect two opposite corners of a rhombus to a fixed point. If one of the other two corners
+moves on a circle through this point, the last corner moves on a straight line."""
 
 import sys
 from pathlib import Path

@@ -36,8 +36,9 @@ def rocker_end(angle: Array) -> Array:
 
 
 def rocker_angle(t: Array) -> Array:
-    """Return the exact angle of the rocker [rad]. The catalogue contains this mechanism, with a
-    coupler that does not rotate about its own axis, and its motion is known in closed form."""
+    """Return the exact angle of the rocker [rad]. The catalogue contains this mechanism with a
+    coupler that does not rotate about its own axis. The motion of that mechanism is known in closed
+    form, and its rocker has the same angle."""
     q = catalog.reference("rssr", t).q
     # q[:, 17] and q[:, 18] are w and x of the rocker's quaternion.
     found: Array = np.unwrap(2 * np.arctan2(q[:, 18], q[:, 17]))

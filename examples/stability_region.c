@@ -161,8 +161,8 @@ static bool at_boundary(const window *w, int i, int j)
 }
 
 /* Simulates all points of the grid and writes them to the files. @return the number of points where
- * simulation and prediction differ. Adds those that are not next to the predicted boundary to
- * `astray`. */
+ * simulation and prediction differ. Adds to `astray` the number of those points that are not next
+ * to the predicted boundary. */
 static int compare(const bench *b, const window *w, int *astray)
 {
   static const example_column columns[] = {{"alpha_h", "alpha h [-]", 'f', 4},

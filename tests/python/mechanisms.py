@@ -5,8 +5,8 @@ import baum
 
 
 def slider_crank(omega=None, r=0.153, l=0.306, e=0.05):
-    """The eccentric slider-crank of the first example. A driver rotates the crank at omega [rad/s],
-    if it is given."""
+    """The eccentric slider-crank of the first example. If omega [rad/s] is given, a driver rotates
+    the crank at this angular velocity."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(r / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(r + l / 2, 0))
@@ -33,7 +33,7 @@ def pendulum(phi=circle, **functions):
 
 
 def rod_pendulum():
-    """The same pendulum, with a distance joint instead of Python functions."""
+    """The pendulum of pendulum(), with a distance joint instead of Python functions."""
     m = baum.Mechanism()
     m.planar_particle("bob", mass=1, position=(1, 0))
     m.distance("rod", "ground", "bob", point_a=(0, 0), point_b=(0, 0))

@@ -83,8 +83,8 @@ class Catalog(unittest.TestCase):
         known = catalog.reference("pendulum", [0.3, 0.1], length=2.0, angle=0.01)
         rate = math.sqrt(9.81 / 2)
         # The period of a pendulum is longer than that of small oscillations by the fraction
-        # angle^2 / 16 = 6e-6. At the last time, the phase is 0.66 rad. The error of the cosine
-        # formula is therefore at most 0.01 x 0.66 x 6e-6 = 4e-8 rad.
+        # angle^2 / 16 = 6e-6. At 0.3 s, the phase is 0.66 rad. The error of the cosine formula is
+        # therefore at most 0.01 x 0.66 x 6e-6 = 4e-8 rad.
         np.testing.assert_allclose(
             np.arcsin(known.q[:, 0] / 2), 0.01 * np.cos(rate * known.t), rtol=0, atol=5e-8
         )

@@ -17,7 +17,8 @@ class EnergyAccount(unittest.TestCase):
         self.assertEqual(run["energy_account"].shape, (3, 12))
         self.assertEqual(run["energy_account"][-1, -1], account.residual)
         self.assertEqual(run.counters.energy_residual, account.residual)
-        # The energy is 1.6 J; the error of rk4 with 1000 steps per second is much smaller.
+        # The kinetic energy at the end is 1.6 J. The error of rk4 with 1000 steps per second is
+        # much smaller.
         self.assertLess(abs(account.residual), 1e-9)
         self.assertGreater(account.kinetic, 1.0)
         self.assertGreater(account.evaluations, 0)

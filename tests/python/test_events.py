@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests events, schedules of inputs and saved states in Python. Everything else about them is
-tested in C."""
+"""Tests events, schedules of inputs and saved states in Python. C tests cover everything else about
+events, schedules and saved states."""
 
 import math
 import pickle

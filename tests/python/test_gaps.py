@@ -50,7 +50,7 @@ def helix(xyz):
 
 ALONG = {"point": (1, 0, 0), "axis": (1, 0, 0)}
 # For each kind of joint, two lists of displacements of the body (x, y, angle). Those in the first
-# list keep the joint closed.
+# list keep the joint closed, and those in the second list open it.
 PLANE = {
     "revolute": (lambda m, b: m.revolute("joint", m.ground, b, point=(1, 0)), [(0, 0, 1)], [(0.1, 0, 0)]),
     "translational": (lambda m, b: m.translational("joint", m.ground, b, point=(0, 0)),
@@ -63,7 +63,8 @@ PLANE = {
     "curve": (lambda m, b: m.curve("joint", m.ground, b, circle, point_a=(0.5, 0), point_b=(0, 0)),
               [(-0.5, 0.5, 0), (-0.5, -0.5, 1)], [(0.1, 0, 0), (-0.2, 0.5, 0)]),
 }
-# A displacement is along x, y or z, or a rotation of 0.3 rad about an axis.
+# The same for joints in space. Three numbers are a displacement (x, y, z), and a letter is a
+# rotation of 0.3 rad about this axis.
 SPACE = {
     "spherical": (lambda m, b: m.spherical("joint", m.ground, b, point=(1, 0, 0)), ["x", "y", "z"], [(0.1, 0, 0)]),
     "revolute": (lambda m, b: m.spatial_revolute("joint", m.ground, b, point=(1, 0, 0), axis=(1, 0, 0)),

@@ -24,7 +24,7 @@ def disk(initial=0.0, **load):
 
 
 def force(w):
-    """Return the force vector of a workspace in which every coordinate is 0."""
+    """Return the force vector that a workspace computes if all positions and velocities are 0."""
     zeros = np.zeros(w.mechanism.sizes.nq)
     return w.force(0, zeros, zeros)
 

@@ -18,8 +18,8 @@ const char *baum_version(void) {{ return "{version}"; }}
 
 
 def import_with(library):
-    """Import baum in a new interpreter with BAUM_LIBRARY set, and return the last line of its
-    output."""
+    """Import baum in a new interpreter with BAUM_LIBRARY set, and return what the interpreter
+    writes to standard error."""
     environment = {**os.environ, "BAUM_LIBRARY": library}
     done = subprocess.run(
         [sys.executable, "-c", "import baum"], env=environment, capture_output=True, text=True

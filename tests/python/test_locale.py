@@ -44,7 +44,7 @@ print("\\n".join(texts))
 """
 
 
-@unittest.skipUnless(shutil.which("localedef"), "localedef is missing, which makes the locale")
+@unittest.skipUnless(shutil.which("localedef"), "localedef, which makes the locale, is missing")
 class Commas(unittest.TestCase):
     def test_no_number_has_one(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -2,7 +2,7 @@
 """Call the C library. This module converts statuses, raises the exceptions of callbacks, lets
 Ctrl-C stop a call, and allows only one thread at a time to use an object.
 
-Python handles signals in the main thread, between two of its instructions. If the main thread made
+Python handles signals in the main thread, between two Python instructions. If the main thread made
 a long call of the library, Ctrl-C would have no effect before the end of this call. If the call
 runs Python callbacks, KeyboardInterrupt could even be raised where nothing can catch it. The main
 thread therefore hands such calls to a second thread, and waits in a way that Ctrl-C can interrupt.
@@ -90,8 +90,8 @@ class _Task:
     def claim(self) -> bool:
         """Claim this call. Return whether the caller is the first one to claim it.
 
-        The worker claims a call before it makes the call. If Ctrl-C comes before that, the main
-        thread claims the call in order to discard it.
+        The worker claims a call before it makes the call. If Ctrl-C comes before the worker has
+        claimed the call, the main thread claims the call in order to discard it.
         """
         me = object()
         return self._claims.setdefault("first", me) is me
@@ -160,8 +160,8 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
     """Make a call that Ctrl-C can stop.
 
     When KeyboardInterrupt comes, cancel the call, wait until it returns, and then raise the
-    exception. When it comes a second time, raise it without waiting. The objects that the call uses
-    then stay alive and busy until the call returns.
+    exception. When a second KeyboardInterrupt comes, raise it without waiting. The objects that the
+    call uses then stay alive and busy until the call returns.
     """
     global _worker
     if not in_main_thread():

@@ -83,8 +83,7 @@ def listed(value: Any) -> Any:
 
 
 def _trace(mechanism: Mechanism, trace: TraceLike) -> Channel:
-    """Return the channel of a path, which is given as a body, as the name of a body or as a
-    channel."""
+    """Return the channel of a path. `trace` is a body, the name of a body, or a channel."""
     if isinstance(trace, str) and trace in mechanism and isinstance(mechanism[trace], Body):
         trace = mechanism[trace]
     return trace.pose if isinstance(trace, Body) else mechanism.channel(trace)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The web server of a view. It serves the page and its stream of frames, and handles its
-buttons."""
+"""The web server of a view. It serves the page, sends states of the run to the page as frames, and
+handles the buttons of the page."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .mechanism import Mechanism
 
 SHARE = 0.02  # a thread spends at most this fraction of its time on making frames
-TIMEOUT = 10.0  # [s] a connection ends if its page has not read for this time
+TIMEOUT = 10.0  # [s] a connection ends if its page has read no data for this time
 SCRIPT = Path(__file__).with_name("live.js")
 
 

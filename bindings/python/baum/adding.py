@@ -146,7 +146,7 @@ class Adding:
         potential(t, q): potential energy of the force [J].
         q: (size) positions in the design configuration, by default 0.
         v: (size) velocities at the start. By default assembly determines them.
-        scale: (size) how much each position typically changes. Tolerances are relative to it.
+        scale: (size) typical change of each position. Tolerances are relative to this change.
         constant_mass: True if M is constant.
         held: True if assembly must not move these coordinates.
         inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
@@ -154,8 +154,8 @@ class Adding:
             False.
         user: the last argument of compiled functions, an address or an object of ctypes.
 
-        If the positions are not a vector, for example if they are a unit quaternion, give these
-        arguments, too. Derivatives with respect to q are then derivatives along displacements, so
+        If the positions are not a vector, for example if they are a unit quaternion, also give the
+        arguments below. Derivatives with respect to q are then derivatives along displacements, so
         they have `size` columns, not `position_count`.
 
         position_count: number of positions.
@@ -538,8 +538,8 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and a damper between two points. They are linear, or a law gives their
-        force.
+        """Add a spring and a damper between two points. Their force is linear, or a law computes
+        it.
 
         point_a, point_b: the points in the axes of body_a and body_b [m].
         stiffness: [N/m].

@@ -29,8 +29,8 @@ class AddingInSpace:
     bodies. `axis` is a direction on body_a, and `axis_b` is the corresponding direction on body_b.
     These two vectors may have any length except 0. They are in ground axes if `point` is given,
     otherwise in the axes of the bodies. By default, `axis_b` coincides with `axis` in the design
-    configuration. Spatial joints and springs can also connect planar bodies and planar particles.
-    These stay in the plane z = 0.
+    configuration. Spatial joints and springs can also connect planar bodies and planar particles,
+    which stay in the plane z = 0.
     """
 
     if TYPE_CHECKING:
@@ -366,7 +366,7 @@ class AddingInSpace:
 
         The joint has three rows: the height of the disc over the plane [m], and the velocities of
         the contact point in two directions of the plane, which are rows at velocity level [m/s].
-        Its reaction is the force and the moment on body_b at the contact point.
+        The reaction of the joint is the force and the moment on body_b at the contact point.
 
         radius: largest radius of the disc [m], positive.
         body_a: the body of the plane, by default ground.
@@ -468,8 +468,8 @@ class AddingInSpace:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a spring and a damper between two points in space. They are linear, or a law gives
-        their force.
+        """Add a spring and a damper between two points in space. Their force is linear, or a law
+        computes it.
 
         The points are x, y, z in body axes [m]. All other arguments are as in spring(). The force
         is zero when the points coincide.
@@ -532,13 +532,13 @@ class AddingInSpace:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a torsion spring and a damper between two bodies in space, about an axis. They are
-        linear, or a law gives their torque.
+        """Add a torsion spring and a damper between two bodies in space, about an axis. Their
+        torque is linear, or a law computes it.
 
         Points and axes are given as for joints. The angle is the twist of body_b relative to body_a
         about the axis, as in the swing-twist decomposition: the smallest rotation that makes axis_b
-        parallel to axis is removed, and the angle measures the rotation about the axis that
-        remains. It is 0 in the design configuration. During a run it is continuous over several
+        parallel to axis is removed, and a rotation about the axis remains. The angle of this
+        rotation is 0 in the design configuration. During a run it is continuous over several
         revolutions. All other arguments are as in torsion_spring(). For the angle of a joint, use
         joint_spring().
         """

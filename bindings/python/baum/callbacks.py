@@ -11,8 +11,8 @@ present values after v, as floats.
 
 Instead of a Python function, the user may give the address of a compiled function: an int, a ctypes
 function pointer, or an object with an integer attribute `address`, such as Numba's cfunc. The
-library calls it directly. A compiled force function receives all inputs of the mechanism, in the
-order in which they were added.
+library calls a compiled function directly. A compiled force function receives all inputs of the
+mechanism, in the order in which they were added.
 """
 
 from __future__ import annotations
@@ -81,8 +81,8 @@ def _checked(value: Any, shape: Shape, label: str) -> Array:
 
 
 def _writer(shape: Shape, label: str) -> Write:
-    """Return a function that writes a returned value to an address. It has a fast path for values
-    of the right type."""
+    """Return a function write(address, value), which writes a value into memory. It has a fast path
+    for values of the right type."""
     views = _Views(shape, writeable=True)
     single = int(np.prod(shape)) == 1
     first = (0,) * len(shape)

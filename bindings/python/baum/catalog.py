@@ -11,9 +11,9 @@
     print(catalog.compare(run, "n_four_bar", windows=3).q)
 
 Keyword arguments set the parameters of a mechanism; the other parameters have their defaults. Data,
-times and states are in SI units. Some references are known only for the default parameters.
-baum.Error is raised if you ask for such a reference with other parameters, and for unknown names
-and parameters. docs/mechanisms.md lists all mechanisms.
+times and states are in SI units. A reference is the known motion of a mechanism. Some references
+exist only for the default parameters. baum.Error is raised if you ask for such a reference with
+other parameters, and for unknown names and parameters. docs/mechanisms.md lists all mechanisms.
 """
 
 from __future__ import annotations

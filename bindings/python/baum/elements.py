@@ -151,8 +151,8 @@ class Body(Element):
 
     @property
     def outline(self) -> list[Outline]:
-        """The outlines of the body, as a list. Outlines replace the shape that drawings show. The
-        list is empty if the library chooses the shape.
+        """The outlines of the body, as a list. Drawings show the outlines as the shape of the body.
+        The list is empty if the library chooses the shape.
 
         You can set this property for every body except user coordinates, and also for ground. Its
         value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
@@ -203,8 +203,8 @@ class Joint(Element):
     @property
     def reaction(self) -> Channel:
         """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
-        axes. The moment is about the joint's point on body_b. For joints in space, both
-        have three components. For a gear, a coupling or a user constraint, the channel has the
+        axes. The moment is about the joint's point on body_b. For joints in space, force and moment
+        have three components each. For a gear, a coupling or a user constraint, the channel has the
         generalized force -J^T lambda, with one number for each velocity of its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
@@ -246,7 +246,7 @@ class Joint(Element):
     @property
     def effort(self) -> Channel:
         """Channel: force [N] or torque [N m] that a driver exerts on the coordinate it prescribes.
-        Its product with the joint velocity is the power that the driver supplies."""
+        The effort times the velocity of the coordinate is the power that the driver supplies."""
         return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
 
     def _coordinate(self, name: str) -> Channel:

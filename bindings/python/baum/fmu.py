@@ -54,7 +54,7 @@ class _Place(ctypes.Structure):
 
 def _library_file() -> Path:
     """Return the file of the loaded library. If the path of the library has no folder, the dynamic
-    loader has searched for the file, and this function asks the loader where it is."""
+    loader has searched for the file, and this function asks the loader where the file is."""
     if os.path.dirname(library) or sys.platform == "win32":
         return Path(library)
     found = _Place()

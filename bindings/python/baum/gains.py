@@ -73,7 +73,7 @@ def deadbeat() -> Gains:
 
 def best_damping() -> Gains:
     """Gains of least spectral radius, which let violations decay fastest. If a method has dead-beat
-    gains, the rule chooses them. It needs a fixed step. It is the default rule of "ab2", "ab3" and
+    gains, the rule chooses them. The rule needs a fixed step. It is the default of "ab2", "ab3" and
     "ab4", which keep their order with these gains."""
     return Gains("best_damping")
 

@@ -129,8 +129,8 @@ def stability_limit(
     integrator: str | Integrator, damping_ratio: Scalar = 1.0, *, velocity_level: bool = False
 ) -> float:
     """Return the stability limit for gains with alpha = damping_ratio x beta: they are stable from
-    alpha h = 0 up to this limit [-]. It is 0 if even small gains are unstable. velocity_level: True
-    returns the limit for rows at velocity level, which have no beta."""
+    alpha h = 0 up to this limit [-]. The limit is 0 if even small gains are unstable.
+    velocity_level: True returns the limit for rows at velocity level, which have no beta."""
     if velocity_level:
         return _numbers(lib.baum_stability_velocity_limit, 1, integrator)[0]
     ratio = number(damping_ratio, "damping_ratio")
@@ -205,7 +205,7 @@ def stability_grid(
 
 def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Array:
     """Return points (alpha h, (beta h)^2) [-] as an array (n x 2). At these points the spectral
-    radius is `radius`. They form closed curves. A row of NaN separates two curves, so that
+    radius is `radius`. The points form closed curves. A row of NaN separates two curves, so that
     Matplotlib draws them separately."""
     return _arrays(lib.baum_stability_outline, integrator, number(radius, "radius"))
 

@@ -3,7 +3,7 @@
 // The server sends frames; the page appends them to its table, so that the time bar grows.
 'use strict';
 {
-const MOST = 2400; // frames; then every other one is omitted
+const MOST = 2400; // largest number of frames; when it is reached, every other frame is removed
 let following = true, paused = false, touched = false, scale = view.scale, room = '';
 
 table.forEach((column, c) => { table[c] = Array.from(column); });

@@ -57,7 +57,7 @@ class Live:
     """What a run and its views share: the newest frame, and whether the run is paused.
 
     The method call() is the progress function that the library calls. The user's progress function
-    is `function`. During the present call, it is called every `interval` seconds.
+    is `function`, which call() calls every `interval` seconds.
     """
 
     def __init__(self, interval: float) -> None:

@@ -362,9 +362,9 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
         If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
         is placed in the new design configuration. Angles of spatial joints are 0 in the new design
-        configuration. Therefore some changes raise ValueError: those that alter the angle of a
-        spatial joint that a driver, a coupling or a spring uses, and those that alter the relative
-        orientation of a spatial weld or prismatic joint.
+        configuration. Therefore some changes raise ValueError: those that alter an angle of a
+        spatial joint if a driver, a coupling or a spring uses this angle, and those that alter the
+        relative orientation of the bodies of a spatial weld or prismatic joint.
         """
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
@@ -463,7 +463,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     def check_derivatives(self) -> None:
         """Check the derivatives that your functions return, by finite differences. Raises
-        baum.Error if a derivative is wrong; the message names the wrong entry."""
+        baum.Error if a derivative is wrong; the message names this derivative."""
         self._long(lib.baum_mechanism_check_derivatives)
 
     def _long(self, function: Any, *arguments: Any) -> None:
@@ -518,10 +518,10 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         A notebook shows the returned picture. Its method save("x.svg") writes it to a file. The
         suffixes .pdf and .png need Matplotlib.
 
-        Red lines show where the constraints of a joint are violated. They connect points that
-        should coincide, a point with the line, plane or curve on which it should be, and the tips
-        of axes that should be parallel. If the mechanism cannot be assembled, "assembled" shows the
-        configuration in which assembly stopped.
+        Red lines show where the constraints of a joint are violated. A red line connects two points
+        that should coincide, a point with the line, plane or curve on which it should be, or the
+        tips of two axes that should be parallel. If the mechanism cannot be assembled, "assembled"
+        shows the configuration in which assembly stopped.
         """
         return drawings.draw(self, q)
 

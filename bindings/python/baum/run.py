@@ -119,8 +119,8 @@ class Run:
     counters: what the run has cost.
     explain: the methods of the run in words.
     warnings: a list with one baum.Warning for each kind of warning.
-    near_singular, events: the near-singular intervals and the events, as lists. They cover the
-        whole simulation up to the last sample.
+    near_singular, events: the near-singular intervals and the events, as lists. Both lists cover
+        the whole simulation up to the last sample.
     energy_account: the energy account at the last sample; None without the option energy_account.
 
     run["B.phi"] or run[m["B"].phi] is a recorded channel (n x columns). Poses and velocities of
@@ -276,8 +276,8 @@ class Run:
 
     @property
     def columns(self) -> dict[str, str]:
-        """The unit of each column of to_dict(), by the name of the column. It is "-" for pure
-        numbers, and "" if the unit depends on your functions."""
+        """The unit of each column of to_dict(), by the name of the column. The unit is "-" for pure
+        numbers, and "" if it depends on your functions."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))

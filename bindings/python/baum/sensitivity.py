@@ -16,7 +16,7 @@ from .typing import Array, ArrayLike, ChannelLike
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-# Each number is changed in four runs. These are the changes, as multiples of its step.
+# Each number is changed in four runs, by these multiples of its difference step.
 CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
 UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
 LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
@@ -72,7 +72,8 @@ def sensitivities(
 ) -> Sensitivities:
     """Compute derivatives of results with respect to parameters by central differences. Four runs
     for each number of a parameter give two difference quotients, with different steps. Richardson's
-    extrapolation from both gives the derivative, and their difference shows how certain it is.
+    extrapolation from both quotients gives the derivative. The difference of the two quotients
+    shows how certain the derivative is.
 
     parameters: a dict from "element.field" to the value at which the derivatives are computed, such
         as {"rod.mass": 0.2}. An orientation cannot be a parameter.
@@ -86,9 +87,9 @@ def sensitivities(
     second call with half the step. Results of methods with variable steps do not depend smoothly on
     parameters. Warns with UncertainSensitivityWarning if the two difference quotients of a
     derivative differ by more than 1e-4 of the largest derivative, unless rounding explains this.
-    For channels, "largest" refers to all samples of a column. Warnings of the runs are repeated.
-    Raises baum.Error if a run fails. Raises ValueError for a step that is not > 0, or that is below
-    1e-8 times the number.
+    For channels, "largest" refers to all samples of a column. Each kind of warning that runs have
+    caused is issued once. Raises baum.Error if a run fails. Raises ValueError for a step that is
+    not > 0, or that is below 1e-8 times the number.
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")

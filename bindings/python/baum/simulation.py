@@ -231,8 +231,8 @@ class Simulation(_calls.Closing):
     check_derivatives: True first compares the derivatives of your functions with finite
         differences.
     max_steps: number of steps after which a call fails.
-    energy_account: True computes the work of all forces during the run, which the property and the
-        channel `energy_account` report.
+    energy_account: True computes the work of all forces during the run. The property and the
+        channel `energy_account` report this work.
     error_check: True estimates the error of the motion by a second integration
         (counters.error_estimate), and warns if the error is large. Without this option, a run with
         fixed steps makes this second integration only if the sum of its local errors becomes large
@@ -653,8 +653,8 @@ class Simulation(_calls.Closing):
         The page has buttons that pause the run, take one step of the integrator, and resume the
         run. While the run is paused, the call that advances it waits. Ctrl-C and cancel() end the
         waiting. If all pages of the run are closed, the run continues. A view ends with close(), at
-        the end of a `with` block, or when the simulation ends. Its server answers only programs on
-        this computer that know the secret in its address.
+        the end of a `with` block, or when the simulation ends. The server of the view answers only
+        programs on this computer that know the secret in View.url.
         """
         return open_view(
             self, self._live, self._owner, title, traces, truth(paused, "paused"), browser

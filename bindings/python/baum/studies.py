@@ -349,7 +349,7 @@ class Study(_calls.Closing):
 
         A study without entries first adds its grid. A Python warning is issued if the reference
         cannot be trusted, or if the time budget is spent. If a function of the mechanism raises an
-        exception, the entry fails, and its message contains the exception.
+        exception in a run of an entry, this entry fails, and its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -472,7 +472,7 @@ class Study(_calls.Closing):
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
         """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
         stays within this limit also from perturbed starts and over twice the time span. If not,
-        `why` says so. Raises baum.Error if there is no such setting."""
+        `why` says so. Raises baum.Error if no setting has so small an error."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)
 

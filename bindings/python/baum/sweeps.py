@@ -279,8 +279,8 @@ def sweep(
         parameter are then its lower and its upper bound.
     executor: an object with a method submit() or map(), such as an executor of concurrent.futures,
         of Dask or of mpi4py. By default the sweep uses threads, which is sufficient unless the
-        mechanism has Python functions. Results do not depend on the executor. If it uses other
-        processes, these must be able to import `reduce` and the functions of the mechanism.
+        mechanism has Python functions. Results do not depend on the executor. If the executor uses
+        other processes, they must be able to import `reduce` and the functions of the mechanism.
     progress: True shows a bar. A function receives the number of finished runs and the number of
         all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
         the status STOP_CANCELLED.

@@ -4,7 +4,8 @@
 usage: generate_abi.py [--check] [INCLUDE_DIR [FOLDER]]
 
 Reads baum/baum.h and baum/catalog.h and the headers that they include. It parses only the C
-constructs that these headers use and fails on any other, so no declaration is omitted silently.
+constructs that these headers use, and fails on any other construct, so no declaration is omitted
+silently.
 --check writes nothing and fails if the output would change.
 """
 
