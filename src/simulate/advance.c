@@ -272,13 +272,14 @@ typedef struct public_call {
   int64_t taken; /* number of steps */
 } public_call;
 
-static void begin_call(baum_simulation *run, public_call *c)
+static baum_status begin_call(baum_simulation *run, public_call *c)
 {
   c->start = baum_i_wall_seconds();
   run->last_progress = c->start;
   run->deadline = c->start + run->time_limit;
   c->taken = 0;
   c->before = baum_i_message_keep();
+  return baum_i_run_may_begin(run);
 }
 
 /* End a call: evaluate and monitor its last state, because no step has evaluated it. If the call
@@ -319,8 +320,9 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
 {
   BAUM_I_TRY(check_time(simulation, "baum_simulation_advance_to", t));
   public_call c;
-  begin_call(simulation, &c);
-  return finish_call(simulation, advance(simulation, t, &c.taken), &c);
+  baum_status status = begin_call(simulation, &c);
+  status = status == BAUM_OK ? advance(simulation, t, &c.taken) : status;
+  return finish_call(simulation, status, &c);
 }
 
 /* Take a step from the end of the last step. The method chooses the length. */
@@ -365,8 +367,9 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
                        (long long)count);
   }
   public_call c;
-  begin_call(simulation, &c);
-  return finish_call(simulation, take_steps(simulation, count), &c);
+  baum_status status = begin_call(simulation, &c);
+  status = status == BAUM_OK ? take_steps(simulation, count) : status;
+  return finish_call(simulation, status, &c);
 }
 
 /* ---- sampling ---- */
@@ -454,7 +457,9 @@ baum_status baum_simulation_sample(baum_simulation *simulation, const double *ti
   *done = 0;
   BAUM_I_TRY(check_sample(simulation, times, n, channels, count, rows));
   public_call c;
-  begin_call(simulation, &c);
-  return finish_call(simulation,
-                     sample_all(simulation, times, n, channels, count, rows, done, &c.taken), &c);
+  baum_status status = begin_call(simulation, &c);
+  if (status == BAUM_OK) {
+    status = sample_all(simulation, times, n, channels, count, rows, done, &c.taken);
+  }
+  return finish_call(simulation, status, &c);
 }

@@ -57,6 +57,7 @@ baum_status baum_i_crossings_create(baum_simulation *run)
   BAUM_I_TRY(baum_i_check_memory(p));
   double *next = (double *)(p + 1);
   p->present.joint = -1;
+  p->joint_noted = -1;
   place_knots(m, p->recent, BAUM_I_RECENT, &next);
   place_knots(m, p->clear, BAUM_I_HERMITE_MOST, &next);
   place_knots(m, &p->at, 1, &next);

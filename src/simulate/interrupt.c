@@ -107,13 +107,26 @@ static baum_status fail_creeping(baum_simulation *run)
   return baum_i_run_explain_failure(run, status, now);
 }
 
-baum_status baum_i_run_is_wanted(baum_simulation *run)
+static baum_status stop_if(const baum_simulation *run, bool is_cancelled)
 {
-  bool asked = atomic_load(&run->cancelled) != 0 && atomic_exchange(&run->cancelled, 0) != 0;
-  bool is_cancelled = asked || progress_cancels(run);
   return is_cancelled
            ? baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", baum_i_run_last_end(run))
            : BAUM_OK;
+}
+
+static bool was_asked(baum_simulation *run)
+{
+  return atomic_load(&run->cancelled) != 0 && atomic_exchange(&run->cancelled, 0) != 0;
+}
+
+baum_status baum_i_run_may_begin(baum_simulation *run)
+{
+  return stop_if(run, was_asked(run));
+}
+
+baum_status baum_i_run_is_wanted(baum_simulation *run)
+{
+  return stop_if(run, was_asked(run) || progress_cancels(run));
 }
 
 baum_status baum_i_run_has_time(const baum_simulation *run)

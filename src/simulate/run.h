@@ -249,6 +249,10 @@ baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
+/* Check at the start of a call whether the run was cancelled before the call, which may be too
+ * short for a step. Returns BAUM_OK or BAUM_STOP_CANCELLED. */
+baum_status baum_i_run_may_begin(baum_simulation *run);
+
 /* Check before every step whether the run must stop because it was cancelled, the time limit of the
  * call has passed, the call has taken too many steps, or the steps are too short. The run then
  * stays at the end of its last step, which is in `ahead` for a variable-step method. */

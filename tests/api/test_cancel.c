@@ -294,6 +294,28 @@ static void samples_that_need_no_step_are_cancelled(void **unused)
   model_destroy(&m);
 }
 
+static void a_request_stops_the_next_call_even_if_it_needs_no_step(void **unused)
+{
+  (void)unused;
+  model m;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    const baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    baum_simulation *run = create_run(m.mechanism, &o);
+    check(baum_simulation_step(run, 3));
+    double t = baum_simulation_time(run);
+    baum_simulation_cancel(run);
+    assert_int_equal(baum_simulation_advance_to(run, t), BAUM_STOP_CANCELLED);
+    assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
+    baum_simulation_cancel(run);
+    assert_int_equal(baum_simulation_sample(run, NULL, 0, NULL, 0, NULL, NULL),
+                     BAUM_STOP_CANCELLED);
+    check(baum_simulation_advance_to(run, t + 0.1));
+    baum_simulation_destroy(run);
+  }
+  model_destroy(&m);
+}
+
 static void a_study_goes_on_to_the_same_entries(void **unused)
 {
   (void)unused;
@@ -432,6 +454,7 @@ int main(void)
     cmocka_unit_test(cancelling_in_the_last_step_does_not_cancel_the_next_call),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
+    cmocka_unit_test(a_request_stops_the_next_call_even_if_it_needs_no_step),
     cmocka_unit_test(time_limits_change_neither_motion_nor_counters),
     cmocka_unit_test(samples_do_not_depend_on_time_limits),
     cmocka_unit_test(time_limits_are_checked),

@@ -19,8 +19,11 @@
 
 #include <cmocka.h>
 
+#include "check.h"
+#include "construct.h"
 #include "runs.h"
 #include "saved_scenes.h"
+#include "step_mode.h"
 
 enum { NEW_RUN_EVERY = 10 /* after this many buffers, the other process creates a new run */ };
 
@@ -229,6 +232,31 @@ static void every_method_goes_on_bit_for_bit_in_another_process(void **state)
   assert_true(number > 20);
 }
 
+/* A particle without joints never has a pivot, because no constraints are solved. */
+static void runs_without_joints_are_saved_before_their_first_step(void **state)
+{
+  (void)state;
+  baum_mechanism *m = create_mechanism();
+  baum_planar_particle_def def = baum_planar_particle_def_default();
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &def, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    const baum_simulation_options o = step_mode_options(step_mode_at(i), 1e-2, 1e-6);
+    baum_simulation *saved = create_run(m, &o);
+    baum_simulation *restored = create_run(m, &o);
+    size_t size = 0;
+    unsigned char *buffer = save_run(saved, &size);
+    check(baum_simulation_restore(restored, buffer, size));
+    free(buffer);
+    check(baum_simulation_advance_to(saved, 0.1));
+    check(baum_simulation_advance_to(restored, 0.1));
+    assert_true(baum_simulation_q(restored)[1] == baum_simulation_q(saved)[1]);
+    baum_simulation_destroy(saved);
+    baum_simulation_destroy(restored);
+  }
+  baum_mechanism_destroy(m);
+}
+
 int main(int argc, char **argv)
 {
   program = argv[0];
@@ -237,6 +265,7 @@ int main(int argc, char **argv)
   }
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_method_goes_on_bit_for_bit_in_another_process),
+    cmocka_unit_test(runs_without_joints_are_saved_before_their_first_step),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
