@@ -35,8 +35,10 @@ static const double SAME_TIME = 1e-12;
 
 /* An interval of time in which the value of an event passes zero. */
 typedef struct bracket {
-  double a, b;   /* the ends of the interval: the run reaches a first, then b */
-  double fa, fb; /* the values at a and b, which have opposite signs */
+  double a, b; /* the ends of the interval: the run reaches a first, then b */
+  /* The values at a and b, which have opposite signs. fa is 0 if a is a start at zero. The interval
+   * is then bisected, because values near a may still be zero. */
+  double fa, fb;
   enum { NOT_MOVED, BEFORE, AFTER } last_moved;
 } bracket;
 
@@ -109,10 +111,20 @@ static baum_status value_at(baum_simulation *run, double t)
 
 /* ---- one event ---- */
 
+/* Tell whether the value of event k has not reached its side yet, but does not move away from it
+ * either. This happens after a start at zero, because of rounding or because the last time of the
+ * event is only as accurate as its tolerance. It also happens while a value stays exactly zero. */
+static bool is_on_the_way(const baum_i_events *events, int k)
+{
+  const baum_i_event_mark *mark = &events->marks[k];
+  double away = mark->fresh ? fabs(mark->value) : 0.0;
+  return baum_i_sign(mark->value) != mark->side && fabs(events->list[k].next) <= away;
+}
+
 static bool has_passed(const baum_i_events *events, int k)
 {
   int32_t side = events->marks[k].side;
-  return side != 0 && baum_i_sign(events->list[k].next) != side;
+  return side != 0 && baum_i_sign(events->list[k].next) != side && !is_on_the_way(events, k);
 }
 
 /* Return the direction in which the value of event k passes zero as time increases. The direction
@@ -140,7 +152,7 @@ static double choose_time(const bracket *is, double tolerance, int try)
   double width = is->b - is->a;
   double x = is->a + width * is->fa / (is->fa - is->fb);
   double edge = copysign(0.5 * tolerance, width);
-  if (try % 3 == 2 || !(fabs(width) > 2.0 * fabs(edge))) {
+  if (try % 3 == 2 || is->fa == 0.0 || !(fabs(width) > 2.0 * fabs(edge))) {
     return is->a + 0.5 * width;
   }
   if ((x - is->a) * width < edge * width) {
@@ -169,10 +181,8 @@ static bracket bracket_of(const baum_simulation *run, int k, double t)
 {
   const baum_i_event_mark *mark = &run->events->marks[k];
   bool agrees = baum_i_sign(mark->value) == mark->side;
-  return (bracket){.a = run->events->t,
-                   .b = t,
-                   .fa = agrees ? mark->value : mark->side * DBL_MIN,
-                   .fb = run->events->list[k].next};
+  return (bracket){
+    .a = run->events->t, .b = t, .fa = agrees ? mark->value : 0.0, .fb = run->events->list[k].next};
 }
 
 /* Locate event k, which has passed zero between events->t and t. This changes `next` of all
@@ -183,7 +193,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
   int32_t side = run->events->marks[k].side;
   bracket is = bracket_of(run, k, t);
   double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
-  for (int try = 0; try < MOST_TRIES && is.fb != 0.0 && fabs(is.b - is.a) > tolerance; try++) {
+  for (int try = 0; try < MOST_TRIES && fabs(is.b - is.a) > tolerance; try++) {
     double x = choose_time(&is, tolerance, try);
     if (x == is.a || x == is.b) {
       break;
@@ -216,6 +226,13 @@ static bool leaves_zero(const baum_simulation *run, int k)
          since <= baum_i_event_window(run, &events->list[k], events->begin);
 }
 
+static void forget_found(baum_i_events *events)
+{
+  for (int k = 0; k < events->count; k++) {
+    events->list[k].found = (double)NAN;
+  }
+}
+
 static int first_found(const baum_simulation *run)
 {
   const baum_i_events *events = run->events;
@@ -239,7 +256,7 @@ static double end_of_group(const baum_simulation *run, int first)
   double end = t;
   for (int k = 0; k < events->count; k++) {
     const baum_i_event *event = &events->list[k];
-    double apart = fmax(same, fmax(tolerance_of(event, t), tolerance_of(&events->list[first], t)));
+    double apart = fmax(same, fmin(tolerance_of(event, t), tolerance_of(&events->list[first], t)));
     if (fabs(event->found - t) <= apart && is_before(run, end, event->found)) {
       end = event->found;
     }
@@ -271,15 +288,32 @@ static int record_group(baum_simulation *run, double end)
 
 /* ---- a part of a step ---- */
 
+/* At the time t, where the run stops, keep the values. A value may have passed zero before t
+ * although its event is not recorded: the event is not wanted, or it was located later than t
+ * because of its tolerance. */
+static void keep_values_at_stop(baum_simulation *run, double t)
+{
+  baum_i_events *events = run->events;
+  events->t = t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    bool waits = !isnan(events->list[k].found);
+    if (has_passed(events, k) && (waits || !is_wanted(run, k))) {
+      if (waits && !leaves_zero(run, k)) {
+        record_event(run, k, t);
+      }
+      mark->side = -mark->side;
+      mark->fresh = 0;
+    }
+    mark->value = events->list[k].next;
+  }
+}
+
 static baum_status stop_at(baum_simulation *run, int terminal, double t)
 {
   baum_i_events *events = run->events;
   BAUM_I_TRY(value_at(run, t));
-  events->t = t;
-  for (int k = 0; k < events->count; k++) {
-    events->marks[k].value = events->list[k].next;
-    events->list[k].found = (double)NAN;
-  }
+  keep_values_at_stop(run, t);
   const char *name = events->list[terminal].def.name;
   bool rises = events->marks[terminal].side * run->problem.direction > 0.0;
   return baum_i_fail(BAUM_STOP_EVENT, "t = %.9g s: event %d%s%.60s%s, %s", t, terminal,
@@ -287,23 +321,35 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
                      rises ? "rising" : "falling");
 }
 
+static baum_status fail_bounce(const baum_simulation *run, int k, bool soon)
+{
+  const char *name = run->events->list[k].def.name;
+  const char *when = soon ? "so soon that its velocities are wrong" : "at once";
+  return baum_i_fail(BAUM_ERR_STEP,
+                     "t = %.9g s: event %d%s%.60s%s happens again %s; if a body bounces off a "
+                     "stop, let it rest there once it is slow",
+                     run->events->begin, k, name ? " \"" : "", name ? name : "", name ? "\"" : "",
+                     when);
+}
+
 /* A terminal event that happens again at once cannot be told from rounding errors. If it were
- * ignored, a body that bounces faster and faster would fall through its stop. */
+ * ignored, a body that bounces faster and faster would fall through its stop. If a flight is too
+ * short for the method, the velocities at its end may not lead through zero. A program that
+ * reverses them would then push the body through its stop. */
 static baum_status check_bounce(baum_simulation *run, int k)
 {
-  const baum_event_def *def = &run->events->list[k].def;
-  if (!def->terminal || run->events->marks[k].fresh != BAUM_I_BOUNCES || !leaves_zero(run, k)) {
+  const baum_i_event *event = &run->events->list[k];
+  const baum_i_event_mark *mark = &run->events->marks[k];
+  if (!event->def.terminal || mark->fresh != BAUM_I_BOUNCES) {
     return BAUM_OK;
   }
-  double t = run->events->begin;
-  for (int i = 0; i < run->events->count; i++) {
-    run->events->list[i].found = (double)NAN;
+  if (leaves_zero(run, k)) {
+    return fail_bounce(run, k, false);
   }
-  return baum_i_fail(BAUM_ERR_STEP,
-                     "t = %.9g s: event %d%s%.60s%s happens again at once; if a body bounces off a "
-                     "stop, let it rest there once it is slow",
-                     t, k, def->name ? " \"" : "", def->name ? def->name : "",
-                     def->name ? "\"" : "");
+  BAUM_I_TRY(value_at(run, event->found));
+  BAUM_I_TRY(baum_i_events_find_rate(run, k, &run->trial));
+  return event->rate * run->problem.direction * mark->side < 0.0 ? BAUM_OK
+                                                                 : fail_bounce(run, k, true);
 }
 
 /* Record the events that were found, in the order of their times. At the first terminal event, stop
@@ -338,6 +384,7 @@ static bool any_has_passed(const baum_i_events *events, bool leaving)
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
+  forget_found(events);
   for (int k = 0; k < events->count; k++) {
     if (has_passed(events, k) && is_wanted(run, k)) {
       BAUM_I_TRY(locate(run, k, t));
@@ -353,9 +400,10 @@ static void keep_values(baum_i_events *events, double t)
   events->t = t;
   for (int k = 0; k < events->count; k++) {
     baum_i_event_mark *mark = &events->marks[k];
+    bool stays = mark->fresh && is_on_the_way(events, k);
     mark->fresh = has_passed(events, k) ? 0 : mark->fresh;
     mark->value = events->list[k].next;
-    mark->side = baum_i_sign(mark->value);
+    mark->side = stays ? mark->side : baum_i_sign(mark->value);
   }
 }
 

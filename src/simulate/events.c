@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "base/text.h"
+#include "dynamics/dynamics.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/coordinate.h"
 #include "mechanism/manifold.h"
@@ -76,6 +77,7 @@ static baum_status create_events(baum_simulation *run)
   events->look = (baum_i_state){.q = events->memory, .v = events->memory + m->nq};
   events->t = run->state.t;
   events->begin = run->state.t;
+  events->from = run->state.t;
   run->events = events;
   return BAUM_OK;
 }
@@ -174,27 +176,59 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-/* Set the rate of the value of an event, which has been evaluated in this state. For event
- * functions it is a difference along v, or 0 if the function depends on v. */
-static baum_status find_rate(baum_simulation *run, int number, const baum_i_state *state)
+/* The rate of an event function is a difference over this fraction of 1/rate. */
+static const double APART = 1e-5;
+
+/* Evaluate an event function after a time h. The velocities do not change. */
+static baum_status look_ahead(baum_simulation *run, int number, const baum_i_state *state, double h)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_state *look = &run->events->look;
+  look->t = state->t + h;
+  memcpy(look->q, state->q, (size_t)m->nq * sizeof *look->q);
+  memcpy(look->v, state->v, (size_t)m->nv * sizeof *look->v);
+  baum_i_move(m, h, state->v, look->q);
+  return evaluate_one(run, number, look);
+}
+
+/* Tell whether an event function has another value for other velocities. They are not 0, because
+ * the function may divide by a velocity. */
+static baum_status vary_velocities(baum_simulation *run, int number, const baum_i_state *state,
+                                   bool *matter)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   baum_i_event *event = &run->events->list[number];
   baum_i_state *look = &run->events->look;
-  if (event->joint >= 0) {
-    return BAUM_OK;
-  }
-  double h = run->problem.direction * baum_i_event_window(run, event, state->t);
   double value = event->next;
   look->t = state->t;
   memcpy(look->q, state->q, (size_t)m->nq * sizeof *look->q);
-  memset(look->v, 0, (size_t)m->nv * sizeof *look->v);
+  for (int i = 0; i < m->nv; i++) {
+    look->v[i] = state->v[i] * (1.0 - 0.5 * (i + 1) / (m->nv + 1));
+  }
   BAUM_I_TRY(evaluate_one(run, number, look));
-  bool depends_on_v = event->next != value;
-  look->t = state->t + h;
-  baum_i_move(m, h, state->v, look->q);
-  BAUM_I_TRY(evaluate_one(run, number, look));
-  event->rate = depends_on_v ? 0.0 : (event->next - value) / h;
+  *matter = event->next != value;
+  return BAUM_OK;
+}
+
+/* For event functions, the rate is a difference of second order along v. The difference is so wide
+ * that the rounding of q does not matter. */
+baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum_i_state *state)
+{
+  baum_i_event *event = &run->events->list[number];
+  if (event->joint >= 0) {
+    return BAUM_OK;
+  }
+  double speed = baum_i_scaled_size(run->workspace->mechanism, state->v);
+  double h = run->problem.direction *
+             (APART / fmax(run->problem.rate, speed) + DBL_EPSILON / APART * fabs(state->t));
+  double value = event->next;
+  bool depends_on_v = false;
+  BAUM_I_TRY(vary_velocities(run, number, state, &depends_on_v));
+  BAUM_I_TRY(look_ahead(run, number, state, h));
+  double first = event->next - value;
+  BAUM_I_TRY(look_ahead(run, number, state, 2.0 * h));
+  double second = event->next - value;
+  event->rate = depends_on_v ? 0.0 : (4.0 * first - second) / (2.0 * h);
   event->next = value;
   return BAUM_OK;
 }
@@ -203,7 +237,23 @@ baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_stat
 {
   BAUM_I_TRY(baum_i_events_evaluate(run, state));
   for (int k = 0; k < run->events->count; k++) {
-    BAUM_I_TRY(find_rate(run, k, state));
+    BAUM_I_TRY(baum_i_events_find_rate(run, k, state));
+  }
+  return BAUM_OK;
+}
+
+/* Tell whether nothing has moved since the search for event k started. */
+static bool is_at_start(const baum_i_events *events, int k)
+{
+  return events->marks[k].fresh && events->t == events->begin;
+}
+
+baum_status baum_i_events_evaluate_again(baum_simulation *run)
+{
+  BAUM_I_TRY(baum_i_events_evaluate(run, &run->state));
+  for (int k = 0; k < run->events->count; k++) {
+    BAUM_I_TRY(is_at_start(run->events, k) ? baum_i_events_find_rate(run, k, &run->state)
+                                           : BAUM_OK);
   }
   return BAUM_OK;
 }
@@ -219,33 +269,35 @@ static void take_side_of_motion(baum_simulation *run, int number, double recorde
   double h = run->problem.direction * baum_i_event_window(run, event, run->state.t);
   double change = event->rate * h;
   double rounding = 2.0 * fabs(recorded) + ROUNDING * fabs(event->def.value);
-  if (fabs(mark->value) <= fmax(fabs(change), rounding) && change != 0.0) {
-    mark->value = change;
+  if (fabs(mark->value) <= fmax(fabs(change), rounding)) {
     mark->side = baum_i_sign(change);
-    /* IDA starts from a slightly different state, so its value may pass zero although nothing
-     * bounces. */
-    bool exact = !run->integrator->solves_residuals;
-    mark->fresh = exact && !isnan(recorded) ? BAUM_I_BOUNCES : mark->fresh;
+    mark->fresh = mark->side != 0 && !isnan(recorded) ? BAUM_I_BOUNCES : mark->fresh;
   }
 }
 
-/* Start the search at the present state, with the values of the events there. */
+/* Start the search for event k at the present state, with its value there. */
+static void take_value(baum_simulation *run, int k, bool is_start)
+{
+  baum_i_event_mark *mark = &run->events->marks[k];
+  double since = fabs(run->state.t - mark->last);
+  bool recorded = since <= baum_i_event_window(run, &run->events->list[k], run->state.t);
+  double value_then = recorded ? mark->value : (double)NAN;
+  mark->value = run->events->list[k].next;
+  mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
+  mark->fresh = is_start || recorded;
+  if (is_start) {
+    take_side_of_motion(run, k, value_then);
+  }
+}
+
+/* If nothing has moved since the last start, this is the start of the motion that follows. */
 static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
-  events->t = events->begin = events->from = run->state.t;
   for (int k = 0; k < events->count; k++) {
-    baum_i_event_mark *mark = &events->marks[k];
-    double since = fabs(run->state.t - mark->last);
-    bool recorded = since <= baum_i_event_window(run, &events->list[k], run->state.t);
-    double value_then = recorded ? mark->value : (double)NAN;
-    mark->value = events->list[k].next;
-    mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
-    mark->fresh = is_start || recorded;
-    if (is_start) {
-      take_side_of_motion(run, k, value_then);
-    }
+    take_value(run, k, is_start || is_at_start(events, k));
   }
+  events->t = events->begin = events->from = run->state.t;
 }
 
 void baum_i_events_begin(baum_simulation *run)
@@ -271,7 +323,7 @@ static baum_status begin_last(baum_simulation *run)
   event->joint = event->def.joint.index1 != 0 ? baum_i_joint_index(m, event->def.joint) : -1;
   baum_i_point_set(&run->workspace->point, run->state.t, run->state.q, run->state.v);
   baum_status status = evaluate_one(run, k, &run->state);
-  status = status == BAUM_OK ? find_rate(run, k, &run->state) : status;
+  status = status == BAUM_OK ? baum_i_events_find_rate(run, k, &run->state) : status;
   if (status != BAUM_OK) {
     baum_i_free(event->def.name);
     return status;

@@ -12,7 +12,7 @@ enum { BAUM_I_EVENT_RECORDS = 1024 };
 
 /* The state of one event at the time up to which the run has been searched. */
 typedef struct baum_i_event_mark {
-  double value;
+  double value; /* at a start it may still be at the other side of zero, because of rounding */
   double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
   /* Not 0: the value has not passed zero since the search started. If it was zero then and leaves
@@ -27,8 +27,8 @@ typedef struct baum_i_event {
   baum_event_def def; /* this struct owns the string `name` of the definition */
   int joint;          /* the joint whose coordinate is the value of the event, or -1 */
   double next;        /* value in the state that was evaluated last */
-  /* [1/s] rate of the value at the start of the search; 0 if it is unknown, because an event
-   * function depends on v */
+  /* [1/s] rate of the value in the state for which it was last found; 0 if it is unknown, because
+   * an event function depends on v */
   double rate;
   /* [s] time at which the value passes zero in the present interval, or NaN if it does not. */
   double found;
@@ -58,12 +58,19 @@ void baum_i_events_destroy(baum_i_events *events);
  * BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
-/* The same for the state of a new start. Also finds the rates of the values. */
+/* Set the rate of the value of event `number`, which has been evaluated in this state. */
+baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum_i_state *state);
+
+/* Evaluate all events in the state of a new start. Also finds the rates of the values. */
 baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_state *state);
 
-/* Start the search at the present state. The events must have been evaluated in this state.
- * begin() is for a new start, after baum_i_events_evaluate_start(). go_on() is for a motion that
- * continues after its equations or its direction have changed. */
+/* The same for the present state, from which the motion continues after its equations or its
+ * direction have changed. Also finds the rates if nothing has moved since the last start. */
+baum_status baum_i_events_evaluate_again(baum_simulation *run);
+
+/* Start the search at the present state. begin() is for a new start, after
+ * baum_i_events_evaluate_start(). go_on() is for a motion that continues, after
+ * baum_i_events_evaluate_again(). */
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 

@@ -25,7 +25,7 @@ static baum_status restart_method(baum_simulation *run)
 
 baum_status baum_i_run_restart(baum_simulation *run)
 {
-  BAUM_I_TRY(run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK);
+  BAUM_I_TRY(run->events ? baum_i_events_evaluate_again(run) : BAUM_OK);
   BAUM_I_TRY(restart_method(run));
   run->origin = run->state.t;
   baum_i_companion_restart(run);

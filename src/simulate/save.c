@@ -215,7 +215,7 @@ static void restart_for_save(baum_simulation *run)
     }
     /* The values of the events have been evaluated before. If an evaluation fails now, the known
      * values are kept. */
-    if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
+    if (run->events && baum_i_events_evaluate_again(run) == BAUM_OK) {
       baum_i_events_go_on(run);
     }
     run->counters.restarts++;
