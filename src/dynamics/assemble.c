@@ -61,8 +61,8 @@ static bool is_held(const bool *held, int i)
 /* ---- the matrix ---- */
 
 /* Clear the columns of held coordinates in a row. If the remaining entries are only rounding
-  * errors, clear them, too. This occurs in the row of a driver if the rotation of the driven body
-  * about the axis is held. */
+ * errors, clear them, too. This occurs in the row of a driver if the rotation of the driven body
+ * about the axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
 {

@@ -78,7 +78,7 @@ typedef struct baum_i_space_pass {
   const double *v;               /* NULL: at rest */
   double *normalized;            /* (nq) receives q with unit quaternions, or NULL */
   const baum_i_frame *frames;    /* (body_count) planar frames */
-  baum_i_spatial_frame *spatial; /* (body_count) the same frames for other elements */
+  baum_i_spatial_frame *spatial; /* (body_count) receives frames in space, for other elements */
   const double *gravity;         /* NULL: no forces are wanted */
   const double *moments;         /* (nv) replace the gyroscopic moments unless NULL */
   double *force;                 /* (nv) receives weights and gyroscopic moments */

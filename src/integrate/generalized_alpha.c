@@ -17,9 +17,10 @@
  * whose period is many steps, are hardly damped.
  *
  * The variable a is not the acceleration at t. To second order, it is the acceleration at t +
- * (alpha_m - alpha_f) h. A run therefore starts with the acceleration at that later time.
- * Otherwise the multipliers of the first steps would have errors of first order. If the length of
- * the step changes, the difference a - v' is multiplied by the ratio of the lengths.
+ * (alpha_m - alpha_f) h, which is a ninth of a step before t. A run therefore starts with the
+ * acceleration at that earlier time. Otherwise the multipliers of the first steps would have errors
+ * of first order. If the length of the step changes, the difference a - v' is multiplied by the
+ * ratio of the lengths.
  *
  * The first step after every start begins at the state projected onto the constraints. Otherwise a
  * violation would cause velocities of its size divided by h, which later steps would reduce only

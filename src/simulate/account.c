@@ -198,9 +198,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 /* ---- works ---- */
 
 /* For some elements, the computed power contains all of their forces, even the forces that have a
- * potential. The change of this potential, added to the integral of the power, removes the work of
- * these forces, which must not count. Add `factor` times the potentials of these elements to
- * `works`. */
+ * potential. The work of the forces that have a potential must not count. Adding the change of the
+ * potential to the integral of the power removes this work. Add `factor` times the potentials of
+ * these elements to `works`. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -54,7 +54,7 @@ static const double SMALL_TURN = 0.4;
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 /* A violation (as a displacement) or a smallest pivot up to this value does not show a gap. Where
- * branches cross, both are 0. */
+ * branches cross, the violation and the smallest pivot are 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
@@ -98,8 +98,9 @@ static double pivot_at(void *user, double t)
   return pivot;
 }
 
-/* The search finds the time to within a millionth of the interval. The relative error of the pivot
- * is only about the square of this fraction, because the pivot has a minimum at this time. */
+/* The search finds the time of the smallest pivot to within a millionth of the interval between the
+ * first and the last knot. The relative error of the pivot is only about the square of a millionth,
+ * because the pivot has a minimum at this time. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {
@@ -133,7 +134,7 @@ static double apart(const baum_simulation *run, const double *q, const double *p
 }
 
 /* The last state of the run has the smallest pivot of the crossing. This pivot shows a gap if it is
- * clearly above 0 and the violation of the state does not explain this. */
+ * clearly above 0 and the violation of the state does not explain its size. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

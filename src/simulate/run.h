@@ -112,14 +112,14 @@ struct baum_simulation {
  * array. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints and forces of spatial mechanisms: set the angles in the workspace
- * to those of a state, plus the whole revolutions that make them continuous. Returns the result of
- * baum_i_follow_angles(). */
+/* Set the angles of joints and forces of spatial mechanisms in the workspace to their values at
+ * `state`. Whole revolutions are added to each value such that the angle changes continuously.
+ * Returns the result of baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
 /* Call baum_i_run_follow_angles() at the end of a step, unless all angles are still near to their
- * last values (baum_i_angles_are_near()). The call takes longer than an evaluation of the
- * accelerations. */
+ * last values (baum_i_angles_are_near()). baum_i_run_follow_angles() takes longer than an
+ * evaluation of the accelerations. */
 void baum_i_run_follow_step(baum_simulation *run, const baum_i_state *end);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
@@ -205,8 +205,8 @@ double baum_i_rest_rate(const baum_mechanism *m);
 
 /* [1/s] Return the mean rate over a short pilot run from the trial state, whose accelerations must
  * be in the workspace. Overwrites run->ahead, run->state and the workspace. The lengths of the
- * pilot's steps are chosen for the present rate of the motion, or for the rate swing [1/s] if that
- * is larger. */
+ * pilot's steps are chosen for the larger one of two rates: the present rate of the motion, and
+ * `swing` [1/s]. */
 double baum_i_run_pilot(baum_simulation *run, double swing);
 
 /* Choose the gains of the problem, and the step limit that they require. */
@@ -222,7 +222,8 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
  * accepted. */
 void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end);
 
-/* Accept the violation of the present state, which the user has given, without a warning. */
+/* Accept the violation of the present state without a warning, because the user has given this
+ * state. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
 /* Derivatives of user constraints that the user does not provide are computed by differences.
@@ -330,8 +331,8 @@ static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 /* Tell whether the last step ends at the near side of the break. */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* restart.c: pass a break. The present time is its near side and becomes its far side. Methods with
- * a history restart there, and a new time grid begins there. Returns the statuses of
+/* restart.c: move the present time from the near side of a break to its far side. Methods with a
+ * history restart at the far side, and a new time grid begins there. Returns the statuses of
  * baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
