@@ -237,7 +237,7 @@ static bool is_small_change(const baum_workspace *w, const baum_i_block_path *pa
   return finite && baum_i_scaled_size(w->mechanism, w->a) <= size;
 }
 
-/* If `last` is true, no later solution corrects this one, so the residual must be checked, unless
+/* If `last` is true, no later solution corrects this one. The residual must then be checked, unless
  * the solution is a small change of the velocities v. */
 BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last,
                                 const double *q, const double *v, bool force)

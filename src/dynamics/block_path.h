@@ -74,8 +74,8 @@ baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
 
 /* space_joints.c: the first function finds the joints that space_joints_hot.c evaluates, and marks
- * them in `is_done`. The second one sets their constants. Both return BAUM_OK or
- * BAUM_ERR_MEMORY. */
+ * them in `is_done`. The second one sets the constants of these joints. The first two functions
+ * return BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_space_joints_find(const baum_workspace *workspace, baum_i_space *space,
                                      unsigned char *is_done, baum_i_space_joints *out);
 baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_i_space *space,
@@ -135,8 +135,8 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side. This function uses
- * workspace->motion or, if that gives up, the solver of the whole system. May fail with
- * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
+ * workspace->motion. If this path gives up, the function uses the solver of the whole system. May
+ * fail with BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 

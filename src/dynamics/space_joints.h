@@ -44,7 +44,7 @@ enum {
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
   BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
   BAUM_I_JOINT_AXES =
-    40 /* rows d and e: the axes on a and on b; rows s: the axis on a; 8 numbers each */
+    40 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a */
 };
 
 typedef struct baum_i_space_joint {

@@ -49,8 +49,8 @@ enum { ITERATIONS = 20 };
 
 /* Newton's iteration ends when the change of the positions is below the fraction CONVERGED of the
  * displacement that accelerations cause in a step. Multipliers and accelerations are then accurate
- * to that fraction. It also ends when the change is below ROUNDINGS times the largest position, or
- * times the scale if that is larger. */
+ * to that fraction. The iteration also ends when the change is below ROUNDINGS times the largest
+ * position or the scale, whichever is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* The next iterations use the same matrix as long as their changes of the positions are at most

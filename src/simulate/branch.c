@@ -14,13 +14,12 @@
  * small as possible.
  *
  * It depends on the mechanism whether its branches really cross. If the branches only come close to
- * each other, the true motion turns sharply from one branch to the other. A step that jumps over
- * this turn continues smoothly, but on the wrong branch. In this case there is a gap between the
- * branches, and the singular configurations inside the gap violate the constraints. To detect a
- * gap, the constraints are evaluated where the motion has its smallest pivot. There is a gap if the
- * violation at this point is larger than the violation of the run and the error of the polynomial
- * together can explain. Runs whose steps are short enough to resolve the turn follow the right
- * branch. */
+ * each other, there is a gap between them, and the singular configurations inside the gap violate
+ * the constraints. The true motion then turns sharply from one branch to the other. A step that
+ * jumps over this turn continues smoothly, but on the wrong branch. To detect a gap, the
+ * constraints are evaluated where the motion has its smallest pivot. There is a gap if the
+ * violation at this point is larger than the violation of the run plus the error of the polynomial.
+ * Runs whose steps are short enough to resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 
@@ -143,8 +142,9 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 }
 
 /* Tell whether the branches have a gap at a time between two states of the run. A polynomial
- * through the states gives the configuration there. Its violation shows a gap if it is larger than
- * the violations of the states and the error of the polynomial together. */
+ * through the states gives the configuration at this time. The violation of this configuration
+ * shows a gap if it is larger than the violations of the states plus the error of the
+ * polynomial. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;

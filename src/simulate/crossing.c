@@ -7,12 +7,12 @@
  *
  * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
  *   last state before it and the first state after it.
- * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
- *   states, and its slopes are so steep that it could be zero between them, the run searches for
- *   the least p of the motion through the three states.
+ * - Steps may jump over a singular configuration. The run therefore examines the last three states.
+ *   If sqrt(p) is smallest at the middle one of them, and falls and rises so steeply that it may be
+ *   zero between the states, the run searches for the least p of the motion through them.
  * - If the least p < SINGULAR and J loses rank there, the interval is a crossing. The run then
- *   records it, decides which branch the motion has taken (branch.c), and warns. All other
- *   intervals are not crossings: their pivots are only smaller than usual. */
+ *   records the crossing, decides which branch the motion has taken (branch.c), and warns. In other
+ *   intervals, which are not crossings, pivots are only smaller than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -343,8 +343,8 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* Store the last state but one as a clear state, unless a crossing has begun or the run has jumped
- * over one. */
+/* Store the last state but one as a clear state, unless it is near-singular. Call this only if the
+ * run has not jumped over a singular configuration between the last three states. */
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

@@ -84,9 +84,9 @@ bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
  * Write the result to *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
-/* branch.c: return the least pivot of the equations of motion on the curve through `knots`, divided
- * by its usual size. Write its time to *at and its joint to *joint. Returns INFINITY if evaluations
- * fail. */
+/* branch.c: find the least pivot of the equations of motion on the curve through `knots`, and
+ * return it divided by the usual pivot. Write the time of the least pivot to *at and its joint to
+ * *joint. Returns INFINITY if evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint);
 

@@ -49,8 +49,8 @@ struct baum_simulation {
   /* [s] time of the last restart; the method may compute with t - origin instead of t */
   double origin;
   double start_energy;
-  double largest_gamma; /* largest |gamma_i| of all rows i and all steps */
-  /* [s] time of the last check of the redundant rows if KLU or QR solves; see rows.c */
+  double largest_gamma; /* largest |gamma_i| (in J a = gamma) of all rows i and all steps */
+  /* [s] time of the last check of the redundant rows if KLU or QR is the solver; see rows.c */
   double rows_looked_at;
   double judged_phi; /* max_phi when it was last compared with its limit */
   /* max_phi_rate when it was last compared with the limit for non-holonomic rows */
@@ -70,7 +70,8 @@ struct baum_simulation {
    * NULL: the option is not given */
   double *row_gains;
   baum_i_account *account; /* energy account, see account.h; NULL: none */
-  /* workspaces of the account [0] and the companion [1], or NULL; they also call user functions */
+  /* workspaces of the account [0] and the companion [1], or NULL; like run->workspace, they call
+   * user functions */
   baum_workspace *beside[2];
   baum_i_events *events;       /* see events.h; NULL: no events */
   baum_i_companion *companion; /* see companion.h; NULL: no error estimate */
@@ -177,8 +178,9 @@ baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
  * The present state does not change. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
-/* Check the velocities of the trial state after the omitted rows are known. Returns
- * BAUM_ERR_INCONSISTENT or warns if ill-conditioned rows would change the velocities too much. */
+/* Check the velocities of the trial state. The omitted rows must already be known. If a projection
+ * onto ill-conditioned rows would change the velocities too much, the function warns or returns
+ * BAUM_ERR_INCONSISTENT. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
 /* Find the energy of the trial state. The workspace then contains Phi and Phi' of the trial
@@ -214,8 +216,9 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Monitor the state that the workspace evaluated last, whose time is t: its violation, whether it
- * is near-singular, and gamma if with_gamma is true. */
+/* Monitor the state that the workspace evaluated last. t is the time of this state. The function
+ * checks the violation of the state and whether the state is near-singular. If with_gamma is true,
+ * it also updates largest_gamma. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
 /* Warn if a force jumps in the step that ends at `end`. Call this just before the step is
