@@ -76,7 +76,8 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Set Phi' = J v - nu, equation (3), of the omitted rows that no hot file evaluates. */
+/* Set Phi' = J v - nu, equation (3), of the omitted rows that no hot file (block_path.h)
+ * evaluates. */
 BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path,
                                      const double *v)
 {

@@ -3,9 +3,10 @@
  *
  * A *block path* is a block solver together with the data from which its system is computed: the
  * joints, the omitted rows, and the constant forces. Planar revolute joints (pins.h) and most
- * joints in space (space_joints.h) are computed directly from the frames of bodies. Other joints
- * are copied from blocks of J. Constant masses and forces are set once. If the path cannot solve a
- * system reliably, it gives up without a message, and the solver of kkt.h factors the whole system.
+ * joints in space (space_joints.h) are computed directly from the frames of bodies, in the hot
+ * files (base/hot.h) pins_hot.c and space_joints_hot.c. Other joints are copied from blocks of J.
+ * Constant masses and forces are set once. If the path cannot solve a system reliably, it gives up
+ * without a message, and the solver of kkt.h factors the whole system.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -57,7 +58,8 @@ struct baum_i_block_path {
   int64_t refinements;
 };
 
-/* The size of the system that a path solves. */
+/* The size of the system that a path solves. Nodes that share a body are coupled
+ * (linear/block.h). */
 typedef struct baum_i_block_size {
   int nodes;
   int couplings;

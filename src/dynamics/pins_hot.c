@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the geometry of all planar revolute joints together. The equations are those of
- * mechanism/planar/lower_pairs.c:
+/* Computes the geometry of all planar revolute joints (called pins) together. The equations are
+ * those of mechanism/planar/lower_pairs.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
  *   r     = bending gamma - damping Phi' - stiffness Phi

@@ -23,11 +23,11 @@
  *
  * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
  * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
- * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
- * the end of a shorter step from the same start. States inside a variable step are also found by
- * shorter steps if the projection after the step is large, for example after a start off the
- * constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the projected state
- * and not at the state before the projection.
+ * v. The error of these polynomials over a step is of order 5. For fixed steps of methods above
+ * order 4, each state is the end of a shorter step from the same start. States inside a variable
+ * step are also found by shorter steps if the projection after the step is large, for example after
+ * a start off the constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the
+ * projected state and not at the state before the projection.
  *
  * IDA first moves the given initial state onto the constraints of its formulation. The account
  * treats this move as a projection.
@@ -46,8 +46,8 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* If a projection moves the state by more than this many tolerances, it does not merely correct an
- * error of the method. It may remove an initial violation, for example. */
+/* If a projection moves the state by more than this many tolerances, the projection does more than
+ * correct an error of the method. For example, it may remove an initial violation. */
 static const double FAR = 10.0;
 
 struct baum_i_account {

@@ -8,7 +8,8 @@
  * clear state after it. There their derivative p' is compared with the velocity v of the run:
  *
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
- *   error   the same, with the difference of p' of two polynomials, of degrees 2 m - 1 and 2 m - 3
+ *   error   the same, but instead of v - p' the difference between the p' of two polynomials, whose
+ *           degrees are 2 m - 1 and 2 m - 3
  *
  * m is the number of clear states through which p passes. It is chosen so that the error is as
  * small as possible.
@@ -29,7 +30,8 @@
 /* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
  * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
  * With the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
- * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, this is unknown. */
+ * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, the branch is
+ * unknown. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
 /* A jump that is both above KICK and above SURELY times its estimated error is caused by steps with

@@ -8,7 +8,7 @@
 #include "simulate/crossing.h"
 
 /* Copy the set of omitted rows to the workspaces of the account and of the companion. If there is
- * not enough memory, they keep their previous omitted rows, which are still valid. */
+ * not enough memory, these workspaces keep their previous omitted rows, which are still valid. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
