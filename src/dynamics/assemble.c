@@ -26,7 +26,7 @@ enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
 static const double MU = 1e-10;
 /* largest change of a coordinate in one step, relative to its scale */
 static const double STEP_LIMIT = 0.25;
-static const double CONVERGED = 1e-11; /* the error after a step of this size is about its square */
+static const double CONVERGED = 1e-11; /* a step of this size leaves an error of about 1e-22 */
 static const double ROUNDING = 1e-13;  /* a violation up to this displacement counts as zero */
 static const double CONSISTENT = 1e-9; /* violation above which rows contradict each other */
 /* A violation below this displacement suggests that the dimensions of redundant constraints are
@@ -61,8 +61,8 @@ static bool is_held(const bool *held, int i)
 /* ---- the matrix ---- */
 
 /* Clear the columns of held coordinates in a row. If the remaining entries are only rounding
-  * errors, clear them, too. This occurs in the row of a driver if the rotation of the driven body
-  * about the axis is held. */
+ * errors, clear them, too. This occurs in the row of a driver if the rotation of the driven body
+ * about the axis is held. */
 static void clear_held_entries(const baum_workspace *w, const bool *held,
                                const baum_i_row_block *block, double *row)
 {

@@ -25,12 +25,11 @@ static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
 /* In space, the relative error of a is about DBL_EPSILON * amplification / pivot. The pivot is the
-  * weakest one, and the amplification (space_block.h) tells how much a = a0 - W J^T lambda
-  * increases errors of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if
-  * amplification / pivot is at most MOST_LOST. Compared with solutions in quadruple precision,
-  * their errors were below 1e-10 in 1500 random mechanisms. In the scenes of
-  * test_spatial_accuracy.c they were below 1e-12, and below 1e-11 if masses differ by large
-  * factors. */
+ * smallest one of the solution, and the amplification (space_block.h) tells how much a = a0 - W J^T
+ * lambda increases errors of lambda. Solutions with a pivot above FAIR_PIVOT are not refined if
+ * amplification / pivot is at most MOST_LOST. Compared with solutions in quadruple precision, their
+ * errors were below 1e-10 in 1500 random mechanisms. In the scenes of test_spatial_accuracy.c they
+ * were below 1e-12, and below 1e-11 if masses differ by large factors. */
 static const double FAIR_PIVOT = 1e-4;
 static const double MOST_LOST = 1e5;
 
@@ -77,7 +76,8 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Set Phi' = J v - nu, equation (3), of the omitted rows that no hot file evaluates. */
+/* Set Phi' = J v - nu, equation (3), of the omitted rows that no hot file (block_path.h)
+ * evaluates. */
 BAUM_I_INLINE void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path,
                                      const double *v)
 {
@@ -238,7 +238,7 @@ static bool is_small_change(const baum_workspace *w, const baum_i_block_path *pa
   return finite && baum_i_scaled_size(w->mechanism, w->a) <= size;
 }
 
-/* If `last` is true, no later solution corrects this one, so the residual must be checked, unless
+/* If `last` is true, no later solution corrects this one. The residual must then be checked, unless
  * the solution is a small change of the velocities v. */
 BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last,
                                 const double *q, const double *v, bool force)

@@ -3,9 +3,10 @@
  *
  * A *block path* is a block solver together with the data from which its system is computed: the
  * joints, the omitted rows, and the constant forces. Planar revolute joints (pins.h) and most
- * joints in space (space_joints.h) are computed directly from the frames of bodies. Other joints
- * are copied from blocks of J. Constant masses and forces are set once. If the path cannot solve a
- * system reliably, it gives up without a message, and the solver of kkt.h factors the whole system.
+ * joints in space (space_joints.h) are computed directly from the frames of bodies, in the hot
+ * files (base/hot.h) pins_hot.c and space_joints_hot.c. Other joints are copied from blocks of J.
+ * Constant masses and forces are set once. If the path cannot solve a system reliably, it gives up
+ * without a message, and the solver of kkt.h factors the whole system.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -57,7 +58,8 @@ struct baum_i_block_path {
   int64_t refinements;
 };
 
-/* The size of the system that a path solves. */
+/* The size of the system that a path solves. Nodes that share a body are coupled
+ * (linear/block.h). */
 typedef struct baum_i_block_size {
   int nodes;
   int couplings;
@@ -74,8 +76,8 @@ baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */
 
 /* space_joints.c: the first function finds the joints that space_joints_hot.c evaluates, and marks
- * them in `is_done`. The second one sets their constants. Both return BAUM_OK or
- * BAUM_ERR_MEMORY. */
+ * them in `is_done`. The second one sets the constants of these joints. The first two functions
+ * return BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_space_joints_find(const baum_workspace *workspace, baum_i_space *space,
                                      unsigned char *is_done, baum_i_space_joints *out);
 baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_i_space *space,
@@ -135,8 +137,8 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
 baum_i_block_size baum_i_block_path_size(const baum_i_block_path *path);
 
 /* acceleration.c: set a (0 for fixed bodies) and lambda for any right-hand side. This function uses
- * workspace->motion or, if that gives up, the solver of the whole system. May fail with
- * BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
+ * workspace->motion. If this path gives up, the function uses the solver of the whole system. May
+ * fail with BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. */
 baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
                                 const double *v, const baum_i_right_side *right);
 

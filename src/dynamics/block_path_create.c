@@ -71,9 +71,9 @@ static bool stays_whole(const baum_i_joint *joint, const unsigned char *omitted)
   return shape != BAUM_I_SHAPES && left > 0 && met;
 }
 
-/* If the first three rows of a joint, or the rows of a planar pin, make points coincide and all
- * other rows compare directions, return the number of the body whose E (space_block.h) is -I.
- * Otherwise return -1. */
+/* If the first three rows of a joint, or both rows of a planar revolute joint, make points coincide
+ * and all other rows compare directions, return the number of the body whose E (space_block.h) is
+ * -I. Otherwise return -1. */
 static int pinned_body(const baum_i_joint *joint)
 {
   if (joint->type->is_pin) {
@@ -198,7 +198,8 @@ static baum_status make_block(const baum_workspace *w, bool for_motion,
   return status;
 }
 
-/* Mark the joints that hot files evaluate, and store their data in the solver's order. */
+/* Mark the joints that hot files (block_path.h) evaluate, and store the data of these joints in the
+ * solver's order. */
 static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
                                 unsigned char *is_done)
 {

@@ -364,9 +364,10 @@ static const double SHARED = 1e-6;
  * removes the error that the shift causes. */
 static const double SHIFT = 1e-12;
 
-/* Set `part` to a generic null vector of J^T whose rows are scaled to displacements. Set *least to
- * the size above which its components count as non-zero. If the constraints are violated,
- * components that should be zero are about as large as the relative residual of the vector. */
+/* Set `part` to a generic null vector of J^T, with each component multiplied by the displacement of
+ * its row (baum_i_row_displacements()). Set *least to the size above which components count as
+ * non-zero. If the constraints are violated, components that should be zero are about as large as
+ * the relative residual of the vector. */
 static baum_status find_null_vector(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;

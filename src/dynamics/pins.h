@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the geometry of all planar revolute joints in one pass and writes it directly to the
- * block solver. */
+/* Computes the geometry of all planar revolute joints (called pins) in one pass and writes it
+ * directly to the block solver. */
 #ifndef BAUM_I_DYNAMICS_PINS_H
 #define BAUM_I_DYNAMICS_PINS_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the geometry of all planar revolute joints together. The equations are those of
- * mechanism/planar/lower_pairs.c:
+/* Computes the geometry of all planar revolute joints (called pins) together. The equations are
+ * those of mechanism/planar/lower_pairs.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
  *   r     = bending gamma - damping Phi' - stiffness Phi
@@ -10,10 +10,11 @@
  *
  * In Phi, r_a is the origin of body a, and p_a is the vector from it to the point of the joint. In
  * gamma, w_a is the angular velocity of body a. The vector k is the normal of the plane. In the
- * pivot D, w_a0 and w_a2 are the first and the third diagonal entry of W of body a. The index b
- * marks the same quantities of body b.
+ * pivot D, w_a0 and w_a2 are the first and the third diagonal entry of the inverse mass matrix of
+ * body a. The index b marks the same quantities of body b. a0 are the accelerations without
+ * constraint forces.
  *
- * J is not formed. The arms and gamma are rounded exactly like the J and gamma that users receive.
+ * J is not formed. c_a, c_b and gamma are rounded exactly like the J and gamma that users receive.
  * The compiler therefore may not use fused multiply-add instructions for them. Close to a singular
  * configuration, a difference in the last digit would matter.
  */

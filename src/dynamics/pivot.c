@@ -3,14 +3,14 @@
  *
  * For the block solver, det D of each node is divided by det D of the same node before the
  * elimination. The measure is the smallest of these ratios. Before the elimination, D of a node is
- * its block of S = J M^-1 J^T. For a pin this block is 2 x 2, and its determinant does not depend
- * on the direction of axes. For other pairs of rows, which may depend on each other, the product of
- * the diagonal entries of this block replaces the determinant before the elimination. In space, a
- * node is a whole joint. For other solvers, the measure is the reciprocal condition number of the
- * scaled matrix. Both measures are free of units and fall with the square of the distance from a
- * singular configuration. Their sizes differ, so each must be compared with its own usual value. If
- * a body has a small inertia, the block solver gives up for some directions of its arms although
- * the configuration is not close to a singular one.
+ * its block of S = J M^-1 J^T. For a pin (a planar revolute joint) this block is 2 x 2, and its
+ * determinant does not depend on the direction of axes. For other pairs of rows, which may depend
+ * on each other, the product of the diagonal entries of D replaces the determinant before the
+ * elimination. In space, a node is a whole joint. For other solvers, the measure is the reciprocal
+ * condition number of the scaled matrix. Both measures are free of units and fall with the square
+ * of the distance from a singular configuration. Their sizes differ, so each must be compared with
+ * its own usual value. If a body has a small inertia, the block solver gives up for some directions
+ * of the arms of the body's joints although the configuration is not close to a singular one.
  */
 #include <math.h>
 

@@ -24,9 +24,10 @@ enum { ITERATIONS = 12 };
 /* A Newton step of relative size 1e-10 leaves an error of about 1e-20 times the ratio of the
  * characteristic length to the radius of curvature of the constraints. */
 static const double CONVERGED = 1e-10;
-/* Changes of q that have stopped decreasing are rounding errors if they are below this size times
- * the number of rows and the violation is only rounding. The rounding errors of all rows may add
- * up, as in a chain of 1e5 links. */
+/* Changes of q that have stopped decreasing are rounding errors under two conditions: the changes
+ * are below this size times the number of rows, and the violation is only rounding. The number of
+ * rows is included because the rounding errors of all rows may add up, as in a chain of 1e5
+ * links. */
 static const double STALLED = 8.0 * DBL_EPSILON;
 /* A violation up to this size counts as rounding. It is a displacement relative to the largest
  * coordinate. */

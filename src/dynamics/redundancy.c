@@ -11,12 +11,12 @@
  * At a distance d from a singular configuration, a nearly dependent row amplifies the rounding
  * errors of rows selected after it to 1e-16 / d, so redundant rows may look independent. The rank
  * of such a configuration is ambiguous beyond the first nearly dependent row. In this case the rank
- * of a neighbour with a clear (not ambiguous) rank is used, unless it is smaller than the part of
- * the initial rank that is not ambiguous. If a neighbour's rank is used, the initial configuration
- * counts as singular. If no neighbour has a clear rank, rows are nearly dependent everywhere, like
- * the rows of two pins close to each other, and the ambiguous rank is accepted. If the initial
- * configuration is exactly singular, ambiguous ranks of its neighbours are also accepted: they
- * occur because the directions of long members change only little from neighbour to neighbour.
+ * of a neighbour is used if it is clear (not ambiguous), and not smaller than the part of the
+ * initial rank that is not ambiguous. The initial configuration then counts as singular. If no
+ * neighbour has a clear rank, rows are nearly dependent everywhere, like the rows of two pins close
+ * to each other, and the ambiguous rank is accepted. If the initial configuration is exactly
+ * singular, ambiguous ranks of its neighbours are also accepted. Such ranks occur because the
+ * directions of long members change only little from neighbour to neighbour.
  *
  * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
  * independent set of all rows of positions. The number of chosen rows of positions gives the

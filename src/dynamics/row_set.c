@@ -256,9 +256,10 @@ static const double TIMES = 10.0;
 static const double EMPTY = 1e-6;
 
 /* Find a size [1/s^2] for each island (body_count + 1), with which errors of accelerations are
- * compared. The size is the squared rate of the motion plus the squared gains or, if that is
- * larger, the largest scaled acceleration that the forces would cause without constraints. The size
- * of the ground is the largest size of all islands. It is used for joints between fixed bodies. */
+ * compared. The size is the larger one of two numbers: the squared rate of the motion plus the
+ * squared gains, and the largest scaled acceleration that the forces would cause without
+ * constraints. The size of the ground is the largest size of all islands. It is used for joints
+ * between fixed bodies. */
 static void find_acceleration_sizes(const baum_workspace *w, const double *v, double alpha,
                                     double beta, double *size)
 {

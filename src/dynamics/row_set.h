@@ -20,7 +20,7 @@ typedef struct baum_i_row_set {
   unsigned char *omitted;  /* (nc) 1 if the row is omitted, else 0 */
   unsigned char *selected; /* (nc) scratch: 1 if the row is in a new set */
   /* The pivot at which baum_i_choose_rows() last searched for other rows. It is 0 if that search
-   * changed the rows, if the pivot has not been poor since then, or if there was no search. */
+   * changed the rows, if a later pivot was no longer poor, or if there was no search. */
   double pivot_at_last_selection;
 } baum_i_row_set;
 

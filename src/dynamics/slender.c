@@ -26,10 +26,11 @@ static void measure_twists(const baum_i_space *space, double *sizes)
   }
 }
 
-/* Each refinement multiplies the error of a solution by P W K, where W is the inverse of the raised
- * M, K the change of M, and P the projection on the null space of J. Apply this product to a vector
- * with different rotations of all slender bodies. sizes[] receives |u . y| of the vector at the
- * beginning, before the last product, and at the end. */
+/* Each refinement multiplies the error of a solution by P W K. Here W is the inverse of M with the
+ * raised moments of inertia, K the difference between this M and the true M, and P the projection
+ * on the null space of J. Apply this product to a vector with different rotations of all slender
+ * bodies. sizes[] receives |u . y| of the vector at the beginning, before the last product, and at
+ * the end. */
 static void apply_refinements(const baum_i_block_path *path, double *sizes[3])
 {
   const baum_i_space *space = path->space;

@@ -44,7 +44,7 @@ enum {
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
   BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
   BAUM_I_JOINT_AXES =
-    40 /* rows d and e: the axes on a and on b; rows s: the axis on a; 8 numbers each */
+    40 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a */
 };
 
 typedef struct baum_i_space_joint {
@@ -78,7 +78,7 @@ typedef struct baum_i_space_pass {
   const double *v;               /* NULL: at rest */
   double *normalized;            /* (nq) receives q with unit quaternions, or NULL */
   const baum_i_frame *frames;    /* (body_count) planar frames */
-  baum_i_spatial_frame *spatial; /* (body_count) the same frames for other elements */
+  baum_i_spatial_frame *spatial; /* (body_count) receives frames in space, for other elements */
   const double *gravity;         /* NULL: no forces are wanted */
   const double *moments;         /* (nv) replace the gyroscopic moments unless NULL */
   double *force;                 /* (nv) receives weights and gyroscopic moments */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An evaluation has two stages. The first stage computes the terms that depend only on (t, q). The
- * second stage computes the terms that also depend on v. */
+/* The first two stages of an evaluation (dynamics.h). The position stage computes the terms that
+ * depend only on (t, q). The velocity stage also computes the terms that depend on v. */
 #include <string.h>
 
 #include "dynamics/dynamics.h"

@@ -52,7 +52,7 @@ static const double STAGNATION = 0.5;
 static const double TURNING = 0.7;
 /* Allowed violations, expressed as displacements. Newton's method ends when the violation is at
  * most ROUNDING. If its corrections have stopped decreasing, a violation of at most NOISE is
- * accepted, too; NOISE is relative to the largest coordinate, or to 1 if that is larger. */
+ * accepted, too. NOISE is relative to the largest coordinate, but at least to 1. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
 /* Allowed violation of omitted rows. A row with a larger violation does not depend on the other

@@ -7,11 +7,12 @@
  *
  *   m.m / (2 I_1) + m_0^2 (1/I_0 - 1/I_1) / 2  +  m_2^2 (1/I_2 - 1/I_1) / 2
  *
- * The first two terms are the energy of a symmetric top, which rotates by exp(h m / I_1), then by
- * exp(h m_0 (1/I_0 - 1/I_1)) about axis 0. The last term rotates the body about axis 2, half a step
- * before the top's rotation and half a step after it (F. Fasso, J. Comput. Phys. 189 (2003)
- * 527-538). The angular momentum in ground axes does not change. The rotation is exact for
- * symmetric bodies, and for all bodies that rotate about a principal axis.
+ * The first two terms are the energy of a symmetric top. In a step, the top rotates by the rotation
+ * vector h m / I_1, and then about axis 0 by the angle h m_0 (1/I_0 - 1/I_1). The last term rotates
+ * the body about axis 2, for half a step before the rotation of the top and for half a step after
+ * it (F. Fasso, J. Comput. Phys. 189 (2003) 527-538). The angular momentum in ground axes does not
+ * change. The rotation is exact for symmetric bodies, and for all bodies that rotate about a
+ * principal axis.
  *
  * I_1 is the middle moment. Of the other two axes, axis 2 is the one with the smaller
  * |1/I - 1/I_1|. In a slender body, axis 0 is therefore the long axis.

@@ -17,9 +17,10 @@
  * whose period is many steps, are hardly damped.
  *
  * The variable a is not the acceleration at t. To second order, it is the acceleration at t +
- * (alpha_m - alpha_f) h. A run therefore starts with the acceleration at that later time.
- * Otherwise the multipliers of the first steps would have errors of first order. If the length of
- * the step changes, the difference a - v' is multiplied by the ratio of the lengths.
+ * (alpha_m - alpha_f) h, which is a ninth of a step before t. A run therefore starts with the
+ * acceleration at that earlier time. Otherwise the multipliers of the first steps would have errors
+ * of first order. If the length of the step changes, the difference a - v' is multiplied by the
+ * ratio of the lengths.
  *
  * The first step after every start begins at the state projected onto the constraints. Otherwise a
  * violation would cause velocities of its size divided by h, which later steps would reduce only
@@ -48,8 +49,8 @@ enum { ITERATIONS = 20 };
 
 /* Newton's iteration ends when the change of the positions is below the fraction CONVERGED of the
  * displacement that accelerations cause in a step. Multipliers and accelerations are then accurate
- * to that fraction. It also ends when the change is below ROUNDINGS times the largest position, or
- * times the scale if that is larger. */
+ * to that fraction. The iteration also ends when the change is below ROUNDINGS times the largest
+ * position or the scale, whichever is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* The next iterations use the same matrix as long as their changes of the positions are at most

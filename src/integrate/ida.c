@@ -18,9 +18,9 @@
  *   formulations the error estimate of lambda does not decrease with the step as it should.
  *   Newton's iteration has a separate convergence test that includes multipliers (ida_newton.c).
  *   Without this test, multipliers diverge.
- * - The start is consistent: q and v are projected if Phi or Phi' is among the equations and not
- *   small, and v' and lambda come from one solution of (5) or (7) of docs/notation.md. IDA's own
- *   search for a consistent start can succeed with wrong accelerations.
+ * - The start is consistent. If the equations contain Phi or Phi' and the violation is not small, q
+ *   and v are projected. v' and lambda come from one solution of (5) or (7) of docs/notation.md.
+ *   IDA's own search for a consistent start can succeed with wrong accelerations.
  * - The length of the first step is prescribed. IDA's own choice is too large for index 3.
  * - The Jacobian is exact and sparse. Without the derivatives with respect to lambda, iterations
  *   fail.

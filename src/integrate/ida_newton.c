@@ -20,11 +20,11 @@
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
  * The second term, the kinetic energy at the rate 1/T, keeps this tolerance positive if all
- * multipliers are zero. The tolerance of lambda_i is this energy divided by n_i. If
- * tolerance_lambda is smaller than tolerance_q and tolerance_v, Newton's iteration multiplies the
- * tolerances of q and v by tolerance_lambda / min(tolerance_q, tolerance_v). Without this factor,
- * the remaining errors of q and v would cause errors of lambda that no shorter step reduces. In
- * measurements, runs without this factor took 40 times as many steps.
+ * multipliers are zero. This tolerance is an energy. Divided by n_i, it gives the tolerance of
+ * lambda_i. If tolerance_lambda is smaller than tolerance_q and tolerance_v, Newton's iteration
+ * multiplies the tolerances of q and v by tolerance_lambda / min(tolerance_q, tolerance_v). Without
+ * this factor, the remaining errors of q and v would cause errors of lambda that no shorter step
+ * reduces. In measurements, runs without this factor took 40 times as many steps.
  *
  * At index 3, v is a difference of q divided by h. Its rounding error is c eps s, where eps is the
  * unit roundoff. The tolerance of v is therefore at least |c| tolerance_q / 10. The iteration ends

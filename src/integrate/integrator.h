@@ -22,7 +22,8 @@ typedef struct baum_i_problem {
   double alpha;     /* [1/s] >= 0 */
   double beta;      /* [1/s] >= 0 */
   double direction; /* +1 forward, -1 backward in time; multiplies alpha */
-  /* [1/s] > 0, 1/T, where T is the time scale of the motion; scale x rate is a typical velocity */
+  /* [1/s] > 0, 1/T, where T is the time scale of the motion; the rate times the scale of a
+   * coordinate is a typical velocity */
   double rate;
   double max_step; /* [s] > 0, limit for variable steps; INFINITY: no limit */
 

@@ -43,8 +43,8 @@ static const double LONGEST = 1e6;
 /* A configuration is treated as singular if |J^-1| is above this number. When a run stops at a fold
  * because no shorter step is possible, |J^-1| is about 1e5. */
 static const double SINGULAR_GAIN = 1e3;
-/* The configuration is treated as a fold if the share of drivers (`pull` of continuation.h) is
- * above this number. Where branches cross, the share is only about 1 / |J^-1|. */
+/* A singular configuration is treated as a fold if the share of drivers (`pull` of continuation.h)
+ * is above this number. Where branches cross, the share is only about 1 / |J^-1|. */
 static const double FOLD_PULL = 1e-3;
 
 enum { STORED = 4, MOST_PIECES = 10000 /* largest number of steps in walk() */ };

@@ -206,7 +206,7 @@ static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_probl
                                double *moved)
 {
   int nq = run->rk.nq;
-  double *before = run->dense; /* scratch, because it has no data of this step yet */
+  double *before = run->dense; /* used as scratch; it contains no data of this step yet */
   double squares = 0.0;
   memcpy(before, run->end, (size_t)nq * sizeof *before);
   baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nq);

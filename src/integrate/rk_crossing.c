@@ -14,10 +14,10 @@ static const double STEP_OVER = 0.05;
  * than this. */
 static const double LARGEST_FORCED = 0.01;
 /* A step over a singular configuration may have the error ROUNDING / p, relative to the scales,
- * where p is the pivot at its start (see below). This error comes from rounding, and from gains
- * that correct violations. For the mechanism n_four_bar of the catalogue (with windows = 40), the
- * error times p was up to 2e-10. Refusing such a step would not help, because a step from a point
- * closer to the configuration is less accurate. */
+ * where p is the pivot at the start of the step (see below). This error comes from rounding, and
+ * from gains that correct violations. For the mechanism n_four_bar of the catalogue (with windows =
+ * 40), the error times p was up to 2e-10. Refusing such a step would not help, because a step that
+ * starts closer to the configuration is less accurate. */
 static const double ROUNDING = 1e-9;
 
 /* Limits for the pivot p relative to its usual value. If p is below PIVOT_AHEAD, the method

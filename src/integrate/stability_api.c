@@ -209,7 +209,7 @@ static baum_status check_grid(const double alpha_h[2], const double beta2_h2[2],
 }
 
 /* Return point k of n equally spaced points in a range, whose ends are the first and the last
- * point. The formula does not contain the difference of the ends, because it might overflow. */
+ * point. The formula avoids the difference of the ends, because this difference might overflow. */
 static double share(const double range[2], int32_t k, int32_t n)
 {
   double part = n > 1 ? (double)k / (n - 1) : 0.0;

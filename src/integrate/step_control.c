@@ -26,7 +26,7 @@ static const double LARGEST_REFUSED = 0.9;
 static const double MEMORY = 0.1; /* b k */
 /* an error near zero occurs only by chance, and predicts nothing */
 static const double LEAST_LAST = 1e-4;
-static const double LEAST_ERROR = 1e-9; /* all errors below this also give the largest growth */
+static const double LEAST_ERROR = 1e-9; /* this error already gives the largest growth */
 
 void baum_i_step_control_begin(baum_i_step_control *control, int order, double step)
 {

@@ -48,9 +48,9 @@ typedef struct baum_i_sundials {
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* Return one of the preallocated vectors. When SUNDIALS clones it, the clone is also preallocated.
- * Returns NULL if none is left. There are enough of them for all vectors that this library
- * requests. */
+/* Return one of the preallocated vectors. When SUNDIALS clones a vector, the clone is also one of
+ * the preallocated vectors. Returns NULL if no vector is left. There are enough preallocated
+ * vectors for all that this library requests. */
 N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
 /* Store an error text of SUNDIALS. */

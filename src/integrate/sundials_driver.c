@@ -173,8 +173,8 @@ static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, doub
   run->evaluation = evaluation;
 }
 
-/* Pass the stop time to SUNDIALS. SUNDIALS 6.4 cannot cancel a stop time; it is set to infinity
- * instead. */
+/* Pass the stop time to SUNDIALS. SUNDIALS 6.4 cannot cancel a stop time. If there is no stop time
+ * any more, this function therefore sets it to infinity. */
 static void give_stop(baum_i_sundials *run)
 {
   const baum_i_problem *problem = run->problem;

@@ -36,15 +36,16 @@ typedef struct baum_i_sundials_package {
   void (*destroy)(void **memory); /* NULL is allowed */
 
   int (*size)(const baum_i_problem *problem); /* n, length of y */
-  /* Complete run->y for a start at t. It contains (q, v), followed by zeros. NULL: nothing to
-   * do. */
+  /* Complete run->y for a start at t. On entry, run->y contains (q, v), followed by zeros. NULL:
+   * nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
   /* returns run->memory, or NULL if out of memory */
   void *(*create)(int multistep, SUNContext context);
   int (*init)(baum_i_sundials *run);
   int (*weigh)(N_Vector y, N_Vector weights, void *run);
   int (*restart)(baum_i_sundials *run);
-  /* Take one step towards target. Its end is written to run->y, its time to *tau. */
+  /* Take one step towards target. On return, run->y contains the unknowns at the end of the step,
+   * and *tau the time of this end. */
   int (*step)(baum_i_sundials *run, double target, double *tau);
   /* Free what the method's `open` and `attach` have allocated. If the creation of the run failed,
    * `open` and `attach` may not have been called. run->memory is freed before this call. */

@@ -155,9 +155,9 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   }
 }
 
-/* Tell whether a solution is accurate enough for Newton's iteration: with each row divided by its
- * largest entry, all residuals b - A x must be at most 1e-6 of the largest |b| + |A| |x| of any
- * row. NaN is not accurate. */
+/* Tell whether a solution is accurate enough for Newton's iteration. Each row of A and b is first
+ * divided by the largest entry of A in this row. The residuals b - A x of all rows must then be at
+ * most 1e-6 times the largest |b| + |A| |x| of a row. NaN is not accurate. */
 static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
 {
   sunindextype n = SUNSparseMatrix_Columns(klu->matrix);

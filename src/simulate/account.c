@@ -23,11 +23,11 @@
  *
  * States inside a step are mostly computed by the interpolant of the method. For fixed steps of
  * methods up to order 4, the interpolant consists of Hermite polynomials of degree 5 in q and 3 in
- * v. Their error over a step is of order 5. For fixed steps of methods above order 4, each state is
- * the end of a shorter step from the same start. States inside a variable step are also found by
- * shorter steps if the projection after the step is large, for example after a start off the
- * constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the projected state
- * and not at the state before the projection.
+ * v. The error of these polynomials over a step is of order 5. For fixed steps of methods above
+ * order 4, each state is the end of a shorter step from the same start. States inside a variable
+ * step are also found by shorter steps if the projection after the step is large, for example after
+ * a start off the constraints. The reason is that the interpolant of a Runge-Kutta pair ends at the
+ * projected state and not at the state before the projection.
  *
  * IDA first moves the given initial state onto the constraints of its formulation. The account
  * treats this move as a projection.
@@ -46,8 +46,8 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
-/* If a projection moves the state by more than this many tolerances, it does not merely correct an
- * error of the method. It may remove an initial violation, for example. */
+/* If a projection moves the state by more than this many tolerances, the projection does more than
+ * correct an error of the method. For example, it may remove an initial violation. */
 static const double FAR = 10.0;
 
 struct baum_i_account {
@@ -198,9 +198,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
 /* ---- works ---- */
 
 /* For some elements, the computed power contains all of their forces, even the forces that have a
- * potential. The change of this potential, added to the integral of the power, removes the work of
- * these forces, which must not count. Add `factor` times the potentials of these elements to
- * `works`. */
+ * potential. The work of the forces that have a potential must not count. Adding the change of the
+ * potential to the integral of the power removes this work. Add `factor` times the potentials of
+ * these elements to `works`. */
 static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
                                   const double *v, double works[BAUM_I_WORKS])
 {

@@ -282,8 +282,8 @@ static baum_status begin_call(baum_simulation *run, public_call *c)
   return baum_i_run_may_begin(run);
 }
 
-/* End a call: evaluate and monitor its last state, because no step has evaluated it. If the call
- * stops because its time limit has passed, this is left to the next call, so that results do not
+/* End a call: evaluate and monitor its last state, because no step has evaluated it. A call that
+ * stops because its time limit has passed does not evaluate its last state, so that results do not
  * depend on the speed of the machine. */
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
@@ -298,7 +298,7 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_output(run, state);
   }
-  /* this also discards requests that user functions have made in this call */
+  /* Also discard requests to cancel that user functions have made in this call. */
   atomic_store(&run->cancelled, 0);
   run->counters.wall += baum_i_wall_seconds() - c->start;
   if (status == BAUM_OK && look != BAUM_OK) {

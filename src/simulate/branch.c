@@ -8,19 +8,19 @@
  * clear state after it. There their derivative p' is compared with the velocity v of the run:
  *
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
- *   error   the same, with the difference of p' of two polynomials, of degrees 2 m - 1 and 2 m - 3
+ *   error   the same, but instead of v - p' the difference between the p' of two polynomials, whose
+ *           degrees are 2 m - 1 and 2 m - 3
  *
  * m is the number of clear states through which p passes. It is chosen so that the error is as
  * small as possible.
  *
  * It depends on the mechanism whether its branches really cross. If the branches only come close to
- * each other, the true motion turns sharply from one branch to the other. A step that jumps over
- * this turn continues smoothly, but on the wrong branch. In this case there is a gap between the
- * branches, and the singular configurations inside the gap violate the constraints. To detect a
- * gap, the constraints are evaluated where the motion has its smallest pivot. There is a gap if the
- * violation at this point is larger than the violation of the run and the error of the polynomial
- * together can explain. Runs whose steps are short enough to resolve the turn follow the right
- * branch. */
+ * each other, there is a gap between them, and the singular configurations inside the gap violate
+ * the constraints. The true motion then turns sharply from one branch to the other. A step that
+ * jumps over this turn continues smoothly, but on the wrong branch. To detect a gap, the
+ * constraints are evaluated where the motion has its smallest pivot. There is a gap if the
+ * violation at this point is larger than the violation of the run plus the error of the polynomial.
+ * Runs whose steps are short enough to resolve the turn follow the right branch. */
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +30,8 @@
 /* A jump is the relative change of velocity at a crossing. The velocities of two branches differ by
  * about the size of the velocity: runs that changed to another branch had jumps of at least 0.9.
  * With the longest steps, the error of the polynomials is 0.06. Up to SMALL_JUMP the motion has
- * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, this is unknown. */
+ * stayed on its branch. Above LARGE_JUMP it has left its branch. In between, the branch is
+ * unknown. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
 /* A jump that is both above KICK and above SURELY times its estimated error is caused by steps with
@@ -54,7 +55,7 @@ static const double SMALL_TURN = 0.4;
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
 /* A violation (as a displacement) or a smallest pivot up to this value does not show a gap. Where
- * branches cross, both are 0. */
+ * branches cross, the violation and the smallest pivot are 0. */
 static const double GAP = 1e-5;
 
 /* ---- smallest pivot of the motion ---- */
@@ -98,8 +99,9 @@ static double pivot_at(void *user, double t)
   return pivot;
 }
 
-/* The search finds the time to within a millionth of the interval. The relative error of the pivot
- * is only about the square of this fraction, because the pivot has a minimum at this time. */
+/* The search finds the time of the smallest pivot to within a millionth of the interval between the
+ * first and the last knot. The relative error of the pivot is only about the square of a millionth,
+ * because the pivot has a minimum at this time. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint)
 {
@@ -133,7 +135,7 @@ static double apart(const baum_simulation *run, const double *q, const double *p
 }
 
 /* The last state of the run has the smallest pivot of the crossing. This pivot shows a gap if it is
- * clearly above 0 and the violation of the state does not explain this. */
+ * clearly above 0 and the violation of the state does not explain its size. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -142,8 +144,9 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 }
 
 /* Tell whether the branches have a gap at a time between two states of the run. A polynomial
- * through the states gives the configuration there. Its violation shows a gap if it is larger than
- * the violations of the states and the error of the polynomial together. */
+ * through the states gives the configuration at this time. The violation of this configuration
+ * shows a gap if it is larger than the violations of the states plus the error of the
+ * polynomial. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_crossings *p = run->crossings;

@@ -56,8 +56,9 @@ static const double TOLERANCE_OF_CHECK = 1e-8; /* the same with error_check */
  * without error_check (TIGHTER) and with it (TIGHTER_OF_CHECK). */
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-/* Largest tolerance of a companion with error_check, relative to that of the run. With a larger
- * tolerance, the difference of both motions would not be mostly the error of the run. */
+/* Largest tolerance of a companion with error_check, relative to the tolerance of the run. With a
+ * larger tolerance, the difference between run and companion would not consist mainly of the error
+ * of the run. */
 static const double LARGEST_PART_OF_CHECK = 0.5;
 static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
 /* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST applies
@@ -91,7 +92,7 @@ struct baum_i_companion {
   void *self;
   baum_i_local_error local; /* the local errors of the run */
   baum_i_state state;       /* state at the start of the companion's next step */
-  baum_i_state at;          /* the present state of the run */
+  baum_i_state at;          /* state of the companion at the time of the last comparison */
   /* Earlier states of the run: [0] is at least STRIDE steps old, [1] is newer. */
   baum_i_state kept[2];
 };

@@ -7,12 +7,12 @@
  *
  * - While p < BAUM_I_NEAR_PIVOT, the run is inside an interval. The ends of the interval are the
  *   last state before it and the first state after it.
- * - Steps may jump over a singular configuration. Therefore, if sqrt(p) has a minimum among three
- *   states, and its slopes are so steep that it could be zero between them, the run searches for
- *   the least p of the motion through the three states.
+ * - Steps may jump over a singular configuration. The run therefore examines the last three states.
+ *   If sqrt(p) is smallest at the middle one of them, and falls and rises so steeply that it may be
+ *   zero between the states, the run searches for the least p of the motion through them.
  * - If the least p < SINGULAR and J loses rank there, the interval is a crossing. The run then
- *   records it, decides which branch the motion has taken (branch.c), and warns. All other
- *   intervals are not crossings: their pivots are only smaller than usual. */
+ *   records the crossing, decides which branch the motion has taken (branch.c), and warns. In other
+ *   intervals, which are not crossings, pivots are only smaller than usual. */
 #include "simulate/crossing.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ static const double SINGULAR = 1e-3;
  * another warning. */
 static const double RECORDED = -1.0;
 
-/* [rad] Path length after a singular configuration within which the pivot should have risen. */
+/* [rad] After a path of this length from a singular configuration, the pivot should have risen. */
 static const double STAY = 0.05;
 
 /* [rad] Least distance between clear states. If they were closer, extrapolation would amplify
@@ -209,8 +209,8 @@ static bool keeps_its_rank(baum_simulation *run, double t, const double *q, doub
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
-/* Store the pivot of a configuration in p->lowest if it is the smallest so far, unless the pivot
- * looks singular but J keeps its rank. Return whether it was stored. */
+/* Store the pivot of a configuration in p->lowest if it is the smallest pivot so far. A pivot that
+ * looks singular is not stored if J keeps its rank. Return whether the pivot was stored. */
 static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
@@ -344,8 +344,8 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* Store the last state but one as a clear state, unless a crossing has begun or the run has jumped
- * over one. */
+/* Store the last state but one as a clear state, unless it is near-singular. Call this only if the
+ * run has not jumped over a singular configuration between the last three states. */
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
@@ -442,9 +442,10 @@ void baum_i_crossings_renew(baum_simulation *run)
 
 /* ---- steps of variable length ---- */
 
-/* States inside a step are examined if the step may lead across a singular configuration: if it
- * moves the mechanism by more than LONG [rad] and the smaller of the pivots at its ends is below
- * PIVOT, or if it moves the mechanism by more than LONG_NEAR and this pivot is below PIVOT_NEAR. */
+/* States inside a step are examined if the step may lead across a singular configuration. Let angle
+ * [rad] be the size of the motion in the step, and p the smaller pivot of the two ends of the step.
+ * The states are examined if angle > LONG and p < PIVOT, or if angle > LONG_NEAR and p <
+ * PIVOT_NEAR. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;

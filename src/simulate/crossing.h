@@ -14,7 +14,7 @@ enum {
 
 /* A crossing that has begun, or that has been found between two steps. */
 typedef struct baum_i_crossing {
-  /* [s] time of the last state before the crossing that was not near-singular */
+  /* [s] time of the last state that was not near-singular, just before the crossing */
   double from;
   double largest_turn; /* [-] largest relative change of the velocity in a step */
   /* 1: the pivots indicate a gap between branches instead of a singular configuration */
@@ -33,7 +33,7 @@ struct baum_i_crossings {
   int32_t joint_noted; /* joint of the smallest pivot of the last recent state, or -1 */
 
   baum_i_knot recent[BAUM_I_RECENT]; /* last states in order of time */
-  /* clear states, which are far from singular ones and from each other */
+  /* clear states, which are far from singular configurations and from each other */
   baum_i_knot clear[BAUM_I_HERMITE_MOST];
   /* `at`, `other` and `between` are scratch memory for states between the recent ones */
   baum_i_knot at;
@@ -84,9 +84,9 @@ bool baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
  * Write the result to *out. */
 void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
-/* branch.c: return the least pivot of the equations of motion on the curve through `knots`, divided
- * by its usual size. Write its time to *at and its joint to *joint. Returns INFINITY if evaluations
- * fail. */
+/* branch.c: find the least pivot of the equations of motion on the curve through `knots`, and
+ * return it divided by the usual pivot. Write the time of the least pivot to *at and its joint to
+ * *joint. Returns INFINITY if evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint);
 
@@ -100,7 +100,7 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 
 /* branch.c: tell whether the violation of the last recent state may have raised the smallest pivot
- * of a singular configuration to this value. */
+ * of a singular configuration to the value `pivot`. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot);
 
 #endif

@@ -98,7 +98,7 @@ static void append_crossing(const baum_simulation *run, char *text, size_t size)
   }
 }
 
-/* Add the facts about the run for which no solution of the equations is needed. */
+/* Add facts about the run that can be stated without solving the equations. */
 static void append_history(const baum_simulation *run, char *text, size_t size)
 {
   const baum_counters *c = &run->counters;

@@ -54,8 +54,8 @@ typedef struct given {
   double before;
 } given;
 
-/* Append the jumps of other inputs up to and including time t. Begin with jump k of the old list.
- * Returns the index of the next jump in the old list. */
+/* Append the jumps of all inputs except `input`, up to and including time t. Begin with jump k of
+ * the old list. Returns the index of the next jump in the old list. */
 static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
                          baum_i_schedule *out)
 {

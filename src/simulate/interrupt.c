@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks before each step whether the run must stop: because of baum_simulation_cancel(), the
- * result of progress(), its time limit, too many steps, or steps that are too short.
+ * result of progress(), the time limit of a call, too many steps, or steps that are too short.
  *
  * A variable-step method may get stuck, for example BDF near a singular configuration, or an
  * explicit method with a stiff force. After every 1e4 steps of a call, the mean length of these

@@ -6,8 +6,9 @@
  *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
  *   dq = q_1 - q_0 - h/2 (q'_0 + q'_1) - h^2/12 (q''_0 - q''_1) + h/2 N dv
  *
- * where q' = v and q'' = a if q is a vector. The formulas have errors of order h^6 and h^5, so the
- * estimate is far too large for methods of high order. */
+ * where q' = v and q'' = a if q is a vector. The index 1 denotes the end of the step, 0 its start,
+ * and -1, -2 and -3 the starts of the three steps before it. The formulas have errors of order h^6
+ * and h^5, so the estimate is far too large for methods of high order. */
 #include "simulate/local_error.h"
 
 #include <math.h>

@@ -24,7 +24,7 @@ void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m
 
 /* Estimate the error of the last step, relative to the scales. Call this when the end of the step
  * is the present state and the workspace contains its acceleration. Returns 0 as long as too few
- * accelerations are known. Set known = 0 to discard them. */
+ * accelerations are known. Set known = 0 to discard all stored accelerations. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 
 #endif

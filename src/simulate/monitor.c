@@ -54,11 +54,11 @@ static void observe_singular(baum_simulation *run, double t)
   run->near_singular_seen = w->near_singular;
 }
 
-/* Omitted rows depend on the others only if the constraints do not contradict each other and the
- * motion stays on its branch. At a distance d from a configuration in which the active rows alone
- * are singular, the violation of the omitted rows may be 1/d times the violation of the active
- * rows. Very close to this configuration, the violation of the omitted rows may be as large as the
- * square root of the violation of the active rows. A larger violation is a contradiction. */
+/* Omitted rows depend on the active rows only if the constraints do not contradict each other and
+ * the motion stays on its branch. At a distance d from a configuration in which the active rows
+ * alone are singular, the violation of the omitted rows may be 1/d times the violation of the
+ * active rows. Very close to this configuration, the violation of the omitted rows may be as large
+ * as the square root of the violation of the active rows. A larger violation is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -145,8 +145,8 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
-/* Check the largest violation. This is repeated only after the violation has doubled, because it
- * costs a pass over J. */
+/* Check the largest violation. The check is repeated only after the violation has doubled, because
+ * it uses all values of J and therefore takes time. */
 static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;

@@ -218,9 +218,9 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* Check tolerance_lambda. It is allowed only at index 1, because multipliers are as smooth as
- * accelerations there. In the other formulations, the error estimate of an implicit method does not
- * decrease with the step as fast as it should. */
+/* Check tolerance_lambda. It is allowed only at index 1, where multipliers are as smooth as
+ * accelerations. In the other formulations, an implicit method's estimate of the error of
+ * multipliers does not decrease with the step as fast as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {

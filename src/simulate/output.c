@@ -265,7 +265,7 @@ static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
   return BAUM_OK;
 }
 
-/* ---- values; each returns its width ---- */
+/* ---- values; functions of type int return the number of values ---- */
 
 /* Return the whole vector to which the quantity belongs. */
 static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
@@ -375,7 +375,8 @@ static int fill_joint(const baum_workspace *w, const baum_channel *c, double *ou
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    /* The row of J of this coordinate is its gradient, so the effort is -lambda. */
+    /* The row of J of a driver is the gradient of the driven coordinate, so the effort is
+     * -lambda. */
     out[0] = -w->lambda[joint->row];
     return 1;
   }

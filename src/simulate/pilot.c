@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A pilot is a short run that finds the mean rate of a motion over its first radians. If |v| / L
- * and |a| / L denote the sizes of the velocities and accelerations relative to the scales,
+ * and |a| / L denote the sizes of the velocities and accelerations relative to the scales, and h
+ * the length of a step,
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
@@ -13,7 +14,7 @@
  * The constraints need no stabilization, because there are only few steps. An error of a tenth in
  * the rate does no harm. All steps cover about the same angle. A short fast phase or a singular
  * configuration therefore has little influence on the mean rate. No step is longer than the time in
- * which gravity turns the mechanism by this angle. If a mechanism starts slowly, the pilot
+ * which gravity turns the mechanism by the angle of a step. If a mechanism starts slowly, the pilot
  * therefore also includes its later motion.
  */
 #include <math.h>

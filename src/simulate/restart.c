@@ -56,8 +56,8 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  /* Kinematics has already computed the configuration on the far side of the break. Its velocities
-   * may differ from those on the near side. */
+  /* Kinematics has already computed the configuration on the far side of the break. The velocities
+   * on the far side may differ from those on the near side. */
   return run->integrator->without_freedom
            ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,
                                           run->state.v)

@@ -8,7 +8,7 @@
 #include "simulate/crossing.h"
 
 /* Copy the set of omitted rows to the workspaces of the account and of the companion. If there is
- * not enough memory, they keep their previous omitted rows, which are still valid. */
+ * not enough memory, these workspaces keep their previous omitted rows, which are still valid. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -36,11 +36,11 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] motion between two checks of the rows */
 
-/* If KLU or QR solves, there is no suitable smallest pivot for the check of the rows: pivots of KLU
- * vary irregularly, and pivots of QR become small only very close to a singular configuration. This
- * function returns a number in place of the pivot. It returns 0, which causes a check, each time
- * the mechanism has moved by WHILE, and otherwise 1. These checks cost little compared with the
- * other work of the two solvers. */
+/* If KLU or QR is the solver, there is no suitable smallest pivot for the check of the rows: pivots
+ * of KLU vary irregularly, and pivots of QR become small only very close to a singular
+ * configuration. This function returns a number in place of the pivot. It returns 0, which causes a
+ * check, each time the mechanism has moved by WHILE, and otherwise 1. These checks cost little
+ * compared with the other work of the two solvers. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;

@@ -163,7 +163,8 @@ baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
 }
 
 /* Write the message of a warning, the number of occurrences, and the heading of its entry in
- * docs/cookbook/warnings.md. If they do not fit, the message is cut, but the heading is not. */
+ * docs/cookbook/warnings.md. If the text becomes too long, the message is cut, but the heading is
+ * not. */
 static void write_warning(const baum_warning *warning, char text[sizeof warning->text])
 {
   const char *name = baum_warning_name(warning->code);

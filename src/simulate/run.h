@@ -49,8 +49,8 @@ struct baum_simulation {
   /* [s] time of the last restart; the method may compute with t - origin instead of t */
   double origin;
   double start_energy;
-  double largest_gamma; /* largest |gamma_i| of all rows i and all steps */
-  /* [s] time of the last check of the redundant rows if KLU or QR solves; see rows.c */
+  double largest_gamma; /* largest |gamma_i| (in J a = gamma) of all rows i and all steps */
+  /* [s] time of the last check of the redundant rows if KLU or QR is the solver; see rows.c */
   double rows_looked_at;
   double judged_phi; /* max_phi when it was last compared with its limit */
   /* max_phi_rate when it was last compared with the limit for non-holonomic rows */
@@ -70,7 +70,8 @@ struct baum_simulation {
    * NULL: the option is not given */
   double *row_gains;
   baum_i_account *account; /* energy account, see account.h; NULL: none */
-  /* workspaces of the account [0] and the companion [1], or NULL; they also call user functions */
+  /* workspaces of the account [0] and the companion [1], or NULL; like run->workspace, they call
+   * user functions */
   baum_workspace *beside[2];
   baum_i_events *events;       /* see events.h; NULL: no events */
   baum_i_companion *companion; /* see companion.h; NULL: no error estimate */
@@ -112,14 +113,14 @@ struct baum_simulation {
  * array. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
-/* Count the revolutions of joints and forces of spatial mechanisms: set the angles in the workspace
- * to those of a state, plus the whole revolutions that make them continuous. Returns the result of
- * baum_i_follow_angles(). */
+/* Set the angles of joints and forces of spatial mechanisms in the workspace to their values at
+ * `state`. Whole revolutions are added to each value such that the angle changes continuously.
+ * Returns the result of baum_i_follow_angles(). */
 double baum_i_run_follow_angles(baum_simulation *run, const baum_i_state *state);
 
 /* Call baum_i_run_follow_angles() at the end of a step, unless all angles are still near to their
- * last values (baum_i_angles_are_near()). The call takes longer than an evaluation of the
- * accelerations. */
+ * last values (baum_i_angles_are_near()). baum_i_run_follow_angles() takes longer than an
+ * evaluation of the accelerations. */
 void baum_i_run_follow_step(baum_simulation *run, const baum_i_state *end);
 
 static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
@@ -177,8 +178,9 @@ baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
  * The present state does not change. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
-/* Check the velocities of the trial state after the omitted rows are known. Returns
- * BAUM_ERR_INCONSISTENT or warns if ill-conditioned rows would change the velocities too much. */
+/* Check the velocities of the trial state. The omitted rows must already be known. If a projection
+ * onto ill-conditioned rows would change the velocities too much, the function warns or returns
+ * BAUM_ERR_INCONSISTENT. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
 /* Find the energy of the trial state. The workspace then contains Phi and Phi' of the trial
@@ -205,8 +207,8 @@ double baum_i_rest_rate(const baum_mechanism *m);
 
 /* [1/s] Return the mean rate over a short pilot run from the trial state, whose accelerations must
  * be in the workspace. Overwrites run->ahead, run->state and the workspace. The lengths of the
- * pilot's steps are chosen for the present rate of the motion, or for the rate swing [1/s] if that
- * is larger. */
+ * pilot's steps are chosen for the larger one of two rates: the present rate of the motion, and
+ * `swing` [1/s]. */
 double baum_i_run_pilot(baum_simulation *run, double swing);
 
 /* Choose the gains of the problem, and the step limit that they require. */
@@ -214,15 +216,17 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Monitor the state that the workspace evaluated last, whose time is t: its violation, whether it
- * is near-singular, and gamma if with_gamma is true. */
+/* Monitor the state that the workspace evaluated last. t is the time of this state. The function
+ * checks the violation of the state and whether the state is near-singular. If with_gamma is true,
+ * it also updates largest_gamma. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
 /* Warn if a force jumps in the step that ends at `end`. Call this just before the step is
  * accepted. */
 void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end);
 
-/* Accept the violation of the present state, which the user has given, without a warning. */
+/* Accept the violation of the present state without a warning, because the user has given this
+ * state. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
 /* Derivatives of user constraints that the user does not provide are computed by differences.
@@ -334,8 +338,8 @@ static inline baum_i_break baum_i_run_next_break(const baum_simulation *run)
 /* Tell whether the last step ends at the near side of the break. */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* restart.c: pass a break. The present time is its near side and becomes its far side. Methods with
- * a history restart there, and a new time grid begins there. Returns the statuses of
+/* restart.c: move the present time from the near side of a break to its far side. Methods with a
+ * history restart at the far side, and a new time grid begins there. Returns the statuses of
  * baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 

@@ -369,7 +369,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   return BAUM_OK;
 }
 
-/* Check that the buffer omits as many rows as this run. If this run omits no rows, the number is
+/* Check that the saved run omits as many rows as this run. If this run omits no rows, the number is
  * not checked. */
 static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
@@ -386,8 +386,8 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
                "does not fit: this run cannot omit the redundant rows that the saved run omits");
 }
 
-/* If the law of a driver is the polynomial of its parameters (general/driven.h), the driver has no
- * other law. Check that the buffer contains a polynomial for each of these drivers. */
+/* A driver whose definition gives a polynomial (general/driven.h) has no other law. Check that the
+ * buffer contains a polynomial for each of these drivers. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
   const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];

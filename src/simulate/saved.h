@@ -60,7 +60,7 @@ void baum_i_saved_add_all(baum_i_saved *list, void *place, size_t unit, int coun
 void baum_i_saved_add_array(baum_i_saved *list, double *values, int count);
 void baum_i_saved_add_state(baum_i_saved *list, const baum_mechanism *m, baum_i_state *state);
 
-/* Add an array of `most` entries to the list. Only its first `count` entries are saved. */
+/* Add an array of at most `most` entries to the list. Only its first `count` entries are saved. */
 void baum_i_saved_add_some(baum_i_saved *list, void *place, size_t unit, int64_t count,
                            int64_t most);
 

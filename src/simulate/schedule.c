@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The schedule of the inputs of a run. It is one list of the jumps of all inputs, in the order of
  * time. Each jump stores the value before and the value after it, so that a run can pass the jump
- * forward and backward in time. At any time, an input has the value after its last jump up to this
- * time. */
+ * forward and backward in time. At a time t, an input has the value after the last of its jumps up
+ * to and including t. */
 
 #include <math.h>
 #include <string.h>

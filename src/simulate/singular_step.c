@@ -54,8 +54,8 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   return skips ? BAUM_OK : status;
 }
 
-/* Return the pivot of the present state: that of the last knot if this is the present state,
- * otherwise the pivot of the last solution. */
+/* Return the pivot of the present state. If the last knot is the present state, its pivot is
+ * returned, otherwise the pivot of the last solution. */
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;

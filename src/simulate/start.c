@@ -287,7 +287,8 @@ static baum_status report_loose_velocities(baum_simulation *run, int row, double
 }
 
 /* Find by how much a projection changes the velocities, relative to their size. If the projection
- * fails, the change is 1. If some rows depend exactly on others, the change counts as 0. */
+ * fails because rows nearly depend on others, the change counts as 1. If it fails because rows
+ * depend exactly on others, the change counts as 0. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
