@@ -6,6 +6,8 @@ include(CMakePackageConfigHelpers)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/baum)
 
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+# Debian packages contain the license in their copyright files, so they omit this component.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)
 install(DIRECTORY include/baum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 # There are two sets of targets, because only a program that uses the static libraries needs the
 # backends.

@@ -156,7 +156,7 @@ stage_sweeps() {
 stage_valgrind() {
   need_venv
   checks="--quiet;--trace-children=yes;--error-exitcode=99;--leak-check=full;--errors-for-leak-kinds=definite"
-  build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;$checks"
+  build dev valgrind -DBAUM_WIDE=OFF "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;$checks"
   run_tests valgrind -LE 'layout|python|sweep|grid'
 }
 
