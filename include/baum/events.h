@@ -13,17 +13,18 @@
  *
  *  Zero at the start: an event function may be zero at the start of a run, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
- *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not
- *  an event, either, because rounding errors of the start may be the cause. Every later zero is an
+ *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not an
+ *  event, either, because rounding errors of the start may be the cause. Every later zero is an
  *  event. Impacts of a bouncing body may follow each other so fast that a terminal event happens
- *  again shortly after its own record, although the new velocities led away from zero. The run
- *  then fails with BAUM_ERR_STEP (not with IDA and generalized-alpha), because the body would
- *  otherwise fall through its stop. Let such a body rest once it is slow (docs/cookbook/stop.md).
- *  "Shortly" means within 1e-10 T, or within the tolerance of the event if that is longer. T is
- *  1/r, where r is the rate of the motion, which baum_simulation_explain() states. For the method
- *  IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto the
- *  constraints. baum_simulation_set_input() and baum_simulation_set_driver() trigger no event. If
- *  such a call changes the sign of an event function, the run continues with the new sign.
+ *  again shortly after it was recorded, although the velocities that the program then set led away
+ *  from zero. In this case the run fails with BAUM_ERR_STEP, because the body would otherwise fall
+ *  through its stop. Runs with IDA and generalized-alpha do not detect this case. Let such a body
+ *  rest once it is slow (docs/cookbook/stop.md). "Shortly" means within 1e-10 T, or within the
+ *  tolerance of the event if that is longer. T is 1/r, where r is the rate of the motion, which
+ *  baum_simulation_explain() states. For the method IDA, "shortly" means 10 rtol T instead of 1e-10
+ *  T, because IDA first moves the state onto the constraints. baum_simulation_set_input() and
+ *  baum_simulation_set_driver() trigger no event. If such a call changes the sign of an event
+ *  function, the run continues with the new sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
  *  begins a new grid of steps there. */
@@ -71,10 +72,10 @@ static inline baum_event_def baum_event_def_default(void)
 
 /** Add an event to a run. The run looks for the event from the present state on. When a run stops
  *  at an event, the call that advances the run returns BAUM_STOP_EVENT, and the state of the run is
- *  the state at the event. The next call continues the run. If the call was
- *  baum_simulation_sample(), it has filled the rows of the times before the event. If several
- *  events happen at the same time, the run records all of them before it stops. If an event happens
- *  exactly at the time at which a call ends, that call records it.
+ *  the state at the event. The next call continues the run. If baum_simulation_sample() returns
+ *  BAUM_STOP_EVENT, it has filled the rows of the times before the event. If several events happen
+ *  at the same time, the run records all of them before it stops. If an event happens exactly at
+ *  the time at which a call ends, that call records it.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives the number of the event; events are numbered 0, 1, ... in the
