@@ -42,7 +42,7 @@ extern "C" {
 
 /** A mechanism of the catalogue. */
 typedef struct baum_catalog_entry {
-  size_t struct_size; /**< Set by the call. */
+  size_t struct_size; /**< Set by the function that fills the struct. */
   const char *name;   /**< Such as "slider_crank". */
   const char *title;  /**< Description in a few words. */
   const char *source; /**< Where the data of the mechanism come from. */
@@ -51,19 +51,20 @@ typedef struct baum_catalog_entry {
   const char *note;        /**< Advice for simulating the mechanism; may be "". */
   int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
   int32_t sample_count;    /**< [-] number of stored samples; 0 if there are none. */
-  double start_time;       /**< [s] start of the problem and of its reference. */
-  double end_time;         /**< [s] end of the problem and of its reference. */
+  double start_time;       /**< [s] start of the motion and of its reference. */
+  double end_time;         /**< [s] end of the motion and of its reference. */
   /** [-] number of correct digits of the reference positions: the error of a position q is at most
    *  10^-digits_q max(1, |q|). NaN if there is no reference. */
   double digits_q;
   double digits_v; /**< [-] the same for velocities. */
   bool exact;      /**< True if the reference consists of formulas. */
-  bool smooth; /**< True if the motion with default parameters passes no singular configuration. */
+  /** True if the motion with default parameters passes through no singular configuration. */
+  bool smooth;
 } baum_catalog_entry;
 
 /** A parameter of a mechanism of the catalogue. */
 typedef struct baum_catalog_parameter {
-  size_t struct_size;  /**< Set by the call. */
+  size_t struct_size;  /**< Set by the function that fills the struct. */
   const char *name;    /**< Such as "eccentricity". */
   const char *unit;    /**< Such as "kg m^2"; "-" for a pure number. */
   const char *meaning; /**< What the parameter describes. */
@@ -85,7 +86,7 @@ typedef struct baum_catalog_choice {
   int32_t setting_count;                /**< [-] >= 0; parameters not listed have their defaults. */
 } baum_catalog_choice;
 
-/** Count the entries of the catalogue. @return their number */
+/** Count the entries of the catalogue. @return number of entries */
 BAUM_CATALOG_API int32_t baum_catalog_count(void);
 
 /** Read an entry.
@@ -97,7 +98,7 @@ BAUM_CATALOG_API baum_status baum_catalog_entry_at(int32_t k, baum_catalog_entry
                                                    size_t caller_size);
 
 /** Read an entry by name.
- *  @param[in]  name         of the entry
+ *  @param[in]  name         name of the entry
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (for an unknown name the message lists all names) */
@@ -105,7 +106,7 @@ BAUM_CATALOG_API baum_status baum_catalog_find(const char *name, baum_catalog_en
                                                size_t caller_size);
 
 /** Read a parameter of an entry.
- *  @param[in]  name         of the entry
+ *  @param[in]  name         name of the entry
  *  @param      k            0 to parameter_count - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
@@ -128,7 +129,7 @@ BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choic
 /* ---- references ------------------------------------------------------------------------------ */
 
 /** Read the times of the samples of a reference.
- *  @param[in]  name   of the entry
+ *  @param[in]  name   name of the entry
  *  @param[out] times  (sample_count) [s] rising, from start_time to end_time
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (the entry has no reference) */
 BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times);

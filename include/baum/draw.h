@@ -133,7 +133,7 @@ BAUM_API baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const d
 /** Write the picture of baum_mechanism_svg() into a file.
  *  @param     mechanism  must be frozen unless q is NULL
  *  @param[in] q          (nq) positions. NULL: the design configuration.
- *  @param[in] path       of the file
+ *  @param[in] path       path of the file
  *  @return  as baum_mechanism_svg(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
                                               const char *path);
@@ -214,7 +214,7 @@ static inline baum_page baum_page_default(void)
 /** Write a page into a file. The page is a single HTML file, which loads no other file.
  *  @param     mechanism  frozen
  *  @param[in] page       what the page shows
- *  @param[in] path       of the file
+ *  @param[in] path       path of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_FILE, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum_page *page,

@@ -28,7 +28,7 @@
 extern "C" {
 #endif
 
-/** A workspace. It evaluates one mechanism, and contains the memory that this needs. */
+/** A workspace. It evaluates one mechanism, and contains the memory that the evaluation needs. */
 typedef struct baum_workspace baum_workspace;
 
 /** Create a workspace. The mechanism stays in memory as long as the workspace exists. This call
@@ -43,7 +43,7 @@ BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum
 BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
 /** Read the design configuration and the given initial velocities.
- *  @param      workspace  of the mechanism
+ *  @param      workspace  a workspace of the mechanism
  *  @param[out] q          (nq); may be NULL
  *  @param[out] v          (nv), NaN where no initial velocity is given; may be NULL
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -51,7 +51,7 @@ BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q,
 
 /** Change the value of an input in this workspace. Before the first such call, the input has its
  *  initial value.
- *  @param workspace  of the mechanism
+ *  @param workspace  a workspace of the mechanism
  *  @param input      an input of the mechanism
  *  @param value      finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -66,10 +66,10 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
 /** Choose the number of whole revolutions in an angle of a spatial joint. Positions determine such
- *  an angle only up to whole revolutions. After this call, the functions of this workspace use that
- *  possible value which is nearest to `angle`. Before the first such call, they use the value
+ *  an angle only up to whole revolutions. After this call, the functions of this workspace use the
+ *  possible value that is nearest to `angle`. Before the first such call, they use the value
  *  nearest to 0.
- *  @param workspace   of the mechanism
+ *  @param workspace   a workspace of the mechanism
  *  @param joint       a spatial joint
  *  @param coordinate  one of the angles of the joint; BAUM_COORDINATE_FIRST is allowed if the first
  *                     coordinate of the joint is an angle
@@ -81,7 +81,7 @@ BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_jo
 
 /** Compute the time derivative of the positions, q' = N(q) v. For bodies whose positions form a
  *  vector, such as planar bodies, q' equals v.
- *  @param      workspace  of the mechanism
+ *  @param      workspace  a workspace of the mechanism
  *  @param[in]  q,v        (nq), (nv)
  *  @param[out] dq         (nq)
  *  @return  see the top of this file */
@@ -90,7 +90,7 @@ BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double
 
 /** Move positions by a displacement dx (nv). For bodies whose positions form a vector, the result
  *  is q + dx.
- *  @param         workspace  of the mechanism
+ *  @param         workspace  a workspace of the mechanism
  *  @param[in]     dx         (nv)
  *  @param[in,out] q          (nq)
  *  @return  see the top of this file */
@@ -98,7 +98,7 @@ BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double
 
 /** Compute the displacement dx between two configurations: baum_workspace_move() with this dx moves
  *  `from` to `to`.
- *  @param      workspace  of the mechanism
+ *  @param      workspace  a workspace of the mechanism
  *  @param[in]  from,to    (nq) each
  *  @param[out] dx         (nv)
  *  @return  see the top of this file */
@@ -165,7 +165,8 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  multipliers of least norm. This norm weights each lambda_i with the length of row i of J
  *  M^(-1/2). These multipliers balance the forces with a relative error of at most 1e-9. If the
  *  rows that are not omitted become nearly dependent on each other, the workspace chooses other
- *  rows to omit, which allocates memory. baum_workspace_residual() then omits these rows, too.
+ *  rows to omit, which allocates memory. From then on, baum_workspace_residual() omits the same
+ *  rows.
  *  @param      workspace,t,q,v  see the top of this file
  *  @param      alpha,beta       [1/s] finite
  *  @param[out] a                (nv) May be NULL.
@@ -226,7 +227,7 @@ typedef struct baum_sparse {
 /** Evaluate the residual F(t, y, y') of the differential-algebraic equations. The unknowns are y =
  *  (q, v, lambda), and for GGL y = (q, v, lambda, mu). If row i is redundant and omitted, its
  *  constraint is replaced by the equation lambda_i = 0. GGL has two equations for each row, Phi'
- *  and Phi; the second is replaced by mu_i = 0.
+ *  and Phi: lambda_i = 0 replaces Phi', and mu_i = 0 replaces Phi.
  *  @param      workspace,t  see the top of this file
  *  @param[in]  dae          which equations
  *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL

@@ -22,7 +22,7 @@
  *
  *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
- *  number. They give the shapes of arrays in parentheses.
+ *  number. The shapes of arrays are in parentheses.
  *
  *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
  *  characteristic length of the mechanism, and the scale of an angle is 1. For user coordinates,
@@ -134,8 +134,8 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 /* ---- a body given by functions --------------------------------------------------------------- */
 
 /** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. q may lie
- *  off the configuration manifold by the error of a step. If q is multiplied by a factor, dq must
- *  be multiplied by the same factor. */
+ *  off the configuration manifold by the error of a step. If the result for q is dq, the result for
+ *  c q, with a number c, must be c dq. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
 /** Moves q for the time h with the constant velocity v, and overwrites q with the result. The
@@ -490,9 +490,9 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 
 /** The law of a spring: computes the tension or the torque of the spring, and the derivatives of
  *  this value.
- *  @param      length  distance of the two points [m]; for a cable its length [m]; for a torsion
- *                      spring the angle of body_b relative to body_a [rad]; for a joint spring the
- *                      coordinate of the joint
+ *  @param      length  distance between the two points of the spring [m]; for a cable its length
+ *                      [m]; for a torsion spring the angle of body_b relative to body_a [rad]; for
+ *                      a joint spring the coordinate of the joint
  *  @param      rate    [m/s or rad/s] time derivative of length
  *  @param[out] out     (3) set to zero before the call. out[0] is the tension [N], which pulls the
  *                      points together if it is positive; for a torsion or joint spring it is the
@@ -755,8 +755,8 @@ typedef struct baum_report {
   int32_t nodes;
   int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
   int32_t fill; /**< [-] pairs of nodes that become coupled only by the elimination; 0 for KLU. */
-  /** [-] largest number of nodes that are coupled with one node and eliminated after it; 0 for KLU.
-   */
+  /** [-] largest number of later eliminated nodes with which a single node is coupled; 0 for
+   *  KLU. */
   int32_t most_couplings;
   int32_t most_joints; /**< [-] number of joints of the body most_joined. */
   /** The body with the most joints, among bodies that are not fixed; none if there are no joints.

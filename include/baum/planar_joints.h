@@ -240,7 +240,7 @@ typedef struct baum_planar_knife_edge_def {
   double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
   double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
   /** [-] direction of the blade, not zero; in ground axes if `point` is given, otherwise in the
-   * axes of body_a. Default: (1, 0). */
+   *  axes of body_a. Default: (1, 0). */
   double axis[2];
 } baum_planar_knife_edge_def;
 

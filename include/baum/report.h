@@ -6,8 +6,8 @@
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
- *  Values that are not known, such as the results of failed entries, appear as a dash in text and
- *  page, as an empty field in CSV, and as null in JSON. Reports are in UTF-8. Numbers have a
+ *  Values that are not known, such as the results of failed entries, appear as a dash in texts and
+ *  pages, as an empty field in CSV, and as null in JSON. Reports are in UTF-8. Numbers have a
  *  decimal point, whatever the locale is. You can write a report at any time. Writing it does not
  *  change the study. */
 #ifndef BAUM_REPORT_H
@@ -44,7 +44,7 @@ typedef enum baum_report_form {
  *  @param     study  the study
  *  @param     form   form of the report
  *  @param[in] title  title of the report; CSV has none. NULL: "Study".
- *  @param[in] path   of the file
+ *  @param[in] path   path of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message has the system's reason),
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form form,

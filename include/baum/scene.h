@@ -54,7 +54,8 @@ BAUM_API baum_status baum_mechanism_print(const baum_mechanism *mechanism, const
  *  @param     mechanism   frozen or not
  *  @param[in] hooks       (hook_count) as in baum_mechanism_print()
  *  @param     hook_count  [-] >= 0
- *  @param[in] path        of the file. An existing file is replaced when the new file is complete
+ *  @param[in] path        path of the file. An existing file is replaced when the new file is
+ *                         complete
  *  @return  as baum_mechanism_print(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write(const baum_mechanism *mechanism, const baum_hook *hooks,
                                           int32_t hook_count, const char *path);
@@ -72,7 +73,7 @@ BAUM_API baum_status baum_mechanism_parse(const char *text, size_t size, const b
                                           int32_t hook_count, baum_mechanism **out);
 
 /** Create a mechanism from a file.
- *  @param[in]  path        of the file
+ *  @param[in]  path        path of the file
  *  @param[in]  hooks       (hook_count) functions and `user` pointers that the scene names
  *  @param      hook_count  [-] >= 0
  *  @param[out] out         receives the mechanism, which is not frozen; NULL on failure

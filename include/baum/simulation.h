@@ -95,8 +95,8 @@ BAUM_API const baum_integrator *baum_cvode_adams(void);
  *  @return  the BDF method of SUNDIALS CVODE, with rtol. Formulations: PROJECTION, BAUMGARTE
  *           (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** A method for stiff forces, and for comparisons. Use INDEX3 only to compare formulations: its
- *  error is far above its tolerance.
+/** A method for stiff forces, and for comparisons. Use INDEX3 only to compare formulations: with
+ *  INDEX3, errors are far above the tolerance.
  *  @return  SUNDIALS IDA, BDF of variable order for the unknowns y = (q, v, lambda), with rtol.
  *           Formulations: GGL, BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
@@ -222,8 +222,8 @@ typedef struct baum_simulation_options {
   double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
   /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v. cvode_bdf
    *  divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are about equally
-   *  accurate at the same rtol. They divide by less if rtol would otherwise fall below 1e-13.
-   *  Default: NaN, not given. */
+   *  accurate at the same rtol. Both methods divide by less if the divided rtol would otherwise be
+   *  below 1e-13. Default: NaN, not given. */
   double rtol;
   /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
    *  times the scale. Default: NaN, none. */
@@ -294,10 +294,10 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *  @param[out] out        receives the run, NULL on failure; release it with
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
- *           BAUM_ERR_UNSUPPORTED (the integrator does not offer the formulation, has no gains by
- *           this rule, or is not in this build; kinematics was requested for a mechanism with
- *           degrees of freedom or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle
- *           the mechanism), BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE,
+ *           BAUM_ERR_UNSUPPORTED (the integrator does not offer the formulation or the gain rule,
+ *           or is not in this build; kinematics was requested for a mechanism with degrees of
+ *           freedom or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle the
+ *           mechanism), BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE,
  *           BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE,
  *           BAUM_ERR_INTEGRATOR */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
@@ -466,11 +466,11 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  The library checks that both mechanisms have the same elements in the same order, with the same
  *  numbers, and that both runs have the same integrator, formulation, gains, row_gains, step,
  *  tolerances, max_step, solver, energy_account and events. Events must therefore be added before
- *  the run is restored. The library cannot check user functions. They must be the same, and if
- *  they keep a state of their own, this state is not saved. The gains and the choice of redundant
- *  rows come from the saved run. Restoring allocates memory in three cases only: drivers were set
- *  in the saved run, its schedules are longer than those of this run, or the redundant rows that
- *  it omits differ from those that this run omits.
+ *  the run is restored. The library cannot check user functions. They must be the same, and if they
+ *  keep a state of their own, this state is not saved. The gains and the choice of redundant rows
+ *  come from the saved run. Restoring allocates memory in three cases only: drivers were set in the
+ *  saved run, the saved run has longer schedules than this run, or the two runs omit different
+ *  redundant rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -655,7 +655,8 @@ typedef struct baum_counters {
   int64_t steps;      /**< [-] accepted steps. */
   /** [-] steps that were repeated, because an error test or an iteration failed. */
   int64_t rejected;
-  /** [-] shorter steps that a fixed-step method took to reach a requested time off its grid. */
+  /** [-] shorter steps that a fixed-step method took to reach a requested time or a break time that
+   *  is not on its grid of steps. */
   int64_t short_steps;
   /** [-] evaluations of the equations of motion. Most methods solve equation (7) of
    *  docs/notation.md in each evaluation, and implicit methods compute a residual. */
@@ -684,8 +685,8 @@ typedef struct baum_counters {
    *  method, but also the work of drivers, inputs and dampers. */
   double energy_change;
   /** [-] largest displacement of a body in the last assembly, in characteristic lengths or rad. It
-   *  includes the motion of drivers to their initial values only if assembly reaches these values
-   *  directly; assembly follows drivers that begin far away in several steps. */
+   *  includes the motion of drivers to their initial values if assembly makes this motion in a
+   *  single step, but not if assembly makes it in several small steps. */
   double start_change;
   double alpha; /**< [1/s] gain in use. */
   double beta;  /**< [1/s] gain in use. */
@@ -710,11 +711,10 @@ typedef struct baum_counters {
   /** [-] estimate of the largest global error of the positions since the start. Errors of lengths
    *  are relative to the characteristic length, and errors of angles are in radians. Without the
    *  option error_check it shows only whether the error is large: values up to 0.01 may be errors
-   *  of the estimate itself. With a fixed step, it is 0 as long as the local errors are
-   *  negligible. It is NaN, which means unknown, if
-   *  inputs change every few steps, or if the estimate failed or would cost too much. With variable
-   *  steps it is known only with the option error_check and rtol >= 2e-14, or after a singularity
-   *  crossing at a loose tolerance; otherwise it is NaN. */
+   *  of the estimate itself. With a fixed step, it is 0 as long as the local errors are negligible.
+   *  It is NaN, which means unknown, if inputs change every few steps, or if the estimate failed or
+   *  would cost too much. With variable steps it is known only with the option error_check and rtol
+   *  >= 2e-14, or after a singularity crossing at a loose tolerance; otherwise it is NaN. */
   double error_estimate;
 } baum_counters;
 
@@ -761,8 +761,8 @@ typedef struct baum_energy_account {
   double drivers;
   double violation;  /**< [J] work of violated constraints: the integral of -Phi'^T lambda. */
   double projection; /**< [J] change of kinetic and potential energy by projections. */
-  /** [J] work of the gains. It is already contained in drivers and violation, so do not add it to
-   *  them. */
+  /** [J] work of the gains. It is already contained in the fields `drivers` and `violation`, so do
+   *  not add it to these fields. */
   double gains;
   /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
   double residual;

@@ -15,7 +15,8 @@
  *  Reaction of a joint: the force [N] and the moment [N m] that the joint exerts on body_b, in
  *  ground axes. The moment is about the joint's point on body_b. If a driver acts on the joint, the
  *  reaction does not include the force or torque of the driver. If a body is planar, the reaction
- *  includes the force across the plane and the moments about x and y, which the plane supports.
+ *  includes the force across the plane z = 0 and the moments about x and y. These parts do not move
+ *  the body, which stays in this plane.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H
@@ -37,8 +38,8 @@ typedef struct baum_spatial_body_def {
   /** [kg m^2] inertia tensor about the centre of mass in body axes, in the order xx, yy, zz, xy,
    *  xz, yz. The last three have the sign of the tensor: xy = - integral of x y dm. The principal
    *  moments must be >= 0, and none may exceed the sum of the two others. One of them may be 0, as
-   *  for a slender rod. The library raises principal moments that are below 1e-10 of the largest
-   *  one to this value. Default: (1, 1, 1, 0, 0, 0). */
+   *  for a slender rod. If a principal moment is less than 1e-10 times the largest one, the library
+   *  uses 1e-10 times the largest one instead. Default: (1, 1, 1, 0, 0, 0). */
   double inertia[6];
   /** [m] position of the centre of mass in the design configuration. Default: (0, 0, 0). */
   double position[3];

@@ -42,7 +42,7 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_TAYLOR = 3,
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f with a frequency f; alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Gains for which both roots z are zero; fixed step only. */
-  /** alpha = beta, proportional to the angular velocity of the motion up to a limit. */
+  /** alpha = beta, proportional to the angular velocity of the motion, but not above a limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
 } baum_gain_rule;
@@ -56,13 +56,13 @@ typedef struct baum_gains {
 
 /* The comment of each rule states for which steps its gains are stable, how large a violation they
  * leave, and what they do to accuracy and cost. h is the step, and gamma is the right-hand side of
- * the acceleration constraints J a = gamma. The numbers were measured with a pendulum of length 1 m
- * that is released from the horizontal and runs for 1 s with h = 0.0025 s.
+ * the acceleration constraints J a = gamma. The measured numbers are those of a pendulum of length
+ * 1 m, which is released from the horizontal and simulated for 1 s with h = 0.0025 s.
  * docs/theory/gain_rules.md has more measurements. */
 
 /** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
- *  h^2) lies in the region of stability of the method. With a variable-step method they are stable
- *  if alpha >= 0.618 beta.
+ *  h^2) lies in the region of stability of the method. With CVODE BDF and IDA they are stable if
+ *  alpha >= 0.618 beta, and with the other variable-step methods always.
  *
  *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
  *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
@@ -130,8 +130,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
  *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
- *  - With explicit methods at variable steps the factor is 0.1, because these methods take longer
- *    steps. If drivers prescribe the whole motion, it is 2.
+ *  - With explicit methods at variable steps the factor is 0.1, because variable steps are usually
+ *    longer than fixed steps. If drivers prescribe the whole motion, it is 2.
  *
  *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
  *  method. The gains are therefore always stable. The steady violation is about the local error of
@@ -143,8 +143,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
  *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), the angular frequency of
  *  a pendulum of length L. For a mechanism at rest in equilibrium without gravity, alpha is 0.01/h
- *  at a fixed step. At variable steps alpha is 1 per second, which only suits machines with time
- *  scales of seconds. docs/theory/gain_rules.md compares other factors.
+ *  with a fixed step. With variable steps, alpha is then 1 per second, which only suits machines
+ *  with time scales of seconds. docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
@@ -297,7 +297,7 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
 
 /** Trace the outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at
  *  most `radius`. With `radius` = 1, this is the region of stability. With a smaller radius, it is
- *  the region where each step multiplies violations by at most this factor in the long run.
+ *  the region where each step multiplies violations by at most `radius` in the long run.
  *
  *  The outline consists of closed curves: one around each part of the region, and one around each
  *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from

@@ -150,8 +150,9 @@ typedef struct baum_study_grid {
    *  are not more accurate than this. */
   double finest;
   /** A smaller grid for a first answer. It costs about a 25th of the default grid. It contains
-   *  every integrator with its default gains, and with its default formulation or the one given
-   *  above. Each integrator has at most 5 settings, and `constants` is ignored. Default: false. */
+   *  every integrator with its default gains and its default formulation, or with `formulation` if
+   *  this field is set. Each integrator has at most 5 settings, and `constants` is ignored.
+   *  Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -201,7 +202,8 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
  *  @param     study     unchanged on failure
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
- *  @param     unit      [of the channels] > 0, finite; a difference of this size is an error of 1
+ *  @param     unit      [unit of the channels] > 0, finite; a difference of this size is an error
+ *                       of 1
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE,
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel *channels,
@@ -235,7 +237,7 @@ BAUM_API baum_status baum_study_set_reference(baum_study *study, const double *t
  *  @return  0 on success */
 typedef int baum_study_solution_fn(double t, double *q, double *v, double *lambda, void *user);
 
-/** Give a reference as a function. The study calls the function at its samples. Call
+/** Give a reference as a function. The study calls the function at the times of the samples. Call
  *  baum_study_set_solution() before the first baum_study_run().
  *  @param study     unchanged on failure
  *  @param solution  the function; only the thread that calls baum_study_run() calls it
@@ -472,9 +474,9 @@ typedef struct baum_study_method {
   /** [-] slope of the error curve: d log error / d log step, or d log error / d log rtol if entries
    *  differ in rtol. NaN: unknown. */
   double slope;
-  /** [-] factor by which the work grows for one more digit; NaN: unknown. */
+  /** [-] factor by which the work grows for one more correct digit; NaN: unknown. */
   double work_per_digit;
-  /** [-] factor by which the CPU time grows for one more digit; NaN: unknown. */
+  /** [-] factor by which the CPU time grows for one more correct digit; NaN: unknown. */
   double cpu_per_digit;
   /** [-] geometric mean of error_validated / error over its entries; NaN if the validation of no
    *  entry was completed. */

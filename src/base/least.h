@@ -6,7 +6,7 @@
 typedef double baum_i_function(void *user, double t);
 
 /* Search for the minimum of a function between ends[0] and ends[1], where ends[0] < ends[1]. The
- * search ends when the position of the minimum is known to `tolerance`, or after `most`
+ * search ends when the error of the position of the minimum is at most `tolerance`, or after `most`
  * evaluations. `most` must be at least 1. Returns the least value found and writes its argument to
  * *at. If there are several minima, the search finds one of them. Values of the function may be
  * infinite, but not NaN. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The monitors execute these loops over arrays after every step. The loops use vectors of four
- * numbers, because plain loops would cost half as much time as an evaluation of the
+/* The functions that monitor a run execute these loops over arrays after every step. The loops use
+ * vectors of four numbers, because plain loops would cost half as much time as an evaluation of the
  * accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H
 #define BAUM_I_BASE_MEASURE_H
@@ -11,7 +11,8 @@
 typedef struct baum_i_step_samples {
   const double *q[2]; /* q at the start and at the end of the step; not used if dq is given */
   const double *v[2];
-  /* accelerations at the end of the step, at its start, and at the three times before */
+  /* accelerations at the end of the step, at its start, and at the starts of the three steps
+   * before */
   const double *a[5];
   const double *dq; /* NULL if q' = v; otherwise dq of local_error.c without its last term */
   const double *scale;

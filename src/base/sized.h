@@ -36,8 +36,8 @@ baum_status baum_i_take_sized(void *to, size_t size, const void *from, const cha
                               const char *of, const char *start);
 
 /* Copy as many bytes of the struct `whole` as fit into the caller's struct, and set the caller's
- * struct_size to their number. Does nothing if the caller's struct is NULL or too small to hold
- * struct_size. */
+ * struct_size to the number of copied bytes. Does nothing if the caller's struct is NULL or too
+ * small to hold struct_size. */
 void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size);
 
 #endif

@@ -404,8 +404,8 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
 }
 
 /* Tell whether the present run must end before the saved state is restored: the state has no run,
- * or its parameters or options differ. Inputs are not compared, because restoring a run sets
- * them. */
+ * or its parameters or options differ from the present ones. Inputs are not compared, because
+ * restoring a run sets them. */
 static bool needs_other_run(const instance *fmu, const state *saved)
 {
   const size_t inputs = (size_t)fmu->resources.input_count;

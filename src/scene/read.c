@@ -28,8 +28,9 @@ static baum_status fill_array(const baum_i_scene_reader *r, const baum_i_def_fie
   return BAUM_OK;
 }
 
-/* Read an array into memory that free_arrays() frees. The length of the array must be equal to its
- * count. If the scene does not give the count, set the count to this length. */
+/* Read an array into memory that free_arrays() frees. The length of the array must agree with the
+ * field that gives its count. If the scene does not contain this field, set the field according to
+ * the length. */
 static baum_status read_array(const baum_i_scene_reader *r, const baum_i_definition *definition,
                               const baum_i_def_field *f, const baum_i_json_node *list, void *def)
 {

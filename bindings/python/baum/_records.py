@@ -65,8 +65,8 @@ class Report(NamedTuple):
     nodes: [-] nodes of the block solver (a node is a pair of rows); 0 for KLU.
     couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
     fill: [-] pairs of nodes that become coupled only by the elimination; 0 for KLU.
-    most_couplings: [-] largest number of nodes that are coupled with one node and eliminated
-        after it; 0 for KLU.
+    most_couplings: [-] largest number of later eliminated nodes with which a single node is
+        coupled; 0 for KLU.
     most_joints: [-] number of joints of the body most_joined.
     most_joined: The body with the most joints, among bodies that are not fixed; none if there
         are no joints.
@@ -106,8 +106,8 @@ class Counters(NamedTuple):
 
     steps: [-] accepted steps.
     rejected: [-] steps that were repeated, because an error test or an iteration failed.
-    short_steps: [-] shorter steps that a fixed-step method took to reach a requested time off
-        its grid.
+    short_steps: [-] shorter steps that a fixed-step method took to reach a requested time or a
+        break time that is not on its grid of steps.
     evaluations: [-] evaluations of the equations of motion. Most methods solve equation (7) of
         docs/notation.md in each evaluation, and implicit methods compute a residual.
     factorizations: [-] factorizations of the matrix in equation (7) and of the matrices of IDA
@@ -129,9 +129,8 @@ class Counters(NamedTuple):
     energy_change: [J] change of kinetic plus potential energy since the start. It contains the
         error of the method, but also the work of drivers, inputs and dampers.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
-        lengths or rad. It includes the motion of drivers to their initial values only if
-        assembly reaches these values directly; assembly follows drivers that begin far away in
-        several steps.
+        lengths or rad. It includes the motion of drivers to their initial values if assembly
+        makes this motion in a single step, but not if assembly makes it in several small steps.
     alpha: [1/s] gain in use.
     beta: [1/s] gain in use.
     spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
@@ -208,8 +207,8 @@ class EnergyAccount(NamedTuple):
         lambda.
     violation: [J] work of violated constraints: the integral of -Phi'^T lambda.
     projection: [J] change of kinetic and potential energy by projections.
-    gains: [J] work of the gains. It is already contained in drivers and violation, so do not
-        add it to them.
+    gains: [J] work of the gains. It is already contained in the fields `drivers` and
+        `violation`, so do not add it to these fields.
     residual: [J] kinetic + potential - start, minus the sum of all work terms except gains.
     evaluations: [-] evaluations of equations (5) and (7) for the account. The counters of the
         run do not include them.
@@ -374,8 +373,9 @@ class StudyMethod(NamedTuple):
     least_error: [-] the smallest error of its entries; NaN if none is usable.
     slope: [-] slope of the error curve: d log error / d log step, or d log error / d log rtol
         if entries differ in rtol. NaN: unknown.
-    work_per_digit: [-] factor by which the work grows for one more digit; NaN: unknown.
-    cpu_per_digit: [-] factor by which the CPU time grows for one more digit; NaN: unknown.
+    work_per_digit: [-] factor by which the work grows for one more correct digit; NaN: unknown.
+    cpu_per_digit: [-] factor by which the CPU time grows for one more correct digit; NaN:
+        unknown.
     growth: [-] geometric mean of error_validated / error over its entries; NaN if the
         validation of no entry was completed.
     """
@@ -454,13 +454,13 @@ class CatalogEntry(NamedTuple):
     note: Advice for simulating the mechanism; may be "".
     parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
     sample_count: [-] number of stored samples; 0 if there are none.
-    start_time: [s] start of the problem and of its reference.
-    end_time: [s] end of the problem and of its reference.
+    start_time: [s] start of the motion and of its reference.
+    end_time: [s] end of the motion and of its reference.
     digits_q: [-] number of correct digits of the reference positions: the error of a position q
         is at most 10^-digits_q max(1, |q|). NaN if there is no reference.
     digits_v: [-] the same for velocities.
     exact: True if the reference consists of formulas.
-    smooth: True if the motion with default parameters passes no singular configuration.
+    smooth: True if the motion with default parameters passes through no singular configuration.
     parameters: Its parameters by name.
     """
 
