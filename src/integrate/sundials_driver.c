@@ -183,7 +183,7 @@ static void give_stop(baum_i_sundials *run)
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
     /* The call fails only if the stop time is in the past. */
     (void)run->method->package->set_stop(run->memory, stop);
-    run->stops = problem->stops;
+    run->stops = true;
   }
 }
 

@@ -48,11 +48,11 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
   double before = run->state.t;
   baum_i_run_end_before_change(run);
   run->state.t = next.far;
-  baum_i_schedule_move(run, before, next.far);
+  baum_i_schedule_move(run, next.near, next.far);
   baum_status status = baum_i_run_restart(run);
   if (status != BAUM_OK) {
     run->state.t = before;
-    baum_i_schedule_move(run, next.far, before);
+    baum_i_schedule_move(run, next.far, next.near);
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};

@@ -122,6 +122,54 @@ static void jumps_are_crossed_accurately_forward_and_backward(void **state)
   }
 }
 
+/* The torque is 0 before -0.1 s, then 2 N m, and -1 N m after 0.2 s. A run from rest at t = 0 turns
+ * round at 0.3 s and goes back to -0.3 s. The angle there is 0.05 rad. */
+static void jumps_before_the_start_are_crossed_backward(void **state)
+{
+  (void)state;
+  const double times[2] = {-0.1, 0.2};
+  const double values[2] = {2.0, -1.0};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = {.mechanism = create_mechanism()};
+    assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
+    baum_planar_body_def body = baum_planar_body_def_default();
+    body.inertia = 1.0;
+    baum_body_id wheel;
+    assert_int_equal(baum_mechanism_add_planar_body(d.mechanism, &body, &wheel), BAUM_OK);
+    d.torque = add_torque(d.mechanism, wheel, 1.0, 0.0);
+    assert_int_equal(baum_mechanism_freeze(d.mechanism), BAUM_OK);
+    baum_simulation *run = open_mode(&d, mode, false);
+    assert_int_equal(baum_simulation_schedule_input(run, d.torque, times, values, 2), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.3), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, -0.3), BAUM_OK);
+    assert_true(baum_simulation_input(run, d.torque) == 0.0);
+    ASSERT_NEAR(baum_simulation_q(run)[2], 0.05, 0.0, 2.0 * allowed(mode));
+    close_all(run, &d);
+  }
+}
+
+static void a_run_turns_round_after_an_input_has_ended_its_schedule(void **state)
+{
+  (void)state;
+  const double times[2] = {0.1, 0.5};
+  const double values[2] = {2.0, -1.0};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    assert_int_equal(baum_simulation_set_input(run, d.torque, 0.0), BAUM_OK);
+    assert_int_equal(baum_simulation_schedule_input(run, d.other, times, values, 2), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.3), BAUM_OK);
+    assert_int_equal(baum_simulation_set_input(run, d.other, 0.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.4), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.2), BAUM_OK);
+    /* After 0.1 s the torque has changed the angular velocity to -0.4 rad/s in 0.2 s. */
+    ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 2.0 * allowed(mode));
+    close_all(run, &d);
+  }
+}
+
 /* Takes single steps. Each step must end at the next jump or before it. */
 static void steps_stop_at_jumps(void **state)
 {
@@ -365,6 +413,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scheduled_jumps_keep_motions_accurate),
     cmocka_unit_test(jumps_are_crossed_accurately_forward_and_backward),
+    cmocka_unit_test(jumps_before_the_start_are_crossed_backward),
+    cmocka_unit_test(a_run_turns_round_after_an_input_has_ended_its_schedule),
     cmocka_unit_test(steps_stop_at_jumps),
     cmocka_unit_test(inputs_that_jump_together_are_all_reset_before_the_jump),
     cmocka_unit_test(a_schedule_given_during_a_run_takes_effect_at_once),
