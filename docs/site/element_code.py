@@ -17,7 +17,7 @@ from baum.definitions import KINDS
 
 
 def methods():
-    """Return the name of the method of Mechanism that adds each kind."""
+    """Return, for each kind of element, the name of the method of Mechanism that adds it."""
     found = {}
     for module in (adding, adding_space):
         for node in ast.walk(ast.parse(inspect.getsource(module))):
@@ -51,7 +51,7 @@ def c_name(name):
 
 
 def assignment(m, kind, field, type_, value, default):
-    """Return the C lines that set a field whose value is not the default, and the ids that they use."""
+    """Return the C lines that set a field, and the ids in these lines. If the value is the default, both are empty."""
     family = type_.__name__.removeprefix("baum_").removesuffix("_id")
     if bytes(value) == bytes(default) if hasattr(value, "_type_") else value == default:
         return [], []
