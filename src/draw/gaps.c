@@ -69,8 +69,8 @@ static void draw_angle(const gaps *g)
   draw_gap(&plane, zero, tip);
 }
 
-/* Draws gaps for a body_b that slides on a plane of body_a. They connect this plane with the tips
- * of two directions on body_b that should be parallel to the plane. */
+/* Draws gaps for a joint in which body_b slides on a plane of body_a. They connect this plane with
+ * the tips of two directions on body_b that should be parallel to the plane. */
 static void draw_tilt(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};

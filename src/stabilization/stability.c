@@ -52,7 +52,7 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* first b of the search; if the method is stable there, it is for all smaller b */
+  double begin; /* first b of the search; if it is stable, all smaller b are stable, too */
   double end;
 } ray;
 
