@@ -184,8 +184,9 @@ void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const dou
 
 /* ---- outlines.c, user_outlines.c, symbols.c ---- */
 
-/* Draw the body with this index. If the user has given outlines for the body, they are drawn.
- * Otherwise the outline follows from the joints and the inertia of the body. */
+/* The first function draws the body with this index: the outlines that the user has given for the
+ * body or, if there are none, an outline that follows from its joints and its inertia. The second
+ * function draws only outlines that the user has given. */
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
 void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 

@@ -20,8 +20,8 @@ typedef struct gaps {
   int what;
 } gaps;
 
-/* Draws the gap at the joint. The ends of this line are shifted by on_a in the axes of body_a, and
- * by on_b in the axes of body_b. */
+/* Draws the gap at the joint. The end on body_a is shifted by on_a in the axes of body_a, and the
+ * end on body_b is shifted by on_b in the axes of body_b. */
 static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
 {
   const baum_i_place *place = g->place;

@@ -139,7 +139,7 @@ typedef struct baum_i_block {
   int motion_size; /* v, ground, and y of dense bodies */
   /* the solution is refined if the smallest ratio of det D to `size` of a node is below this */
   double weak_pivot;
-  bool leaves_v; /* a body block of a dense body or particle may use entries of motion[] after v */
+  bool leaves_v; /* dense bodies or particles use entries of motion[] after those of v */
   int hub;       /* mass block with too many sides; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */
@@ -157,7 +157,7 @@ typedef struct baum_i_block {
   baum_i_full_pair *full_pairs;  /* (full_pair_count) pairs that add to their block */
   int32_t *zeros;  /* (zero_count) blocks of off[] that no pair sets; couple() clears them */
   int32_t *target; /* blocks of off[] that receive products of couplings, node after node */
-  int32_t *place;  /* (body_block_count) first index of the block in free[], motion[], ... */
+  int32_t *place;  /* (body_block_count) first index of the body block in free[], motion[], ... */
   baum_i_dense_body *dense;       /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
 

@@ -67,7 +67,7 @@ struct baum_i_kkt {
   double *scale;
   double *b;
   double *x;
-  double *residual; /* then the correction computed from the residual */
+  double *residual; /* refine() replaces the residual by the correction */
   double *size;
 };
 
@@ -309,8 +309,8 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether a least-squares solution nearly satisfies all rows. This replaces the test for
- * rounding level: if rows contradict each other, unknowns may be so large that rounding errors
+/* Tells whether a least-squares solution nearly satisfies all rows. This function replaces the test
+ * for rounding level: if rows contradict each other, unknowns may be so large that rounding errors
  * dominate the other rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {

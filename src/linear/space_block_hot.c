@@ -502,8 +502,8 @@ static double add_changes(const baum_i_space *b, int island)
 }
 
 /* If no joint keeps a slender body from spinning about its axis, the raised moment of inertia makes
- * all changes of the spin much too small, and a change is more than SLOWEST times the change
- * before. Changes below NOISE times the accelerations may be rounding errors. */
+ * each correction of the spin much too small, and more than SLOWEST times the correction before it.
+ * Corrections below NOISE times the accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 

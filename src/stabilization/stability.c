@@ -56,8 +56,8 @@ typedef struct ray {
   double end;
 } ray;
 
-/* Tells whether the bound above proves that a one-step method is stable for all mu of this size or
- * smaller. */
+/* Tells whether the condition at the top of this file proves that a one-step method is stable for
+ * all mu of this size or smaller. */
 static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
 {
   double first = method->coefficients[1]; /* c_1 */
