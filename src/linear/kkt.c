@@ -24,8 +24,8 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* If rcond is below this, the next rung of the ladder is tried. If it stays below, the matrix
- * counts as nearly singular. */
+/* If rcond is below this, the next rung of the ladder is tried. If rcond is below this on all
+ * rungs, the matrix counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
 /* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times the value that it
  * had when the present pivots were chosen. After such a decrease, rcond measures neither the

@@ -271,8 +271,8 @@ typedef struct baum_i_space_kernel {
   /* Compares, for each node, the accelerations of its bodies that its multipliers alone cause with
    * the accelerations that all multipliers and forces cause. Returns the largest acceleration that
    * one node causes, divided by the largest acceleration of a body of the same island. For the spin
-   * that a node causes on a thin body, the divisor is the whole spin of this body if that is
-   * larger. If the returned quotient is large, digits have cancelled. */
+   * that a node causes on a thin body, the divisor is this largest acceleration or the whole spin
+   * of the body, whichever is larger. If the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. The residual of the equations of
