@@ -48,8 +48,8 @@ void baum_i_draw(baum_i_drawing *drawing, baum_i_shape shape, int count, const d
   shapes[drawing->shape_count++] = shape;
 }
 
-/* Sorts shapes by style. Shapes of one style keep the order in which they were added, which is the
- * order of their points in memory. */
+/* Sorts shapes by style, and wheels also by radius, larger ones first. All other shapes of one
+ * style keep the order in which they were added, which is the order of their points in memory. */
 static int compare(const void *a, const void *b)
 {
   const baum_i_shape *x = a, *y = b;

@@ -26,7 +26,7 @@ typedef enum baum_i_form {
   BAUM_I_ARROW, /* from a point on `body`, along a vector in the axes of `other` */
   /* The next three forms connect a point on `body` with the nearest point of one of these on
    * `other`: */
-  BAUM_I_TO_LINE,  /* an open line, whose corners are the other points */
+  BAUM_I_TO_LINE,  /* an open polygonal line through all points after the first */
   BAUM_I_TO_PLANE, /* a plane, given by a point and a normal vector */
   BAUM_I_TO_SPHERE /* a sphere, given by its centre and the vector (radius, 0, 0) */
 } baum_i_form;
@@ -184,8 +184,9 @@ void baum_i_draw_move(const baum_i_drawing *drawing, int from, int to, const dou
 
 /* ---- outlines.c, user_outlines.c, symbols.c ---- */
 
-/* Draw the body with this index. If the user has given outlines for the body, they are drawn.
- * Otherwise the outline follows from the joints and the inertia of the body. */
+/* The first function draws the body with this index: the outlines that the user has given for the
+ * body or, if there are none, an outline that follows from its joints and its inertia. The second
+ * function draws only outlines that the user has given. */
 void baum_i_draw_body(baum_i_drawing *drawing, int body);
 void baum_i_draw_outlines(baum_i_drawing *drawing, int body);
 

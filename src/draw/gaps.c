@@ -20,8 +20,8 @@ typedef struct gaps {
   int what;
 } gaps;
 
-/* Draws the gap at the joint. The ends of this line are shifted by on_a in the axes of body_a, and
- * by on_b in the axes of body_b. */
+/* Draws the gap at the joint. The end on body_a is shifted by on_a in the axes of body_a, and the
+ * end on body_b is shifted by on_b in the axes of body_b. */
 static void draw_gap(const gaps *g, const double on_a[3], const double on_b[3])
 {
   const baum_i_place *place = g->place;
@@ -69,8 +69,8 @@ static void draw_angle(const gaps *g)
   draw_gap(&plane, zero, tip);
 }
 
-/* Draws gaps for a body_b that slides on a plane of body_a. They connect this plane with the tips
- * of two directions on body_b that should be parallel to the plane. */
+/* Draws gaps for a joint in which body_b slides on a plane of body_a. They connect this plane with
+ * the tips of two directions on body_b that should be parallel to the plane. */
 static void draw_tilt(const gaps *g)
 {
   const double zero[3] = {0.0, 0.0, 0.0};

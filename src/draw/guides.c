@@ -88,9 +88,8 @@ void baum_i_draw_slot(const baum_i_symbol *s)
   baum_i_symbol_point(s, BAUM_I_JOINT, 1, 0.5);
 }
 
-/* Draws a rack. Its pitch line is y units to the left of the place, where `left` gives the
- * direction. The rack is on the left of the pitch line if `side` is 1, and on the right if `side`
- * is -1. */
+/* Draws a rack. Its pitch line is at a distance of y units from the place, in the direction `left`.
+ * The rack is on the left of the pitch line if `side` is 1, and on the right if `side` is -1. */
 static void draw_teeth(const guide *g, double y, double side, const double left[3])
 {
   enum { TEETH = 28 };

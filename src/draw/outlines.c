@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds outlines of bodies from the points of their joints. Links are drawn as rounded bars and
- * polygons, sliders as blocks, and wheels as discs. If a body has no points of joints, its outline
- * shows its inertia. In the plane this is a disc of the same inertia. In space it is a box or
- * cylinder with the same moments of inertia about the axes of the body.
+ * polygons, sliders as blocks, and wheels as discs. If a body is neither a slider nor a wheel and
+ * has fewer than two points of joints, a shape at its centre of mass shows its inertia. In the
+ * plane, this shape is a disc of the same inertia. In space, it is a box or cylinder with the same
+ * moments of inertia about the axes of the body.
  */
 #include <string.h>
 
@@ -13,8 +14,8 @@
 #include "mechanism/kinds.h"
 
 /* Lengths in units of the drawing. LEAST and MOST are the limits for the radius of discs that show
- * inertia, and 2 MOST is the limit for half the edges of boxes that show inertia. BLOCK is half the
- * edges of a slider's block. */
+ * inertia, and 2 MOST is the limit for half the edges of boxes, and for half the length and the
+ * radius of cylinders. BLOCK contains half the lengths of the edges of a slider's block. */
 static const double LEAST = 1.5, MOST = 8.0;
 static const double BLOCK[2] = {2.6, 1.5};
 
@@ -49,8 +50,8 @@ static void add_point(outline *o, const double point[3])
   memcpy(o->points[o->count++], point, 3 * sizeof *point);
 }
 
-/* Tells whether the point of a joint belongs to the outline of a body. The point of a sliding joint
- * on body_a does not, because it may be anywhere on the axis and would make the outline too
+/* Tells whether the point of a joint belongs to the outline of a body. The point on body_a of a
+ * sliding joint does not, because it may be anywhere on the axis and would make the outline too
  * long. */
 static bool is_point_on(const baum_i_place *place, int side)
 {
@@ -194,8 +195,8 @@ static void draw_planar(outline *o)
 
 /* ---- space ---- */
 
-/* Draws a box with the same moments of inertia. A box with edges 2 e_x, 2 e_y and 2 e_z has I_xx =
- * m (e_y^2 + e_z^2) / 3, and so on. */
+/* Draws a box with the same moments of inertia as the body. A box with edges 2 e_x, 2 e_y and 2 e_z
+ * has I_xx = m (e_y^2 + e_z^2) / 3, and so on. */
 static void draw_box(const outline *o)
 {
   const double u = o->drawing->unit;
@@ -224,8 +225,8 @@ static int find_symmetry(const double inertia[6])
   return -1;
 }
 
-/* Draws a cylinder with the same moments of inertia. A cylinder of radius r and length 2 e has I =
- * m r^2 / 2 about its axis, and I = m (r^2 / 4 + e^2 / 3) about the other axes. */
+/* Draws a cylinder with the same moments of inertia as the body. A cylinder of radius r and length
+ * 2 e has I = m r^2 / 2 about its axis, and I = m (r^2 / 4 + e^2 / 3) about the other axes. */
 static void draw_cylinder(const outline *o, int axis)
 {
   const double least = 0.5 * o->drawing->unit, most = 2.0 * MOST * o->drawing->unit;

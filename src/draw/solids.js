@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws the solids of spatial mechanisms with WebGL. page.c inserts this script into the pages of spatial mechanisms.
-// Every mesh has unit size and is drawn once for each of its instances, with the axes of the instance. The picture is then
-// copied into the stage.
+// Each mesh is drawn once for each of its instances, with the axes of the instance. Meshes that many shapes share have unit
+// size. The picture is then copied into the stage.
 
 // ---- shaders: a vertex is at centre + p.x x + p.y y + p.z z + p.w along, so `along` stretches a capsule ----
 
@@ -12,7 +12,7 @@ const VERTEX_SHADER = `#version 300 es
 in vec4 p;
 in vec3 normal, outward, x, y, z, centre, along, fill, edge;
 uniform mat3 axes;
-uniform vec4 bottom, window; // upward direction and height of the floor; factors and shift from metres to the picture
+uniform vec4 bottom, window; // bottom: upward direction and height of the floor; window: factors and shift from metres to the picture
 uniform vec3 middle;
 uniform vec2 measures; // range of depths, and half the width of an outline [m]
 uniform int pass;

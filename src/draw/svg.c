@@ -463,8 +463,8 @@ static int layer_of(const picture *p, int k)
   return p->drawing->spatial ? in_space : k;
 }
 
-/* Makes a list of all shapes and triangles in the order of drawing. Returns their number, or -1
- * when out of memory. */
+/* Makes a list of all shown shapes and triangles in the order of drawing. Returns their number, or
+ * -1 when out of memory. */
 static int sort_parts(const picture *p, order **out)
 {
   int count = 0, room = 0;

@@ -23,8 +23,8 @@ void baum_i_shade(const char color[8], double factor, char out[8])
  *
  * In a parallel projection, the silhouette of a cylinder consists of one half of each end circle
  * and of two lines between them. The vector x is orthogonal to the axis and to the direction
- * towards the eye. The two lines therefore begin at x and -x from the centre. The vector y is the
- * cross product of the axis and x.
+ * towards the eye. The two lines therefore begin at x and -x from the centre of an end. The vector
+ * y is the cross product of the axis and x.
  */
 
 /* Sets `count` points on a circle, beginning at the angle `first`. */

@@ -22,9 +22,10 @@ typedef struct baum_i_kkt_ops {
   /* Returns BAUM_OK, or BAUM_ERR_MEMORY with *out = NULL. `structure` outlives the backend. */
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
-  /* Factor the matrix, whose values must be finite. `values` and `scale` (see scale.h) do not
-   * change until the last solve. BAUM_I_EFFORT_KEEP requires that an earlier factorization
-   * succeeded. Returns BAUM_OK, BAUM_ERR_SINGULAR (no solve may follow) or BAUM_ERR_MEMORY. */
+  /* Factor the matrix, whose values must be finite. The caller does not change `values` and `scale`
+   * (see scale.h) until the last solve with these factors. BAUM_I_EFFORT_KEEP requires that an
+   * earlier factorization succeeded. Returns BAUM_OK, BAUM_ERR_SINGULAR (no solve may follow) or
+   * BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);
 

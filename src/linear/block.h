@@ -12,7 +12,8 @@
  * consecutive numbers. A particle has only two numbers. The third number of its body block is the
  * first number of the next body block. The particle does not change that number, because the third
  * diagonal entry of its W is 0. A *side* of a node is the 2 x 3 block of J in the rows of the node
- * and the columns of one body block. The sides of a pin are
+ * and the columns of one body block. A pin is a joint that makes a point of body a coincide with a
+ * point of body b. Its sides are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -138,7 +139,7 @@ typedef struct baum_i_block {
   int motion_size; /* v, ground, and y of dense bodies */
   /* the solution is refined if the smallest ratio of det D to `size` of a node is below this */
   double weak_pivot;
-  bool leaves_v; /* a body block of a dense body or particle may use entries of motion[] after v */
+  bool leaves_v; /* dense bodies or particles use entries of motion[] after those of v */
   int hub;       /* mass block with too many sides; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */
@@ -154,9 +155,9 @@ typedef struct baum_i_block {
   baum_i_pin_pair *opposite;     /* (opposite_count) likewise */
   baum_i_full_pair *first_pairs; /* (first_count) likewise */
   baum_i_full_pair *full_pairs;  /* (full_pair_count) pairs that add to their block */
-  int32_t *zeros;                /* (zero_count) blocks that no pair sets, to be cleared first */
-  int32_t *target;               /* blocks that receive products of couplings, node after node */
-  int32_t *place; /* (body_block_count) first index of the block in free[], motion[], ... */
+  int32_t *zeros;  /* (zero_count) blocks of off[] that no pair sets; couple() clears them */
+  int32_t *target; /* blocks of off[] that receive products of couplings, node after node */
+  int32_t *place;  /* (body_block_count) first index of the body block in free[], motion[], ... */
   baum_i_dense_body *dense;       /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
 
@@ -179,7 +180,7 @@ typedef struct baum_i_block {
   double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
   double *pull_low; /* (motion_size) rounding errors of pull[] */
   double *rest;     /* (node_count x 2) r - J a */
-  double *rest_low; /* (node_count x 2) rounding errors of rest[]; in correct(): lambda before it */
+  double *rest_low; /* (node_count x 2) errors of rest[]; correct() keeps the old lambda here */
 
   double *nothing;    /* (motion_size) zeros */
   const double *from; /* a0 of the present right-hand side: free or nothing */

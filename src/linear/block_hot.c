@@ -21,10 +21,10 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* Pivots are bad if the smallest ratio of det D to `size` of a node is below this. */
+/* Pivots are bad if the smallest ratio of det D to `size` (baum_i_node) is below this. */
 static const double bad_pivot = 1e-10;
 
-/* A residual of up to this fraction of its terms is at rounding level. */
+/* Largest residual at rounding level, relative to the sum of the magnitudes of its terms. */
 static const double rounding = 0x1p-47;
 
 /* ---- effect of the multipliers on the motion ---- */

@@ -13,7 +13,7 @@
 
 /* A body with more sides than MOST_SIDES couples too many nodes with each other. More couplings
  * than MOST_COUPLINGS times (number of nodes + SMALL) mean too much fill. In both cases, sparse
- * elimination of the whole system is faster, because it may eliminate bodies or joints first. */
+ * elimination of the whole system is faster, because it can eliminate joints before bodies. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
 /* ---- bodies ---- */

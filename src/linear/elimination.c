@@ -5,7 +5,7 @@
  * solver.
  *
  * A node whose neighbours are already coupled with each other causes no fill, even if its degree is
- * high. These nodes are eliminated first, so that one round eliminates all ends of a mechanism, not
+ * high. Such nodes are eliminated first, so that one round eliminates all ends of a mechanism, not
  * only the ends of least degree. */
 #include "linear/elimination.h"
 

@@ -28,10 +28,10 @@ typedef struct baum_i_elimination {
 } baum_i_elimination;
 
 /* Finds a minimum-degree order in rounds. A round eliminates all nodes that cause no fill. If there
- * are none, it eliminates nodes of the smallest degree that are not neighbours of each other. A
- * chain is thus eliminated from both ends. The nodes are then sorted by their distance from the
- * root of the elimination tree: a node comes shortly before the nodes that its elimination changes,
- * and independent nodes are adjacent in the order. Returns BAUM_OK, BAUM_ERR_MEMORY, or
+ * are no such nodes, it eliminates nodes of the smallest degree that are not neighbours of each
+ * other. A chain is thus eliminated from both ends. The nodes are then sorted by their distance
+ * from the root of the elimination tree: a node comes shortly before the nodes that its elimination
+ * changes, and independent nodes are adjacent in the order. Returns BAUM_OK, BAUM_ERR_MEMORY, or
  * BAUM_ERR_SINGULAR if there would be more than `most` couplings. On failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
 /* Finds the index in later[] of the coupling of two places. */

@@ -10,7 +10,7 @@
  *   LAST     rank-revealing QR, least squares
  *
  * Factoring climbs this ladder until the estimated reciprocal condition number (rcond) is large
- * enough. Solving climbs further if refinement does not reduce the residual to rounding. */
+ * enough. Solving climbs further if refinement does not reduce the residual to rounding level. */
 #include "linear/kkt.h"
 
 #include <math.h>
@@ -24,12 +24,12 @@
 
 enum { MOST_REFINEMENTS = 3 };
 
-/* If rcond is below this, the next rung of the ladder is tried. If it stays below, the matrix
- * counts as nearly singular. */
+/* If rcond is below this, the next rung of the ladder is tried. If rcond is below this on all
+ * rungs, the matrix counts as nearly singular. */
 static const double trusted_rcond = 1e-10;
-/* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times its value when
- * the pivots were chosen. The rcond of such old pivots measures neither the accuracy nor the
- * distance from a singular configuration. */
+/* New pivots are chosen if rcond is below doubtful_rcond and below `fallen` times the value that it
+ * had when the present pivots were chosen. After such a decrease, rcond measures neither the
+ * accuracy nor the distance from a singular configuration. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
@@ -67,7 +67,7 @@ struct baum_i_kkt {
   double *scale;
   double *b;
   double *x;
-  double *residual; /* then the correction computed from the residual */
+  double *residual; /* refine() replaces the residual by the correction */
   double *size;
 };
 
@@ -309,8 +309,8 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Tells whether a least-squares solution nearly satisfies all rows. This replaces the test for
- * rounding level: if rows contradict each other, unknowns may be so large that rounding errors
+/* Tells whether a least-squares solution nearly satisfies all rows. This function replaces the test
+ * for rounding level: if rows contradict each other, unknowns may be so large that rounding errors
  * dominate the other rows. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
@@ -320,9 +320,9 @@ static bool is_nearly_met(const baum_i_kkt *kkt)
 
 /* Tells whether rows of an island contradict each other and the solver has divided by a rounding
  * error. The residual does not show this, but accelerations are then of the order of the right-hand
- * side divided by rcond. Close to a singular configuration in which rows agree, multipliers may be
- * as large, but accelerations are not. If rcond is below least_rcond, the matrix is singular to
- * rounding, and multipliers of this size are a sign of contradiction, too. */
+ * side divided by rcond. Close to a singular configuration in which rows agree, multipliers may
+ * reach this order, but accelerations do not. If rcond is below least_rcond, the matrix is singular
+ * to rounding, and multipliers of this size are a sign of contradiction, too. */
 static bool is_divided_by_rounding(const baum_i_kkt *kkt)
 {
   double rcond = present_rcond(kkt);

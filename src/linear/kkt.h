@@ -38,7 +38,7 @@ typedef struct baum_i_kkt_structure {
   const baum_i_mass_block *mass_blocks;
   int row_block_count;
   const baum_i_row_block *row_blocks;
-  /* (nc) 1: if rows are dependent, omit this row rather than a row with 0; NULL: no preference */
+  /* (nc) 1: if rows are dependent, omit this row rather than a row marked 0; NULL: no preference */
   const unsigned char *last_rows;
 } baum_i_kkt_structure;
 

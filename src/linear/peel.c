@@ -26,8 +26,8 @@ typedef struct peeling {
   const baum_i_kkt_structure *structure;
   const double *jacobian;
   const double *column_scale;
-  int *users; /* (nv) number of blocks in which a velocity occurs */
-  int *user; /* (nv) bitwise XOR of their indices, which is the index itself if there is only one */
+  int *users;  /* (nv) number of blocks in which a velocity occurs */
+  int *user;   /* (nv) XOR of the indices of these blocks; if there is one block, its index */
   int *state;  /* (row_block_count) */
   int *stack;  /* (row_block_count) blocks to examine */
   int waiting; /* number of blocks on the stack */

@@ -11,7 +11,7 @@
  * remaining norm is at most 1e-13 count as dependent. Of all vectors that minimize the scaled
  * residual, solve() returns the vector of least norm. K_w is symmetric, so its range is its row
  * space, and the projection of the basic solution onto the range has the least norm. Accelerations
- * are unique if M is positive definite on ker J; multipliers have the least norm in scaled rows. */
+ * are unique if M is positive definite on ker J; the scaled multipliers have the least norm. */
 #include <colamd.h>
 #include <math.h>
 #include <string.h>

@@ -9,14 +9,15 @@
  * The residual of a row is compared with the terms of the same row, so units and masses of very
  * different size do not matter. A row whose denominator consists only of rounding errors of other
  * rows might never pass. After scaling, it is therefore compared with the largest row (M. Arioli,
- * J. Demmel, I. Duff 1989). baum_i_residual_is_rounding() does so for rows of relative size eps^2,
- * because one refinement reduces such rounding errors to this size. baum_i_residual_is_noise() does
- * so for rows of relative size eps. A residual below eps^2 of the largest row always passes,
- * because some rows differ from zero only by rounding and cannot be solved more accurately. The
- * rows of a guide along an axis of the ground are an example. In baum_i_residual_is_noise(), this
- * limit is eps^2 / rcond. Refinement by QR cannot reduce the residual further, because the backward
- * error of QR is relative to the largest row (N. J. Higham, Accuracy and Stability of Numerical
- * Algorithms, 2002, 12.2). "The largest row" always means the largest row of the same island.
+ * J. Demmel, I. Duff 1989). baum_i_residual_is_rounding() does so for rows of a size up to eps^2
+ * times that of the largest row, because one refinement reduces such rounding errors to this size.
+ * baum_i_residual_is_noise() does so for rows up to eps times the largest row. A residual below
+ * eps^2 times the largest row always passes, because some rows differ from zero only by rounding
+ * and cannot be solved more accurately. The rows of a guide along an axis of the ground are an
+ * example. In baum_i_residual_is_noise(), this limit is eps^2 / rcond times the largest row.
+ * Refinement by QR cannot reduce the residual further, because the backward error of QR is relative
+ * to the largest row (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, 12.2).
+ * "The largest row" always means the largest row of the same island.
  */
 #include "linear/residual.h"
 

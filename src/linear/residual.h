@@ -30,8 +30,8 @@ void baum_i_residual_islands_clear(const baum_i_residual_islands *islands);
 bool baum_i_residual_is_rounding(int n, const baum_i_residual_islands *islands, const double *scale,
                                  const double *residual, const double *size);
 
-/* The same test, but "tiny" includes all rows whose scaled size is at rounding level of the largest
- * row of their island. rcond: reciprocal condition number of the scaled matrix. */
+/* The same test, but "tiny" includes all rows whose scaled size is at rounding level relative to
+ * the largest row of their island. rcond: reciprocal condition number of the scaled matrix. */
 bool baum_i_residual_is_noise(int n, const baum_i_residual_islands *islands, const double *scale,
                               const double *residual, const double *size, double rcond);
 

@@ -14,9 +14,10 @@
  *   S_nk = +- sum over shared bodies of E_n E_k^T / m + R_n R_k^T
  *
  * The first three rows of many joints make two points coincide. In these rows, E is plus or minus
- * the identity (written +I or -I). In rows that compare directions, E is 0. A side with this E is
- * *lean*: only R is stored. For a planar body, W is 0 for the third entry of x and for the first
- * two entries of y. Body 0 is the ground, with W = 0.
+ * the identity (written +I or -I). In rows that compare directions, E is 0. A side is *lean* if E
+ * consists of these two kinds of rows alone. Only R of a lean side is stored. For a planar body, W
+ * is 0 for the third entry of x and for the first two entries of y. Body 0 is the ground, with W =
+ * 0.
  *
  * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
  * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
@@ -111,7 +112,7 @@ typedef struct baum_i_space_body {
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of a thin body, otherwise 0 */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
-  double mass;        /* 0: W = 0 */
+  double mass;        /* 0 if W = 0 */
   double heft;        /* mass of the body, even if the body is fixed */
   bool fixed;         /* W = 0 */
   bool thin;          /* the moment of inertia about `axis` is small */
@@ -141,9 +142,9 @@ typedef struct baum_i_space {
   baum_i_space_side *side_list;     /* (side_count) */
   baum_i_space_pair *pairs;         /* (pair_count) ascending in `to` */
   baum_i_space_coupling *couplings; /* (coupling_count) */
-  /* The bodies of island i are island_bodies[k] for body_start[i] <= k < body_start[i + 1]. Its
-   * nodes are found in the same way with island_nodes[] and node_start[]. Island 0 consists of
-   * ground and fixed bodies, and has no nodes. */
+  /* The bodies of island i are island_bodies[k] for body_start[i] <= k < body_start[i + 1]. The
+   * nodes of an island are found in the same way with island_nodes[] and node_start[]. Island 0
+   * consists of ground and fixed bodies, and has no nodes. */
   int island_count;
   int32_t *island_bodies; /* (body_count) */
   int32_t *body_start;
@@ -268,10 +269,10 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
   /* Compares, for each node, the accelerations of its bodies that its multipliers alone cause with
-   * the accelerations that all multipliers and forces cause. Returns the largest acceleration by
-   * one node, divided by the largest acceleration of a body of the same island. The spin of a thin
-   * body is divided by the whole spin of this body instead, if this spin is larger than that
-   * acceleration. If the returned quotient is large, digits have cancelled. */
+   * the accelerations that all multipliers and forces cause. Returns the largest acceleration that
+   * one node causes, divided by the largest acceleration of a body of the same island. For the spin
+   * that a node causes on a thin body, the divisor is this largest acceleration or the whole spin
+   * of the body, whichever is larger. If the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. The residual of the equations of

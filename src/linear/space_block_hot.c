@@ -14,7 +14,7 @@ enum { MOST = BAUM_I_SPACE_ROWS, MOTION = BAUM_I_SPACE_MOTION };
 typedef baum_i_four four;
 typedef baum_i_space_column column;
 
-/* A residual of up to this fraction of its terms is at rounding level. */
+/* Largest residual at rounding level, relative to the sum of the magnitudes of its terms. */
 static const double rounding = 0x1p-46;
 
 /* ---- substitute ---- */
@@ -330,7 +330,7 @@ BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
   return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
 }
 
-/* Includes the acceleration of one body in `most`. `thin` (any body is thin) must be a constant. */
+/* Includes the acceleration of a body in `most`. The constant `thin` tells if any body is thin. */
 BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
                             peaks most)
 {
@@ -502,8 +502,8 @@ static double add_changes(const baum_i_space *b, int island)
 }
 
 /* If no joint keeps a slender body from spinning about its axis, the raised moment of inertia makes
- * all changes of the spin much too small, and a change is more than SLOWEST times the change
- * before. Changes below NOISE times the accelerations may be rounding errors. */
+ * each correction of the spin much too small, and more than SLOWEST times the correction before it.
+ * Corrections below NOISE times the accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 

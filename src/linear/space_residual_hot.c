@@ -110,7 +110,7 @@ BAUM_I_INLINE void subtract_part(baum_i_space *b, const double *part, int n, con
   baum_i_four_store(b->pull_low + at, pull.low);
 }
 
-/* Subtracts J^T lambda and J a of one node. */
+/* Subtracts J^T lambda of one node from pull[], and sets rest[] of this node to r - J a. */
 BAUM_I_INLINE void subtract_node(baum_i_space *b, const baum_i_space_node *node, bool tall)
 {
   int n = tall ? BAUM_I_SPACE_ROWS : 4; /* unused rows are 0 */

@@ -21,7 +21,7 @@ static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
   int32_t n;
-  int32_t *columns; /* not const for the signatures of KLU, but never changed */
+  int32_t *columns; /* KLU takes non-const pointers, but never changes these arrays */
   int32_t *rows;
   klu_common common;
   klu_symbolic *symbolic;

@@ -47,8 +47,8 @@
 
 enum { NONE = -1 };
 
-/* A front may have more columns than the pattern of any of its rows of R has, but at most by 1 /
- * SLACK_SHARE of the pattern plus SLACK. */
+/* A front may have more columns than the pattern of each of its rows of R, but only by 1 /
+ * SLACK_SHARE of this pattern plus SLACK columns. */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
@@ -362,8 +362,8 @@ static double *row_of(const front *f, int32_t i)
   return f->value + (ptrdiff_t)i * f->columns;
 }
 
-/* Tells whether column j has a reflection. The row of R or r (see above) that belongs to column j
- * is row done[j] - 1. */
+/* Tells whether column j has a reflection. If so, row done[j] - 1 of the front is the row of R or r
+ * (see the figure at the top of this file) that belongs to column j. */
 static bool is_reduced(const front *f, int32_t j)
 {
   return f->done[j] > (j > 0 ? f->done[j - 1] : 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes by which factor one step amplifies a constraint violation.
+/* Computes by which factor one step amplifies a constraint violation. The numbers of equations are
+ * those of Flores et al. 2008 (see docs/theory/stabilization.md).
  *
  *   Phi'' + 2 alpha Phi' + beta^2 Phi = 0                                            (6)
  *   s^2 + 2 alpha s + beta^2 = 0                                                     (17)
@@ -45,7 +46,8 @@ static const double ROUNDING = 16.0 * DBL_EPSILON;
 static const double PI = 3.14159265358979323846;
 
 /* A root counts as lying on a circle if its distance from the circle is below this fraction of the
- * radius. The radius of a double root is accurate only to about 1e-16^(1/3), see schur_cohn.h. */
+ * radius. If the largest root is double, the radius is accurate only to about 1e-16^(1/3), see
+ * schur_cohn.h. */
 static const double ROOT_TOLERANCE = 1e-4;
 
 /* If the test of Schur and Cohn gives a margin below this, its result is not used. */
@@ -159,8 +161,8 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* Returns |p|, where p is the characteristic polynomial, at point number k of a circle about 0 with
- * this radius. */
+/* Returns |p|, where p is the characteristic polynomial, at point number k of the circle about 0
+ * with the given radius. */
 static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;
@@ -170,8 +172,8 @@ static double size_on_circle(const baum_i_method *method, number mu, double radi
   return hypot(value.re, value.im);
 }
 
-/* Starts Newton's method at point number k of a circle about 0 with this radius, and returns the
- * root to which it converges. */
+/* Starts Newton's method at point number k of the circle about 0 with the given radius, and returns
+ * the root to which it converges. */
 static number polish(const baum_i_method *method, number mu, double radius, int k)
 {
   double angle = 2.0 * PI * k / DIRECTIONS;

@@ -25,7 +25,7 @@ typedef enum baum_i_method_kind {
 typedef enum baum_i_method_family {
   BAUM_I_FAMILY_EXPLICIT = 0, /* explicit methods */
   BAUM_I_FAMILY_ADAMS,        /* Adams-Moulton methods, which treat the constraints implicitly */
-  BAUM_I_FAMILY_BDF           /* BDF methods, which are A(alpha)-stable up to order 5 */
+  BAUM_I_FAMILY_BDF /* BDF methods, which are stable in a sector of the half-plane Re mu < 0 */
 } baum_i_method_family;
 
 enum { BAUM_I_METHOD_DEGREE = 12 };
@@ -85,8 +85,8 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 /* ---- In the plane --------------------------------------------------------- */
 
 /* Finds the point with alpha h > 0 that has the smallest spectral radius. If there is a dead-beat
- * point, this is that point. If there are several dead-beat points, points with two different mu
- * are preferred, and among these the point with the smallest gains. */
+ * point, finds this point. If there are several dead-beat points, points with two different mu are
+ * preferred, and among these the point with the smallest gains. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* Finds the dead-beat point, which is the point where all z are 0. If there is none, returns false

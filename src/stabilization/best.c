@@ -18,10 +18,11 @@
  * radius is smallest at a pair of complex mu or at a double mu, for the following reason. If the
  * two mu are real and different, one of them has the larger |z|, which is the spectral radius. If
  * this mu is moved onto the other one, the spectral radius does not become larger.
- * baum_i_stability_best() searches for this point on a lattice in the chart (chart.h). The lattice
- * is refined around the best point found so far, which at first is the best point with critical
- * damping. The largest of several |z| is, as a function of the point, a surface with sharp valleys.
- * A descent method would stop in such a valley. A search on a lattice does not stop there. */
+ * baum_i_stability_best() searches for the point with the smallest spectral radius on a lattice in
+ * the chart (chart.h). The lattice is refined around the best point found so far, which at first is
+ * the best point with critical damping. The largest of several |z| is, as a function of the point,
+ * a surface with sharp valleys. A descent method would stop in such a valley. A search on a lattice
+ * does not stop there. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -71,8 +72,8 @@ static bool is_better_zero(const double mu[2], const double best[2])
 }
 
 /* Finds the best zero of R that has Re mu < 0. Returns false if there is none. Newton's method
- * starts from many points at distances from 1 to (degree + 1) / 2 from 0. For all our methods, the
- * best zero is not farther from 0 than the last of these points. */
+ * starts from many points at distances from 1 to (degree + 1) / 2 from 0. For all methods of this
+ * library, the best zero is not farther from 0 than the last of these points. */
 static bool find_zero(const baum_i_method *method, double best[2])
 {
   bool found = false;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds how far a region of stability extends. Its points are mu, with m = |mu|. The search starts
- * at a bound that m certainly does not exceed. This bound is too wide for drawings, so the search
- * goes inwards from it. The bound follows from these facts:
+/* Finds how far a region of stability extends. The region consists of points mu, with m = |mu|. The
+ * search starts at a bound that m certainly does not exceed. This bound is too wide for drawings,
+ * so the search goes inwards from it. The bound follows from these facts:
  *
- *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k. Once this sum is positive, it
- *                    grows with m.
+ *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k. Once the right-hand side is
+ *                    positive, it grows with m.
  *   Adams-Bashforth  The product of the k roots is mu b_(k-1), and no root exceeds the permitted
  *                    spectral radius rho. Therefore m |b_(k-1)| <= rho^k
  *                    (for k = 1 the root is 1 + mu b_0) */

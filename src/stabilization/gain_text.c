@@ -113,7 +113,7 @@ static const char *const class_text[] = {
 static const char UNDAMPED[] =
   "warning: with alpha = 0, only the error of the method damps violations";
 
-/* Returns the damping p per step of the slower mode of (6), as defined above. */
+/* Returns the damping p per step of the slower mode of (6), see the top of this file. */
 static double promised_damping(const baum_i_gain_draft *gains)
 {
   double A = gains->alpha_h;

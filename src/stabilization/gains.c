@@ -3,7 +3,7 @@
  *
  *   fixed      alpha, beta                                      as given
  *   scaled     alpha = A / h,  beta = sqrt(B) / h               A and B as given
- *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               (10, 11): A = 1, B = 2
+ *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               A = 1, B = 2 (Flores 2008)
  *   frequency  beta = omega = 2 pi f,  alpha = zeta omega       s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
  *   best       scaled, with the point of least spectral radius

@@ -83,7 +83,7 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 /* ---- Curves --------------------------------------------------------------- */
 
 /* Returns the edge through which a curve leaves a square. If only two opposite corners are inside,
- * the region connects them if the middle of the square is inside. */
+ * the middle of the square decides whether the region connects these corners. */
 static int leave(const march *m, const int square[2], int edge)
 {
   bool opposite = is_inside(m, square, edge + 2);

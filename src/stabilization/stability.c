@@ -52,12 +52,12 @@ static double bisect(const baum_i_method *method, double damping_ratio, double f
 
 typedef struct ray {
   double damping_ratio;
-  double begin; /* first b of the search; if the method is stable there, it is for all smaller b */
+  double begin; /* first b of the search; if it is stable, all smaller b are stable, too */
   double end;
 } ray;
 
-/* Tells whether the bound above proves that a one-step method is stable for all mu of this size or
- * smaller. */
+/* Tells whether the condition at the top of this file proves that a one-step method is stable for
+ * all mu of this size or smaller. */
 static bool is_surely_stable(const baum_i_method *method, double damping_ratio, double size)
 {
   double first = method->coefficients[1]; /* c_1 */

@@ -234,9 +234,9 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 /* ---- recommendation ---- */
 
 /* Returns the error that is expected of an entry. Without margin, this is the measured error. With
- * margin, it is the largest error over twice the span and for perturbed starts. If the latter is
- * not known, it is estimated as the measured error times the ratio of these two errors for
- * `beside`, a neighbouring entry of the method. */
+ * margin, it is the validated error, that is, the largest error over twice the span and for
+ * perturbed starts. If this is not known, it is estimated as the measured error times the ratio of
+ * the validated error to the measured error of `beside`, a neighbouring entry of the method. */
 static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
@@ -249,8 +249,9 @@ static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bo
   return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* Returns the margin at an entry, which is the factor by which the error decreases there when the
- * work increases by the factor MORE_WORK. The margin is larger for methods of higher order. */
+/* Returns the margin at an entry, which is the factor by which the error of the method decreases
+ * near this entry when the work increases by the factor MORE_WORK. The margin is larger for methods
+ * of higher order. */
 static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;

@@ -3,15 +3,15 @@
  * closed-form solution, or the study computes it.
  *
  * The study computes a reference with projection and with Baumgarte's method, which have nothing in
- * common except the equations of motion. Each formulation makes a run at a tight tolerance and a
- * run at half of this tolerance. The projection run at the tighter tolerance is the reference. The
- * largest difference between the reference and the other three runs is the uncertainty of the
- * reference. If runs fail, differ by more than CLOSE, or come near a singular configuration, the
- * study also tries looser tolerances and implicit methods. It then uses the attempt with the
- * smallest difference, but prefers attempts without a singular configuration. In the last attempt,
- * all runs use projection. Its second pair of runs uses RK4, with STEPS and with 2 STEPS steps.
- * This attempt succeeds even after singular configurations, where constraint violations grow
- * strongly. */
+ * common except the equations of motion. With each of these formulations, the study makes a run at
+ * a tight tolerance and a run at half of this tolerance. The projection run at the tighter
+ * tolerance is the reference. The largest difference between the reference and the other three runs
+ * is the uncertainty of the reference. If runs fail, differ by more than CLOSE, or come near a
+ * singular configuration, the study also tries looser tolerances and implicit methods. It then uses
+ * the attempt with the smallest difference, but prefers attempts without a singular configuration.
+ * In the last attempt, all runs use projection. Its second pair of runs uses RK4, with STEPS and
+ * with 2 STEPS steps. This attempt succeeds even after singular configurations, where constraint
+ * violations grow strongly. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -227,7 +227,7 @@ static void run_entries(void *shared, int thread)
   baum_i_free(values);
 }
 
-/* Calls work() for all entries of the order, in as many threads as the options give, but in no more
+/* Calls work() for all entries in c->order, in as many threads as the options give, but in no more
  * threads than there are entries. */
 static void run_workers(workers *c, entry_fn *work)
 {

@@ -7,7 +7,7 @@
  *   lambda  |dlambda_i| n_i / E      n_i: norm of row i of J with each column j multiplied by s_j
  *                                   E: largest |lambda_j| n_j over all samples [J]
  *   energy  |d(T + U)|
- *   user    |dx_i| / unit            the error of q if the user gives no channels
+ *   user    |dx_i| / unit            if the user gives no channels, the error of q is used
  *
  * Numbers that are missing in the reference are not compared. If a number is missing in a run but
  * not in the reference, the error of the run is infinite. */

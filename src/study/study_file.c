@@ -40,7 +40,7 @@ static const char VERSION[] = "baum-study 3";
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
-  uint64_t seed; /* digest of the first line, from which the digests of all other lines begin */
+  uint64_t seed; /* digest of the first line; the digests of all other lines continue it */
 };
 
 /* ---- lines ---- */

@@ -64,7 +64,7 @@ find('time').addEventListener('input', lookBack);
 find('speed').parentNode.hidden = find('video').hidden = true;
 Object.assign(KEYS, {' ': togglePause, End: showNewest, Home: () => { seek(first); lookBack(); },
   ArrowLeft: shift => { step(shift ? -10 : -1); lookBack(); }, ArrowRight: shift => { shift ? step(10) : forward(); lookBack(); }});
-document.querySelector('.help').firstChild.data = 'Space pauses the run, the right arrow key steps, drag moves';
+document.querySelector('.help').firstChild.data = 'The space bar pauses the run, the right arrow key steps, dragging ';
 
 const source = new EventSource('events');
 source.onmessage = event => {
