@@ -72,7 +72,7 @@ static const int64_t FREE = 1000;
 enum {
   STRIDE = 8, /* number of steps between two stored states */
   /* The local errors of some steps are unknown. The error of the run is unknown if there are more
-   * than UNSEEN such steps and they are more than a quarter of all steps. */
+   * than UNSEEN such steps and they are more than three quarters of all steps. */
   UNSEEN = 16
 };
 
@@ -334,12 +334,15 @@ static bool may_matter(baum_simulation *run)
     return run->counters.near_singular_intervals > 0;
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;
-  if (c->unseen > UNSEEN && 4 * c->unseen > run->counters.steps) {
+  int64_t steps = run->counters.steps;
+  if (c->unseen > UNSEEN && 4 * c->unseen > 3 * steps) {
     /* The error is unknown, because inputs change every few steps. */
     run->counters.error_estimate = (double)NAN;
   }
   c->sum += baum_i_local_error_of_step(&c->local, run);
-  return !(c->sum <= NEGLIGIBLE);
+  /* The other steps are assumed to have the same mean error as the seen steps. */
+  double seen = fmax((double)(steps - c->unseen), 0.25 * (double)steps);
+  return !(c->sum * (double)steps <= NEGLIGIBLE * seen);
 }
 
 static void wait_or_start(baum_simulation *run, const baum_i_state *state)

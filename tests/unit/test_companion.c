@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "construct.h"
 #include "models.h"
 #include "runs.h"
@@ -331,6 +332,34 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* A controller sets a force every few steps. After each change, four steps have no estimate. The
+ * error is therefore known if a change comes every six steps, but not if it comes every five. */
+static void errors_are_known_if_inputs_change_every_six_steps(void **state)
+{
+  (void)state;
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.force[0] = 1.0;
+  baum_mechanism *m = create_mechanism();
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &load.body), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_input(m, NULL, 0.0, &load.input), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_load(m, &load, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  for (int steps = 5; steps <= 6; steps++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = baum_rk4();
+    o.step = 1e-3;
+    baum_simulation *run = create_run(m, &o);
+    for (int k = 0; k < 100; k++) {
+      check(baum_simulation_set_input(run, load.input, sin(k)));
+      check(baum_simulation_step(run, steps));
+    }
+    assert_int_equal(isnan(counters_of(run).error_estimate), steps == 5);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
 /* ---- runs that abandon their companion ---- */
 
 /* The companion is a run with rk8. A damper with the decay rate 1e6 1/s would force rk8 to steps of
@@ -394,6 +423,7 @@ int main(void)
     cmocka_unit_test(estimates_continue_after_a_restart_inside_a_step),
     cmocka_unit_test(runs_that_miss_a_short_event_warn),
     cmocka_unit_test(jumps_of_driver_velocities_are_not_counted_as_errors),
+    cmocka_unit_test(errors_are_known_if_inputs_change_every_six_steps),
     cmocka_unit_test(stiff_runs_abandon_their_companion),
     cmocka_unit_test(warning_codes_have_names),
   };
