@@ -46,7 +46,11 @@
  *  tells the library which fields a program knows. A program that was compiled with an older
  *  version passes a smaller struct; the fields that it does not know then have their defaults. Any
  *  other size is refused (BAUM_ERR_STRUCT), such as 0 in an all-zero struct, or the size in a newer
- *  version. If the library fills a struct, it writes only the first caller_size bytes.
+ *  version. If the library fills a struct, it writes only the first caller_size bytes, and at most
+ *  as many as its own struct has; the struct_size that it writes is that of its own struct.
+ *
+ *  Elements cannot be removed from a mechanism. Every object is destroyed once; to destroy it again
+ *  is an error that the library cannot detect.
  *
  *  Callbacks are functions of yours that the library calls. Their arguments q and v hold the
  *  coordinates of the bodies that the definition names, one body after the other. Matrices are

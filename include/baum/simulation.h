@@ -455,7 +455,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *                          bytes.
  *  @param[out] size        [byte] number of bytes written; if buffer is NULL, a number of bytes
  *                          that is sufficient
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback); unchanged on failure
+ */
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
 

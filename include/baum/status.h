@@ -9,7 +9,8 @@
  *
  *  If a call fails, it leaves its object unchanged and does not write its outputs, except that it
  *  sets pointers to new objects to NULL. A run that fails keeps the state after its last good step.
- *  The library never prints, exits or aborts.
+ *  The library never prints, exits or aborts. SUNDIALS is an exception: if memory runs out while a
+ *  run with CVODE or IDA is created, SUNDIALS may print a line or crash.
  *
  *  Threads: each thread has its own message. All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
