@@ -462,8 +462,10 @@ typedef enum baum_study_cost {
 /** A method: the entries with the same integrator, formulation and gains. They differ only in step
  *  or in rtol. */
 typedef struct baum_study_method {
-  size_t struct_size;                /**< Set by baum_study_method_at(). */
-  const char *name;                  /**< Such as "rk8 projection". */
+  size_t struct_size; /**< Set by baum_study_method_at(). */
+  /** Such as "rk8 projection". Methods with fixed and with variable steps have the same name;
+   *  fixed_step tells them apart. */
+  const char *name;
   const baum_integrator *integrator; /**< Integrator of its entries. */
   baum_formulation formulation;      /**< Formulation of its entries. */
   baum_gains gains;                  /**< Gain rule of its entries. */

@@ -363,7 +363,8 @@ class StudyEntry(NamedTuple):
 class StudyMethod(NamedTuple):
     """Entries of a study with the same integrator, formulation and gains.
 
-    name: Such as "rk8 projection".
+    name: Such as "rk8 projection". Methods with fixed and with variable steps have the same
+        name; fixed_step tells them apart.
     integrator: Integrator of its entries.
     formulation: Formulation of its entries.
     gains: Gain rule of its entries.
