@@ -7,9 +7,15 @@
  *  one, two and three quarters of the step. It also evaluates them at the times of outputs. If the
  *  sign of a function has changed, the run searches for the time of the event. The search needs
  *  states inside the step. The run computes these states in the same way as outputs: variable-step
- *  methods interpolate the step, and fixed-step methods take shorter steps from its start. If a
- *  function passes zero twice between two evaluations, the run detects neither event. If this can
- *  happen, reduce max_step or the step.
+ *  methods interpolate the step, and fixed-step methods take shorter steps from its start. A joint
+ *  coordinate may pass its value and return between two evaluations. The run usually detects both
+ *  events, because it also knows the rate of the coordinate. If an event function passes zero twice
+ *  between two evaluations, the run detects neither event. If this can happen, reduce max_step or
+ *  the step.
+ *
+ *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
+ *  input changes (baum/breaks.h). This is an event at the time of the break. In a backward run, its
+ *  time is a few rounding errors before the break.
  *
  *  Zero at the start: an event function may be zero at the start of a run, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function

@@ -30,7 +30,7 @@ typedef struct baum_i_sundials {
   const double *present;                     /* q of the last evaluation */
   const baum_i_problem *problem;             /* problem of the present call */
   bool unfinished;                           /* a start or step failed, so the next step restarts */
-  bool stops;                                /* a stop time is set */
+  bool stops;                                /* a stop time has been set */
   bool stopped;                              /* an evaluation failed and no smaller step can help */
   baum_status evaluation; /* status of the last evaluation that failed, or BAUM_OK */
   double origin;          /* [s] SUNDIALS' time is t - origin, to keep digits after a late start */

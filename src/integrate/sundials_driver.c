@@ -173,17 +173,17 @@ static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, doub
   run->evaluation = evaluation;
 }
 
-/* Pass the stop time to SUNDIALS. SUNDIALS 6.4 cannot cancel a stop time. If there is no stop time
- * any more, this function therefore sets it to infinity. */
+/* Pass the stop time to SUNDIALS. SUNDIALS 6.4 cannot cancel a stop time; it is set to infinity
+ * instead, in the direction of the run, which may have changed since the last step. */
 static void give_stop(baum_i_sundials *run)
 {
   const baum_i_problem *problem = run->problem;
-  if (problem->stops || run->stops) {
+  run->stops = run->stops || problem->stops;
+  if (run->stops) {
     double stop =
       problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
     /* The call fails only if the stop time is in the past. */
     (void)run->method->package->set_stop(run->memory, stop);
-    run->stops = true;
   }
 }
 

@@ -13,6 +13,10 @@
  * event is, from one check to the next and from one step to the next. Because of this, no event is
  * found twice, and none is lost.
  *
+ * A joint coordinate may pass zero and return between two checks. Its rates are known at both
+ * checks. If the cubic polynomial through both values and rates comes near zero, the search also
+ * evaluates the value at the minimum of this polynomial.
+ *
  * When g has different signs at two times, the secant method finds the zero between them. It uses
  * the weights of Dowell and Jarratt (BIT 11, 1971; "Illinois"). Every third iteration bisects the
  * interval instead. New times keep a distance of half the tolerance from both ends of the interval.
@@ -26,7 +30,7 @@
 #include "simulate/events.h"
 #include "simulate/hermite.h"
 
-enum { QUARTERS = 4, MOST_TRIES = 300 };
+enum { QUARTERS = 4, MOST_TRIES = 300, MOST_LOOKS = 8 };
 
 /* Two times count as equal if they differ by less than ROUNDINGS rounding errors or by less than
  * SAME_TIME / rate. */
@@ -103,10 +107,16 @@ static baum_status glance(baum_simulation *run, double t)
   return run->integrator->interpolate(run->self, &run->problem, t, look->q, look->v);
 }
 
+/* Evaluate all events at time t, either exactly or for the state of glance(). */
+static baum_status look(baum_simulation *run, double t, bool exact)
+{
+  BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
+  return baum_i_events_evaluate(run, exact ? &run->trial : &run->events->look);
+}
+
 static baum_status value_at(baum_simulation *run, double t)
 {
-  BAUM_I_TRY(find_state(run, t));
-  return baum_i_events_evaluate(run, &run->trial);
+  return look(run, t, true);
 }
 
 /* ---- one event ---- */
@@ -305,7 +315,7 @@ static void keep_values_at_stop(baum_simulation *run, double t)
       mark->side = -mark->side;
       mark->fresh = 0;
     }
-    mark->value = events->list[k].next;
+    baum_i_event_keep(&events->list[k], mark);
   }
 }
 
@@ -324,7 +334,7 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
 static baum_status fail_bounce(const baum_simulation *run, int k, bool soon)
 {
   const char *name = run->events->list[k].def.name;
-  const char *when = soon ? "so soon that its velocities are wrong" : "at once";
+  const char *when = soon ? "so soon that the computed velocities have the wrong sign" : "at once";
   return baum_i_fail(BAUM_ERR_STEP,
                      "t = %.9g s: event %d%s%.60s%s happens again %s; if a body bounces off a "
                      "stop, let it rest there once it is slow",
@@ -402,18 +412,16 @@ static void keep_values(baum_i_events *events, double t)
     baum_i_event_mark *mark = &events->marks[k];
     bool stays = mark->fresh && is_on_the_way(events, k);
     mark->fresh = has_passed(events, k) ? 0 : mark->fresh;
-    mark->value = events->list[k].next;
+    baum_i_event_keep(&events->list[k], mark);
     mark->side = stays ? mark->side : baum_i_sign(mark->value);
   }
 }
 
-/* Search for events between events->t and t. */
-static baum_status search_until(baum_simulation *run, double t, bool exact)
+/* Search for events between events->t and t, where the values are known. `exact` tells whether they
+ * are the values of the motion and not of an approximation. */
+static baum_status settle(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;
-  exact = exact || t == (baum_i_run_has_fixed_step(run) ? run->trial.t : run->ahead.t);
-  BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
-  BAUM_I_TRY(baum_i_events_evaluate(run, exact ? &run->trial : &events->look));
   if (!exact && any_has_passed(events, true)) {
     BAUM_I_TRY(value_at(run, t));
   }
@@ -425,7 +433,100 @@ static baum_status search_until(baum_simulation *run, double t, bool exact)
   return BAUM_OK;
 }
 
+/* ---- dips ---- */
+
+/* One end of an interval in which the value of an event may dip through zero. The value and its
+ * rate are multiplied by the side, so that the value is positive before it passes zero. */
+typedef struct dip_end {
+  double t, value, rate;
+} dip_end;
+
+static dip_end dip_end_of(double t, double value, double rate, int32_t side)
+{
+  return (dip_end){.t = t, .value = side * value, .rate = side * rate};
+}
+
+/* Find the minimum of the cubic polynomial through the values and rates of both ends. Return false
+ * if there is none between them, or if it is far from zero: from the lower end, the polynomial
+ * would have to fall at least twice as far to reach zero. */
+static bool find_lowest(const dip_end *a, const dip_end *b, double *t)
+{
+  double width = b->t - a->t;
+  double first = a->rate * width;
+  double last = b->rate * width;
+  double lower = fmin(a->value, b->value);
+  if (!(lower > 0.0 && first < 0.0 && last > 0.0)) {
+    return false;
+  }
+  /* a->value + first x + m x^2 + n/3 x^3, where x is 0 at a and 1 at b */
+  double rise = b->value - a->value;
+  double m = 3.0 * rise - 2.0 * first - last;
+  double n = 3.0 * (first + last - 2.0 * rise);
+  double root = sqrt(fmax(m * m - n * first, 0.0));
+  double x = m > 0.0 ? -first / (m + root) : (root - m) / n;
+  double lowest = a->value + x * (first + x * (m + x * n / 3.0));
+  double found = a->t + x * width;
+  if (!(lowest < lower - lowest) || found == a->t || found == b->t) {
+    return false;
+  }
+  *t = found;
+  return true;
+}
+
+/* The values at time t are known. If the value of event k is on its side there and at events->t,
+ * but has passed zero in between, set *dip to a time at which it has passed zero, unless *dip is
+ * earlier. */
+static baum_status follow_dip(baum_simulation *run, int k, double t, bool exact, double *dip)
+{
+  const baum_i_event *event = &run->events->list[k];
+  const baum_i_event_mark *mark = &run->events->marks[k];
+  dip_end a = dip_end_of(run->events->t, mark->value, mark->rate, mark->side);
+  dip_end b = dip_end_of(t, event->next, event->rate, mark->side);
+  double x = t;
+  bool passed = false;
+  for (int try = 0; try < MOST_LOOKS && !passed && find_lowest(&a, &b, &x); try++) {
+    BAUM_I_TRY(value_at(run, x));
+    dip_end found = dip_end_of(x, event->next, event->rate, mark->side);
+    passed = has_passed(run->events, k);
+    *(found.rate * (t - x) < 0.0 ? &a : &b) = found;
+  }
+  *dip = passed && is_before(run, x, *dip) ? x : *dip;
+  return x == t ? BAUM_OK : look(run, t, exact);
+}
+
+/* The values at time t are known. Return in *dip the earliest time at which the value of an event
+ * is found to dip through zero between events->t and t, or t if there is none. Only joint
+ * coordinates have known rates. */
+static baum_status find_dip(baum_simulation *run, double t, bool exact, double *dip)
+{
+  *dip = t;
+  for (int k = 0; k < run->events->count; k++) {
+    const baum_i_event *event = &run->events->list[k];
+    if (event->joint >= 0 && event->rate * run->events->marks[k].rate < 0.0) {
+      BAUM_I_TRY(follow_dip(run, k, t, exact, dip));
+    }
+  }
+  return BAUM_OK;
+}
+
 /* ---- the whole ---- */
+
+/* Search for events between events->t and t. First search up to each dip before t, because the
+ * values at t do not show it. */
+static baum_status search_until(baum_simulation *run, double t, bool exact)
+{
+  exact = exact || t == (baum_i_run_has_fixed_step(run) ? run->trial.t : run->ahead.t);
+  for (;;) {
+    double dip = t;
+    BAUM_I_TRY(look(run, t, exact));
+    BAUM_I_TRY(find_dip(run, t, exact, &dip));
+    if (dip == t) {
+      return settle(run, t, exact);
+    }
+    BAUM_I_TRY(value_at(run, dip));
+    BAUM_I_TRY(settle(run, dip, true));
+  }
+}
 
 baum_status baum_i_events_watch(baum_simulation *run, double to)
 {
@@ -446,4 +547,21 @@ baum_status baum_i_events_watch(baum_simulation *run, double to)
     BAUM_I_TRY(search_until(run, to, true));
   }
   return fixed ? find_state(run, to) : BAUM_OK;
+}
+
+baum_status baum_i_events_pass_break(baum_simulation *run)
+{
+  baum_i_events *events = run->events;
+  events->t = events->from = run->state.t;
+  baum_i_run_copy(run, &run->state, &run->trial);
+  baum_i_run_copy(run, &run->state, &run->ahead);
+  baum_status status = search_until(run, run->state.t, true);
+  /* An event that has just been recorded may seem to happen again; see baum_i_events_go_on(). */
+  for (int k = 0; k < events->count; k++) {
+    if (!events->marks[k].fresh && baum_i_event_was_recorded(run, k)) {
+      events->marks[k].fresh = 1;
+      events->begin = run->state.t;
+    }
+  }
+  return status;
 }

@@ -176,6 +176,12 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
+bool baum_i_event_was_recorded(const baum_simulation *run, int k)
+{
+  double since = fabs(run->state.t - run->events->marks[k].last);
+  return since <= baum_i_event_window(run, &run->events->list[k], run->state.t);
+}
+
 /* The rate of an event function is a difference over this fraction of 1/rate. */
 static const double APART = 1e-5;
 
@@ -279,10 +285,9 @@ static void take_side_of_motion(baum_simulation *run, int number, double recorde
 static void take_value(baum_simulation *run, int k, bool is_start)
 {
   baum_i_event_mark *mark = &run->events->marks[k];
-  double since = fabs(run->state.t - mark->last);
-  bool recorded = since <= baum_i_event_window(run, &run->events->list[k], run->state.t);
+  bool recorded = baum_i_event_was_recorded(run, k);
   double value_then = recorded ? mark->value : (double)NAN;
-  mark->value = run->events->list[k].next;
+  baum_i_event_keep(&run->events->list[k], mark);
   mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
   mark->fresh = is_start || recorded;
   if (is_start) {
@@ -328,8 +333,9 @@ static baum_status begin_last(baum_simulation *run)
     baum_i_free(event->def.name);
     return status;
   }
-  events->marks[k] = (baum_i_event_mark){
-    .value = event->next, .last = (double)NAN, .side = baum_i_sign(event->next), .fresh = 1};
+  events->marks[k] =
+    (baum_i_event_mark){.last = (double)NAN, .side = baum_i_sign(event->next), .fresh = 1};
+  baum_i_event_keep(event, &events->marks[k]);
   events->count++;
   take_side_of_motion(run, k, (double)NAN);
   return BAUM_OK;

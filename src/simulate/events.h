@@ -13,6 +13,7 @@ enum { BAUM_I_EVENT_RECORDS = 1024 };
 /* The state of one event at the time up to which the run has been searched. */
 typedef struct baum_i_event_mark {
   double value; /* at a start it may still be at the other side of zero, because of rounding */
+  double rate;  /* [1/s] rate of a joint coordinate */
   double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
   /* Not 0: the value has not passed zero since the search started. If it was zero then and leaves
@@ -74,11 +75,26 @@ baum_status baum_i_events_evaluate_again(baum_simulation *run);
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 
+/* Continue the search at the present state, which is the far side of a break. Events whose value
+ * has jumped through zero are recorded there. Overwrites the trial state. Returns the same as
+ * baum_i_events_watch(). */
+baum_status baum_i_events_pass_break(baum_simulation *run);
+
 /* Search the motion for events up to the time `to`. With fixed steps, the trial state must be the
  * end of a step to `to`. If the search overwrites the trial state, it repeats this step at the end.
  * Returns BAUM_STOP_EVENT if an event has stopped the run, with the trial state at the event.
  * Otherwise returns BAUM_OK or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
+
+/* Tell whether event k was recorded a moment before the present state. */
+bool baum_i_event_was_recorded(const baum_simulation *run, int k);
+
+/* Store the value and the rate that were evaluated last. */
+static inline void baum_i_event_keep(const baum_i_event *event, baum_i_event_mark *mark)
+{
+  mark->value = event->next;
+  mark->rate = event->rate;
+}
 
 /* [s] After a start of the search or after the last record of the event, the value may still leave
  * zero. Return the time within which this is not recorded as another event. */

@@ -23,12 +23,20 @@ static baum_status restart_method(baum_simulation *run)
   return status;
 }
 
-baum_status baum_i_run_restart(baum_simulation *run)
+/* Restart everything except the search for events. The values of the events are evaluated first,
+ * because a restart cannot be undone. */
+static baum_status restart_motion(baum_simulation *run)
 {
   BAUM_I_TRY(run->events ? baum_i_events_evaluate_again(run) : BAUM_OK);
   BAUM_I_TRY(restart_method(run));
   run->origin = run->state.t;
   baum_i_companion_restart(run);
+  return BAUM_OK;
+}
+
+baum_status baum_i_run_restart(baum_simulation *run)
+{
+  BAUM_I_TRY(restart_motion(run));
   if (run->events) {
     baum_i_events_go_on(run);
   }
@@ -49,17 +57,18 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
   baum_i_run_end_before_change(run);
   run->state.t = next.far;
   baum_i_schedule_move(run, next.near, next.far);
-  baum_status status = baum_i_run_restart(run);
+  baum_status status = restart_motion(run);
   if (status != BAUM_OK) {
     run->state.t = before;
     baum_i_schedule_move(run, next.far, next.near);
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  /* Kinematics has already computed the configuration on the far side of the break. The velocities
-   * on the far side may differ from those on the near side. */
-  return run->integrator->without_freedom
-           ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,
-                                          run->state.v)
-           : BAUM_OK;
+  /* Kinematics has already computed the configuration on the far side of the break. Its velocities
+   * may differ from those on the near side. */
+  if (run->integrator->without_freedom) {
+    BAUM_I_TRY(
+      run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q, run->state.v));
+  }
+  return run->events ? baum_i_events_pass_break(run) : BAUM_OK;
 }

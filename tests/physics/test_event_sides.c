@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests on which side of zero events begin: after bounces off a stop, after starts at zero, where a
- * function stays zero, and after calls that fail. The motions are those of one particle, whose
- * events are known exactly. */
+ * function stays zero, after calls that fail, and at breaks. The motions are those of one particle,
+ * whose events are known exactly. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -350,6 +350,119 @@ static void events_of_a_failed_search_are_forgotten(void **state)
   flight_end(f);
 }
 
+/* ---- breaks ---- */
+
+/* The value of the input minus 0.5. */
+static int pushed(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)user;
+  out[0] = inputs[0] - 0.5;
+  return 0;
+}
+
+/* The input passes 0.5 at two scheduled times. The last of them is the end of a call. */
+static void a_scheduled_input_that_jumps_through_zero_is_an_event(void **state)
+{
+  (void)state;
+  static const double times[] = {0.3, 0.5};
+  static const double values[] = {1.0, 0.0};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    for (int terminal = 0; terminal < 2; terminal++) {
+      step_mode mode = step_mode_at(k);
+      flight f = flight_make(mode, STEP, GRAVITY, 0.0, 1.0, 0.0);
+      watch(&f, pushed, 0, terminal, (double)NAN, NULL);
+      check(baum_simulation_schedule_input(f.run, f.push, times, values, 2));
+      baum_status stop = terminal ? BAUM_STOP_EVENT : BAUM_OK;
+      for (int i = 0; i < 4; i++) { /* forward over both times, and backward */
+        double t = times[i < 2 ? i : 3 - i];
+        double end = i < 2 ? t : t - 0.1;
+        assert_int_equal(step_mode_advance(mode, f.run, end), stop);
+        assert_int_equal(baum_simulation_event_count(f.run), i + 1);
+        ASSERT_NEAR(record_of(&f, i).t, t, 0.0, 1e-14);
+        assert_int_equal(record_of(&f, i).direction, t == times[0] ? 1 : -1);
+        assert_int_equal(step_mode_advance(mode, f.run, i < 2 ? t + 0.01 : end), BAUM_OK);
+      }
+      check(baum_simulation_set_input(f.run, f.push, 2.0));
+      assert_int_equal(step_mode_advance(mode, f.run, 1.0), BAUM_OK);
+      assert_int_equal(baum_simulation_event_count(f.run), 4);
+      flight_end(f);
+    }
+  }
+}
+
+/* The time minus *user. */
+static int after(double t, const double *q, const double *v, const double *inputs, double *out,
+                 void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  out[0] = t - *(const double *)user;
+  return 0;
+}
+
+/* A step ends just before a break, and the next one begins at the break. */
+static void a_zero_between_the_two_sides_of_a_break_is_an_event(void **state)
+{
+  (void)state;
+  static const double value = 1.0;
+  double b = 0.1 * 3.0;
+  double zeros[] = {b, nextafter(b, 0.0)};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    for (int i = 0; i < 2; i++) {
+      step_mode mode = step_mode_at(k);
+      flight f = flight_make(mode, STEP, GRAVITY, 0.0, 1.0, 0.0);
+      watch(&f, after, 0, true, (double)NAN, &zeros[i]);
+      check(baum_simulation_schedule_input(f.run, f.push, &b, &value, 1));
+      assert_int_equal(step_mode_advance(mode, f.run, b), BAUM_STOP_EVENT);
+      assert_true(baum_simulation_time(f.run) == b);
+      assert_int_equal(step_mode_advance(mode, f.run, 1.0), BAUM_OK);
+      assert_int_equal(baum_simulation_event_count(f.run), 1);
+      flight_end(f);
+    }
+  }
+}
+
+/* 1 before *user, and -1 from then on. */
+static int before(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  out[0] = t < *(const double *)user ? 1.0 : -1.0;
+  return 0;
+}
+
+static void a_function_may_jump_through_zero_at_a_declared_break(void **state)
+{
+  (void)state;
+  double b = 0.3;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    flight f = flight_make(mode, STEP, GRAVITY, 0.0, 1.0, 0.0);
+    baum_mechanism *m = NULL;
+    check(baum_mechanism_copy(f.mechanism, &m));
+    check(baum_mechanism_add_break_times(m, &b, 1));
+    check(baum_mechanism_freeze(m));
+    flight_end(f);
+    baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
+    f = (flight){.mechanism = m, .run = create_run(m, &o)};
+    watch(&f, before, 0, false, (double)NAN, &b);
+    for (int i = 0; i < 2; i++) {
+      assert_int_equal(step_mode_advance(mode, f.run, i == 0 ? 1.0 : 0.0), BAUM_OK);
+      assert_int_equal(baum_simulation_event_count(f.run), i + 1);
+      ASSERT_NEAR(record_of(&f, i).t, b, 0.0, 1e-14);
+      assert_int_equal(record_of(&f, i).direction, -1);
+    }
+    flight_end(f);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -362,6 +475,9 @@ int main(void)
     cmocka_unit_test(an_unwanted_zero_before_a_stop_hides_no_later_event),
     cmocka_unit_test(the_tolerance_of_one_event_does_not_delay_another),
     cmocka_unit_test(events_of_a_failed_search_are_forgotten),
+    cmocka_unit_test(a_scheduled_input_that_jumps_through_zero_is_an_event),
+    cmocka_unit_test(a_zero_between_the_two_sides_of_a_break_is_an_event),
+    cmocka_unit_test(a_function_may_jump_through_zero_at_a_declared_break),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
