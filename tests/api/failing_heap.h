@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests that every allocation of a scenario may fail. The rules for including heap.h also apply to
- * this file. */
+/* Lets allocations of a scenario fail, and checks that the scenario reports this and loses no
+ * memory. The rules for including heap.h also apply to this file. */
 #ifndef BAUM_TEST_FAILING_HEAP_H
 #define BAUM_TEST_FAILING_HEAP_H
 

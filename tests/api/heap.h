@@ -5,9 +5,9 @@
  * Before it includes this header, it must define _GNU_SOURCE and include cmocka.h.
  *
  * This works with glibc. If another tool replaces malloc, as valgrind and the thread sanitizer do,
- * heap_is_ours() returns false. The functions here call the address sanitizer's own allocation
- * functions by their names. The sanitizer thus still checks memory accesses after a failed
- * allocation.
+ * heap_is_ours() returns false. In builds with the address sanitizer, the functions here call the
+ * allocation functions of the sanitizer by their names. The sanitizer thus still checks memory
+ * accesses after a failed allocation.
  */
 #ifndef BAUM_TEST_HEAP_H
 #define BAUM_TEST_HEAP_H
@@ -138,9 +138,9 @@ HEAP_PUBLIC void free(void *memory)
 /* ---- calls that are excluded, and why ---- */
 
 /* SUNLogger_Create() of SUNDIALS 6.4.1, which SUNContext_Create() calls, checks only its first
- * allocation. After it, SUNHashMap_New() allocates a map and writes to it without checking, because
- * it compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated,
- * it frees the map, although the logger keeps the map and later destroys it again. A caller cannot
+ * allocation. SUNHashMap_New() then allocates a map and writes to it without checking, because it
+ * compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated, it
+ * frees the map, although the logger keeps the map and later destroys it again. A caller cannot
  * prevent these two errors. The test therefore lets only the first allocation fail.
  */
 #if BAUM_HAVE_SUNDIALS

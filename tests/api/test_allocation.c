@@ -87,8 +87,8 @@ static bool find_pair(int k, baum_simulation_options *o)
 
 /* ---- steps allocate nothing ---- */
 
-/* Changes an input, and replaces the law of the motor by a quadratic polynomial that continues
- * it. */
+/* Changes an input, and replaces the law of the motor by a quadratic polynomial that continues this
+ * law. */
 static baum_status act(baum_simulation *run, const every_element *parts)
 {
   double t = baum_simulation_time(run);

@@ -461,8 +461,8 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* When the slot was added, the particle was at `point`. Freeze compares the present position of the
- * particle. */
+/* When the slot was added, the particle was at `point`. Freeze compares `point` with the present
+ * position of the particle. */
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;

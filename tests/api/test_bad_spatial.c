@@ -527,8 +527,8 @@ static void assembly_refuses_joints_that_end_the_wrong_way_round(void **state)
   check_reversed("spatial_fixed", third);
 }
 
-/* Two spherical joints hold the body in one orientation. The design orientation differs from it by
- * 1.2 rad. */
+/* Two spherical joints hold the x axis of the body in one direction. In the design configuration,
+ * the x axis differs from this direction by 1.2 rad. */
 static void a_body_turned_too_far_off_is_refused(void **state)
 {
   (void)state;

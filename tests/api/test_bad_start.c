@@ -110,8 +110,8 @@ static void given_velocities_that_conflict_are_named(void **state)
   assert_null(strstr(baum_message(), "away from the design configuration"));
 }
 
-/* The velocity fits the inaccurate design configuration, in which the bead is at (1, 0) m, but not
- * the assembled one. */
+/* The velocity would fit a rod along the x axis. In the assembled configuration, the rod is
+ * inclined, so the velocity does not fit. */
 static void velocities_of_an_inaccurate_design_are_explained(void **state)
 {
   (void)state;
@@ -132,9 +132,9 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Makes a rod whose design angle is `angle` [rad]. A pin holds its left end, and a link of 0.2 m
- * holds its right end. Drivers may rotate the rod at 1 and at 2 rad/s from an angle `value`
- * [rad]. */
+/* Makes a rod whose design angle is `angle` [rad]. A pin holds its left end. If `link` [m] is
+ * positive, a rod of this length connects its centre with the pin on ground. Drivers may rotate the
+ * rod at 1 and at 2 rad/s from an angle `value` [rad]. */
 static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
 {
   baum_mechanism *m = create_mechanism();
@@ -291,7 +291,8 @@ static void drivers_may_begin_away_from_the_design(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* The tip of the bar is 1 m from the pin, but the driver of the tip begins at 3 m. */
+/* A rod keeps the centre of the bar 1 m from the origin, but the driver of the slot begins at a
+ * displacement of 9 m. */
 static void drivers_that_begin_out_of_reach_are_refused(void **state)
 {
   (void)state;
@@ -481,8 +482,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* Lets only call number n of a function fail. Whichever n this is, the run must stop at a good
- * step, and must be able to continue. */
+/* Lets the functions fail from call number n on, until the run stops. Whichever n this is, the run
+ * must stop at a good step, and must be able to continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};

@@ -44,7 +44,7 @@ static baum_outline outline_of(baum_outline_form form)
   return o;
 }
 
-/* One body of each kind, pinned to ground. The last one has user coordinates. */
+/* A planar body that is pinned to ground, a free spatial body, and a body with user coordinates. */
 typedef struct scene {
   baum_mechanism *mechanism;
   baum_body_id flat, solid, coordinates;
@@ -277,7 +277,7 @@ static void wrong_calls_are_refused(void **state)
   baum_mechanism_destroy(other.mechanism);
 }
 
-/* A function that sets one field of a good outline to a wrong value. */
+/* A wrong value for one field of a good outline. */
 typedef struct wrong {
   baum_outline_form form;
   const char *says;

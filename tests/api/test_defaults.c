@@ -44,7 +44,8 @@ static char *read_headers(void)
   return text;
 }
 
-/* Finds the body of a struct. Returns its beginning, and sets *end to the name that closes it. */
+/* Finds the definition of a struct. Returns the position after its opening brace, and sets *end to
+ * its closing brace. */
 static const char *find_struct(const char *headers, const char *name, const char **end)
 {
   char opening[TEXT_SIZE];

@@ -24,8 +24,8 @@ static baum_simulation *open_mode(const swing *s, step_mode mode)
 
 enum { HEALED = 2 };
 
-/* An event function that fails after 0.25 s with the return value *user. If *user is HEALED, it
- * does not fail. */
+/* An event function that fails after 0.25 s. It then returns *user. If *user is 0, it sets an
+ * infinite value instead, and if *user is HEALED, it does not fail. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {

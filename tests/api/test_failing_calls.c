@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lets every single call of a user function fail, one at a time, for each kind of request to the
- * library. The request must then fail with the message of the function, and it must change nothing.
+/* For each kind of request to the library, lets the user functions fail from call number n on, with
+ * every n. The request must then fail with the message of the function, and it must change nothing.
  * When the function works again, the request must succeed. */
 #include <math.h>
 #include <setjmp.h>
@@ -435,8 +435,8 @@ static bool check_run(const baum_mechanism *m, const baum_simulation_options *o,
   return true;
 }
 
-/* Makes call number n fail, for several values of n. n begins at 1 and increases by 1 + n /
- * rarer. */
+/* Makes call number n and all later calls fail, for several values of n. n begins at 1 and
+ * increases by 1 + n / rarer. */
 static void check_every_call(const baum_simulation_options *o, variant of, int64_t rarer)
 {
   fault f = {.from = 0};

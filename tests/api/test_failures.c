@@ -192,7 +192,8 @@ static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   assert_true(reached(baum_simulation_advance_to(next, t + 0.01)));
   assert_true(reached(baum_simulation_advance_to(run, t + 0.01)));
-  /* Both move freely for 10 ms. They differ by the error of the less accurate method. */
+  /* Both runs have advanced by 10 ms without a fault. Their states differ by the error of the less
+   * accurate method. */
   assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
   baum_simulation_destroy(next);
 }

@@ -192,8 +192,8 @@ static void all_solvers_find_the_same_accelerations_and_multipliers(void **state
     check(baum_simulation_get(run, channels, 2, row));
     for (int i = 0; i < 17; i++) {
       want[i] = k == 0 ? row[i] : want[i];
-      /* The tolerances allow for rounding errors of accelerations of 1e4 m/s^2 and of multipliers
-       * of 1e3 N, multiplied by a condition number. */
+      /* Accelerations are about 1e4 m/s^2, and multipliers about 1e3 N. The tolerances allow for
+       * their rounding errors, multiplied by a condition number. */
       ASSERT_NEAR(row[i], want[i], 1e-11, i < 9 ? 1e-7 : 1e-9);
     }
     baum_simulation_destroy(run);
@@ -222,7 +222,8 @@ static void explain_names_the_solver(void **state)
   model_destroy(&m);
 }
 
-/* Kinematics and IDA do not solve equation (5) for accelerations. They factor other matrices. */
+/* Kinematics and IDA do not factor the matrix of the equations for accelerations and multipliers.
+ * They factor other matrices. */
 static void explain_names_the_solver_of_kinematics_and_ida(void **state)
 {
   (void)state;
@@ -287,7 +288,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   const baum_channel channel = baum_channel_of(BAUM_A);
   double a[2];
   check(baum_simulation_get(run, &channel, 1, a));
-  /* The Jacobian is computed by differences of Phi, with this accuracy. */
+  /* The Jacobian is computed by differences of Phi, which limits the accuracy. */
   ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10);
   ASSERT_NEAR(a[1], 3.0, 0.0, 1e-10);
   assert_explained(run,

@@ -283,8 +283,9 @@ static void a_file_of_another_library_is_refused(void **state)
   end_scene(&s);
 }
 
-/* The file has the first line of this study, but the other lines come from the study of a heavier
- * pendulum. Their checksums do not match the first line, so the entries run again. */
+/* The file has the first line of this study, but the other lines come from the study of a pendulum
+ * under twice the gravity. Their checksums do not match the first line, so the entries run
+ * again. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;

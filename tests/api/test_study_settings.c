@@ -76,8 +76,8 @@ static void entries_have_their_gains_in_their_names(void **state)
   baum_study_destroy(study);
 }
 
-/* Factors are copied. Entries with other factors belong to another method. Entries that only have
- * another step belong to the same method. */
+/* The study copies the factors of the gains. Entries with other factors belong to another method.
+ * Entries that only have another step belong to the same method. */
 static void gains_of_rows_belong_to_the_method(void **state)
 {
   baum_study *study = make(*state);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests sweeps: each run equals the same run alone, a failed run does not affect the others, and
- * wrong arguments are refused. */
+/* Tests sweeps: each run has the same results as if it were made alone, a failed run does not
+ * affect the others, and wrong arguments are refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

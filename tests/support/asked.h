@@ -4,8 +4,8 @@
  *
  * The mechanism contains masses with user coordinates, a bead that a user constraint keeps on a
  * hoop, and two arms with a coupling, a torsion spring and a user force. It also contains a driven
- * crank, and a particle (the pea) with a spring on a curve. Its only input is the stiffness of the
- * spring that acts on the masses.
+ * crank, and a particle (the pea) that moves on a curve and is attached to a spring. Its only input
+ * is the stiffness of the spring that acts on the masses.
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H
@@ -61,8 +61,8 @@ struct asked {
   void (*back)(asked *user); /* called instead of failing, if the fault is ASKED_CALLS_BACK */
 };
 
-/* Makes the mechanism and freezes it. Its functions keep the address of *b. If this fails, the test
- * fails. */
+/* Makes the mechanism and freezes it. The functions of the mechanism keep the address of *b. If a
+ * call fails, the test fails. */
 void asked_make(asked *b);
 
 /* An event function that never becomes zero, and a progress function. Their `user` is a pointer to

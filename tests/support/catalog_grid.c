@@ -29,7 +29,7 @@ int catalog_tally_wrong(const catalog_tally *of)
 /* ---- two studies of one entry ---- */
 
 /* An entry of the catalogue, and two studies of it. The samples of a study must be equally spaced.
- * Both studies therefore use only as many of the first samples of the catalogue as are equally
+ * Both studies therefore use only the first n + 1 samples of the catalogue, which are equally
  * spaced. */
 typedef struct pair {
   const baum_catalog_entry *entry;
@@ -230,9 +230,9 @@ static int count_entries(const baum_study *study, const baum_integrator *integra
   return count;
 }
 
-/* Counts the methods for which some entries are missing. Every integrator must have all its
- * settings with each of its formulations. With BAUMGARTE, it must have them with the default rule
- * and with all constant gains. */
+/* Counts the methods for which some entries are missing. Every integrator must have all settings of
+ * the grid with each of its formulations. With BAUMGARTE, it must have all settings both with the
+ * default rule and with all constant gains. */
 static int count_missing(const baum_study *study, const baum_study_grid *grid)
 {
   int missing = 0;

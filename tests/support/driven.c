@@ -103,8 +103,8 @@ baum_mechanism *slider_crank_make(const slider_crank *data)
   return freeze(mechanism);
 }
 
-/* With the lengths r of the crank and l of the rod, the offset e, u = r sin(angle) - e and D =
- * sqrt(l^2 - u^2), the position of the slider is x = r cos(angle) + branch D. */
+/* The position of the slider is x = r cos(angle) + branch D. Here r is the length of the crank, l
+ * is the length of the rod, e is the offset, u = r sin(angle) - e, and D = sqrt(l^2 - u^2). */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3])
 {
   double rate = data->drive.rate;

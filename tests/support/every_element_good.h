@@ -51,15 +51,15 @@ void good_spatial_curve(const every_element *parts, any_def *to);
 void good_spatial_knife_edge(const every_element *parts, any_def *to);
 void good_spatial_cable(const every_element *parts, any_def *to);
 
-/* The table of kinds has one spatial body and one spatial particle. This function adds further
- * spatial bodies, which the elements need. It is in every_element_spatial.c. */
+/* The table of kinds has one spatial body and one spatial particle. These functions add the further
+ * spatial bodies that the elements need. They are in every_element_spatial.c. */
 baum_status every_element_add_spatial_bodies(every_element *parts);
 baum_status every_element_add_coin(every_element *parts);
 baum_status every_element_add_nut(every_element *parts);
 baum_status every_element_add_skate(every_element *parts);
 
-/* Counts a call of a user function. If the call has to fail, writes NaN into `out` or returns
- * fault->answer. */
+/* Counts a call of a user function. `user` points to an every_fault, or is NULL. If the call has to
+ * fail, the function writes NaN into `out`, or returns the member `answer` of the every_fault. */
 int every_element_answer(void *user, double t, double *out);
 
 /* Defines good_NAME(). Usage: GOOD(name) { return the definition, made with `parts`; } */

@@ -178,7 +178,7 @@ static int parabola_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Makes a bead on this wire. */
+/* Makes a bead on the wire y = 2 x^2. */
 static void user_constraint(baum_mechanism *m)
 {
   baum_body_id bead = particle(m, "bead", -0.3, 0.18);
@@ -281,8 +281,8 @@ static void rolling(baum_mechanism *m)
   check(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
 }
 
-/* Makes a sun gear and a planet gear on an arm. The centres of mass of all of them are off their
- * axes. */
+/* Makes a sun gear and a planet gear on an arm. The centres of mass of all three bodies are off
+ * their axes. */
 static void gear(baum_mechanism *m)
 {
   baum_body_id sun = body(m, "sun", (placed){0.05, 0.0, 0.0, 4.0});

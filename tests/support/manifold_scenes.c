@@ -67,7 +67,8 @@ static void put_side(const double *c, const double s[2], double sign, int first,
   out[columns + first + 2] = sign * arm[0];
 }
 
-/* Computes the Jacobian with respect to velocities. This is only for pins between turned bodies. */
+/* Computes the Jacobian with respect to velocities. The function supports only pins that connect
+ * turned bodies with each other or with ground. */
 static int pin_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -358,7 +359,7 @@ static void translate_crank(const double *twin_q, double *q)
   translate_bodies(twin_q, q, 3);
 }
 
-/* ---- a turned body is added before an ordinary one, so that its columns in q and v differ ---- */
+/* ---- an ordinary body after a turned body begins at different indices of q and v ---- */
 
 static manifold_body lower_rod = {.mass = 0.7, .inertia = {0.05}};
 static pin joint_pin = {.to_ordinary = true, .a = {0.5, 0.0}, .b = {-0.4, 0.0}};

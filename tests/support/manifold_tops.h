@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rigid bodies with a unit quaternion that rotate about a fixed point. They are a free top, a ball,
- * and a heavy top. Three user constraints hold the heavy top. They are defined with or without
- * their Jacobian. The functions named `solve` integrate the reference motions. */
+ * and a heavy top. A user constraint with three rows holds the ball and the heavy top at the fixed
+ * point. For the heavy top, this constraint is defined with or without its Jacobian. The functions
+ * named `solve` integrate the reference motions. */
 #ifndef BAUM_TEST_MANIFOLD_TOPS_H
 #define BAUM_TEST_MANIFOLD_TOPS_H
 

@@ -397,7 +397,7 @@ bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, c
   return done;
 }
 
-/* A row of zeros is dependent, so it does not count. */
+/* Skipped rows are set to zero. A row of zeros is dependent, so it does not change the rank. */
 bool quad_rows_rank(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                     const bool *skipped, quad_rows *out)
 {

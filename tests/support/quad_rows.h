@@ -2,9 +2,9 @@
 /* Computes accelerations in quadruple precision, even if rows are dependent. Also computes how
  * close the rows are to dependence, and how much dependent rows contradict the others. M, J, g and
  * gamma are computed by the library in double precision, but none of its solvers is used. Let M = L
- * L^T and y = L^T a, and let the rows of J L^-T be scaled to length 1. The constraints are then W^T
- * y = c. Of all y that satisfy them, the solution is nearest to L^-1 g. A QR factorization of W
- * with pivoting gives this y. */
+ * L^T and y = L^T a. The rows of J L^-T, scaled to length 1, are the columns of W. The constraints
+ * are then W^T y = c. Of all y that satisfy them, the solution is nearest to L^-1 g. A QR
+ * factorization of W with pivoting gives this y. */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
 

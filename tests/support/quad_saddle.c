@@ -67,8 +67,8 @@ static void add(quad_system *s, int row, int column, double value)
 
 /* ---- order ---- */
 
-/* An unknown. Unknowns are sorted by the key `at`. For velocity i the key is 2 i. For a multiplier
- * it is the sum of the indices of the first and the last velocity in its row of J. */
+/* An unknown. Unknowns are sorted by the key `at`. For acceleration i the key is 2 i. For a
+ * multiplier it is the sum of the indices of the first and the last velocity in its row of J. */
 typedef struct seat {
   int at;
   int unknown;

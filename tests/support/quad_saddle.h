@@ -16,8 +16,8 @@
 
 #include "dynamics/dynamics.h"
 
-/* The functions below that compute accelerations round (a, lambda) to double. They return false if
- * the matrix is singular, or if there is not enough memory. */
+/* The first three functions below compute (a, lambda) and round the results to double. They return
+ * false if the matrix is singular, or if there is not enough memory. */
 
 /* Reads J and M from a workspace as dense matrices. This is suitable for up to several hundred
  * coordinates. The array `omitted` (nc), which may be NULL, marks rows that are omitted. Their

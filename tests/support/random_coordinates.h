@@ -9,8 +9,9 @@
  * driver, nothing is added. */
 void random_spatial_add_driver(random_spatial *r);
 
-/* Adds a joint spring to a random joint. Its free value differs by up to 1 from the value of the
- * coordinate in the design configuration. */
+/* Adds a joint spring to a random coordinate of a random joint. The free value of the spring
+ * differs by up to 1 from the value of this coordinate in the design configuration. If the joint
+ * has no coordinate, nothing is added. */
 void random_spatial_add_joint_spring(random_spatial *r);
 
 /* Couples two random coordinates, such as the angles of two gears, the angle of a gear and the

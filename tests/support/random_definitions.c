@@ -42,8 +42,8 @@ static void scaled(chance *c, const wide x[3], double out[3])
   }
 }
 
-/* Inclines the axes of constant-velocity joints on body_b, in half of all cases. The angle of
- * inclination is below pi / 2. Returns false if the axes stay parallel. */
+/* If the joint is a constant-velocity joint, inclines its axes on body_b in half of all cases. The
+ * angle of inclination is below pi / 2. Returns false if the axes stay parallel. */
 static bool incline(random_spatial *r, oracle_joint *joint, bool in_ground,
                     baum_spatial_revolute_def *def)
 {

@@ -27,8 +27,8 @@ static int choose_turning(random_spatial *r, bool planar)
 
 /* ---- rolling discs and knife edges ---- */
 
-/* Chooses a wheel with a sharp or a round rim, or a sphere, of random position on body b. The plane
- * on body a is chosen so that it touches the wheel. */
+/* Adds a rolling disc. On body b, at a random position, it is a wheel with a sharp or a round rim,
+ * or a sphere. The plane on body a is chosen so that it touches the wheel or the sphere. */
 static void add_disc(random_spatial *r, int a, int b)
 {
   static const wide x[3] = {1, 0, 0};
@@ -421,8 +421,9 @@ static void choose_curve(chance *c, oracle_curve *u, double y[3])
   y[2] = u->kind == ORACLE_HELIX ? along : 0.0;
 }
 
-/* Puts a point of body b on a curve on body a. In half of all cases, the point is also body_a's
- * point. In the other cases, the vector from body_a's point to the point is random. */
+/* Puts a point of body b on a curve that is fixed on body a. In half of all cases, body_a's point
+ * is the same point. In the other cases, the vector from body_a's point to the point of body b is
+ * random. */
 static void add_curve(random_spatial *r, int a, int b)
 {
   static const wide z[3] = {0, 0, 1};
@@ -463,9 +464,9 @@ static void add_curve(random_spatial *r, int a, int b)
   check(baum_mechanism_add_spatial_curve(r->mechanism, &def, &joint->id));
 }
 
-/* Adds a body or a particle, which is often planar. A point of the new body moves on a curve that
- * is fixed on another body. If the new body has an orientation, the curve may instead be fixed on
- * the new body, and the point on the other. */
+/* Adds a body or a particle. One in three of them is planar. A point of the new body moves on a
+ * curve that is fixed on another body. If the new body has an orientation, the curve may instead be
+ * fixed on the new body, and the point on the other. */
 static void add_bead(random_spatial *r)
 {
   chance *c = &r->chance;
@@ -492,10 +493,10 @@ static void choose_path(random_spatial *r, oracle_force *f, baum_body_id bodies[
   }
 }
 
-/* The path often visits a body twice. With the default free length, the cable is just about to
- * become taut at the start. A transition of 0 would make its damping jump there, so it is not used
- * with the default. The damper is often so strong that it cancels the tension of a cable that
- * becomes shorter. */
+/* Adds a cable, whose path often visits a body twice. With the default free length, the cable is
+ * just about to become taut at the start. A transition of 0 would make the damping jump at this
+ * length, so it is not combined with the default free length. The damper is often so strong that it
+ * cancels the tension of a cable that becomes shorter. */
 static void add_cable(random_spatial *r)
 {
   static const double share = 1e-4; /* the default of the transition, relative to the free length */

@@ -189,7 +189,8 @@ static void choose_axis(random_spatial *r, const double point[3], bool in_plane,
   }
 }
 
-/* Chooses a vector that the joint permits from body_a's point to body_b's point. */
+/* Chooses the vector from body_a's point to body_b's point, in a direction that the joint
+ * permits. */
 static void choose_apart(chance *c, oracle_kind kind, const double axis[3], double apart[3])
 {
   double beside[3];

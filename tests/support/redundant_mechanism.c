@@ -205,9 +205,8 @@ static double worse(double a, double b)
   return isnan(b) || b > a ? (isnan(b) ? (double)INFINITY : b) : a;
 }
 
-/* Returns the largest residual of all groups of rows, as a fraction. Each residual is divided by
- * the largest term of its group, or by 1e-14 of the largest term of all groups if that is
- * larger. */
+/* Returns the largest relative residual of all groups of rows. Each residual is divided by the
+ * largest term of its group, or by 1e-14 of the largest term of all groups if that is larger. */
 static double largest_share(const double *rest, const double *size, int count, int group)
 {
   double all = 0.0;

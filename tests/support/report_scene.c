@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with an entry of every kind. */
+/* A small study with accurate, warned and refused entries. */
 #include "report_scene.h"
 
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms whose motion is known and passes through singular configurations, and settings with
- * which they are run. If the motion stays on the right branch, it is described by one angle th,
- * which satisfies an equation with the constants i0, i1 and k:
+ * which they are run. As long as the motion does not change to another branch, it is described by
+ * one angle th. This angle satisfies an equation with the constants i0, i1 and k:
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  */
@@ -33,13 +33,14 @@ typedef struct singular_scene {
   int count;                         /* how many angles in q are th or -th */
   int angle[SINGULAR_ANGLES];        /* the indices of these angles */
   double sign[SINGULAR_ANGLES];
-  /* Positions at the samples ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
+  /* Positions at the same times ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
    * Otherwise NULL. */
   double *reference;
 } singular_scene;
 
-/* `loops` is the number N of the N-four-bar. `seed` determines the random start, which differs from
- * the usual start by up to 0.1 rad. */
+/* `loops` is the number N of the N-four-bar. `seed` determines a random change of the initial angle
+ * by up to 0.1 rad. For the N-four-bar, it also determines a change of the initial angular velocity
+ * by up to 0.1 rad/s. */
 singular_scene singular_open(singular_kind kind, int loops, uint64_t *seed);
 void singular_close(singular_scene *scene);
 
@@ -55,7 +56,7 @@ typedef struct singular_setting {
 
 typedef struct singular_result {
   baum_status status; /* < 0: failed */
-  /* [rad or m] largest error at the samples that the run has reached. */
+  /* [rad or m] largest error at those times k end / SINGULAR_SAMPLES that the run has reached. */
   double error;
   int64_t intervals;
   int64_t branch_warnings;

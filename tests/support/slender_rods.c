@@ -30,7 +30,7 @@ static const double MANY = 1000.0;
 /* If joints prevent accelerations, errors are relative to this fraction of the accelerations that
  * the forces would cause without joints. */
 static const double HELD = 1e-2;
-static const double TINY = 1e-12; /* for islands at rest */
+static const double TINY = 1e-12; /* smallest acceleration for relative errors, as a fraction */
 
 typedef struct rod {
   baum_body_id id;
@@ -71,7 +71,8 @@ static void random_turn(chance *c, double p[4])
   quaternion_normalize(p);
 }
 
-/* Sets the tensor with the given moments, about axes that are rotated if `full` is true. */
+/* Sets the inertia tensor with the given principal moments. If `full` is true, the principal axes
+ * are rotated at random. */
 static void set_inertia(chance *c, const double moments[3], bool full, double tensor[6],
                         double axis[3])
 {
@@ -210,7 +211,8 @@ static void add_body(rods *r, int island, int before)
   }
 }
 
-/* Holds a point of a rod, which is on its axis or near it. */
+/* Connects a rod with ground by a spherical joint. The joint is on the axis of the rod or near this
+ * axis. */
 static void add_loop(rods *r, const rod *of)
 {
   baum_spatial_revolute_def joint = baum_spatial_revolute_def_default();
@@ -433,7 +435,8 @@ static double free_size(const rods *r, const equations *e, int body)
          (mass * length);
 }
 
-/* Returns the error of the accelerations `got` or, if it is NULL, of e->rounded. */
+/* Returns the error of the accelerations `got`. If `got` is NULL, returns the error of
+ * e->rounded. */
 static double error_of(const rods *r, const equations *e, const double *got)
 {
   double sizes[ISLANDS] = {0.0};

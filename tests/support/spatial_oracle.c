@@ -123,7 +123,8 @@ static void fill_rows(const spatial_oracle *o, const row_list *list, const wide 
 
 /* ---- reactions ---- */
 
-/* Returns the element of -J^T lambda in one column of J. Only the rows of one joint contribute. */
+/* Returns the element of -J^T lambda that belongs to one column of J. Only the rows of one joint
+ * contribute. */
 static wide column_force(const row_list *list, int joint, const wide *lambda, int column)
 {
   wide sum = 0;

@@ -91,10 +91,10 @@ typedef struct oracle_curve {
   double r, c;
 } oracle_curve;
 
-/* In a rolling disc, s contains a point of the plane and the centre. The z axes are the normal of
- * the plane and the axis of the disc. In a knife edge, s[0] is the point of the blade, and the x
- * axis on body_a is along the blade. Its y axis is across the blade. In a spatial knife edge, s[0]
- * and this y axis have the same meaning. */
+/* In a rolling disc, s contains a point of the plane and the centre of the disc. The z axes are the
+ * normal of the plane and the axis of the disc. In a knife edge, s[0] is the point of the blade.
+ * The x axis on body_a is along the blade, and the y axis on body_a is across it. In a spatial
+ * knife edge, s[0] and this y axis have the same meaning. */
 typedef struct oracle_joint {
   baum_joint_id id;
   oracle_kind kind;
@@ -182,8 +182,8 @@ void oracle_place(const spatial_oracle *o, oracle_joint *joint, const wide point
  * axes. They are rotated by the smallest possible angle. */
 void oracle_incline(const spatial_oracle *o, oracle_joint *joint, const wide z[3]);
 
-/* The first two functions convert a point of the design configuration to body axes, s = A^T
- * (point - r), and back. The third function converts an axis to body axes. */
+/* The first two functions convert a point of the design configuration to body axes, s = A^T (point
+ * - r), and back. The last two functions convert an axis to body axes, and back. */
 void oracle_to_body(const oracle_body *body, const wide point[3], wide s[3]);
 void oracle_to_ground(const oracle_body *body, const wide s[3], wide point[3]);
 void oracle_axis_to_body(const oracle_body *body, const wide axis[3], wide s[3]);

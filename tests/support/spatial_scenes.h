@@ -19,8 +19,8 @@ enum { SPATIAL_RSSR_NQ = 21, SPATIAL_RSSR_NV = 18 };
 void spatial_build_rssr(baum_mechanism *m);
 baum_mechanism *spatial_make_rssr(void); /* the mechanism is frozen, and the caller destroys it */
 
-/* A nut on a screw. In 0.5 s it drives a wheel with a torsion spring by more than half a
- * revolution. Its exact motion is known. */
+/* A nut on a screw drives a wheel, on which a joint spring acts. In 0.5 s, the wheel makes more
+ * than half a revolution. Its exact motion is known. */
 void spatial_build_screw(baum_mechanism *mechanism);
 void spatial_solve_screw(double t, double *q);
 

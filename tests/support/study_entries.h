@@ -6,7 +6,7 @@
 #include <baum/study.h>
 
 /* Makes a study of 1 s with a small grid. The grid contains rk4 and rk8 with all formulations and
- * gains. Each time is measured once. */
+ * gains. The CPU time of every entry is measured once. */
 baum_study *small_study(const baum_mechanism *mechanism, const baum_study_options *options);
 baum_study_options small_study_options(void);
 

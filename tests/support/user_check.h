@@ -13,8 +13,9 @@ baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
-/* Like user_check_wrong(), for a wrong derivative in one entry of a function. `what` is the element
- * and the function, such as "joint 1 "cam": curve". */
+/* Like user_check_wrong(), but requires only that the message names `what` and the number `entry`
+ * of the wrong derivative. `what` is the element of the mechanism and its function, such as "joint
+ * 1 "cam": curve". */
 void user_check_wrong_entry(baum_mechanism *mechanism, const char *what, int entry);
 
 /* Checks that phi(), jacobian(), gamma() and linearize() fail with the same status and the same

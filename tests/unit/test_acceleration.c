@@ -259,7 +259,7 @@ static int force_of_six(double t, const double *q, const double *v, const double
 }
 
 /* The block solver needs the square root of the mass. If a mass is negative, the solver of the
- * whole system therefore replaces it. No solver accepts a zero mass. */
+ * whole system therefore replaces the block solver. No solver accepts a zero mass. */
 static void a_negative_mass_is_left_to_the_solver_of_the_whole_system(void **state)
 {
   (void)state;

@@ -82,8 +82,8 @@ static void velocities_along_the_rod_are_held_and_others_are_free(void **state)
   }
 }
 
-/* If both rods are in line, constraint forces cannot move the bob across them. A position beside
- * the line can therefore not be corrected. */
+/* If both rods are in line, constraint forces cannot move the bob across their line. A position
+ * beside the line can therefore not be corrected. */
 static void rods_in_line_are_singular(void **state)
 {
   (void)state;

@@ -93,8 +93,8 @@ static baum_status solve_newton(solver *s, double t, const double *y, double gam
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Evaluates f at y. The result consists of N^+(q) q' and of the accelerations. Returns false if the
- * configuration is singular or nearly so. */
+/* Evaluates f at y. The result consists of the rates of the displacements, N^+(q) q', and of the
+ * accelerations. Returns false if the configuration is singular or nearly so. */
 static bool evaluate(const solver *s, double t, const double *q, const double *y, double *f)
 {
   const baum_mechanism *m = s->workspace->mechanism;

@@ -271,8 +271,8 @@ static graph make_ladder(int windows)
 
 /* The library sorts the nodes by their distance from the root of the elimination tree. At most four
  * nodes have the same distance, two at each end of the ladder. The elimination of a node changes
- * only nodes that are at most two levels nearer to the root. The places of these nodes in the order
- * are therefore less than 12 after the place of the node. */
+ * only nodes that are at most two levels nearer to the root. In the order of elimination, these
+ * nodes therefore come less than 12 places after the eliminated node. */
 static void nodes_come_shortly_before_the_nodes_that_they_change(void **state)
 {
   (void)state;

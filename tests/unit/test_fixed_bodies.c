@@ -146,7 +146,7 @@ static void chains_of_welds_are_fixed_in_any_order(void **state)
 {
   (void)state;
   enum { CHAIN = 7 };
-  for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime, so this joins all bodies */
+  for (int step = 1; step < CHAIN; step++) { /* CHAIN is prime, so any step joins all bodies */
     baum_mechanism *m = create_mechanism();
     baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
     for (int k = 1; k <= CHAIN; k++) {

@@ -274,7 +274,7 @@ static void auto_is_capped_and_always_stable(void **state)
   }
 }
 
-/* `small` is explicit Euler with five times the step. It is stable up to alpha h = beta h = 0.4. */
+/* `small` is explicit Euler with a fivefold step. It is stable up to alpha h = beta h = 0.4. */
 static void auto_stays_inside_a_small_region(void **state)
 {
   (void)state;

@@ -69,7 +69,7 @@ static void joints_in_any_order_form_one_island(void **state)
 {
   (void)state;
   enum { BODIES = 41 };
-  for (int step = 1; step < BODIES; step++) { /* 41 is prime, so this joins all bodies */
+  for (int step = 1; step < BODIES; step++) { /* 41 is prime, so any step joins all bodies */
     baum_mechanism *m = create_mechanism();
     baum_body_id bodies[BODIES];
     for (int k = 0; k < BODIES; k++) {

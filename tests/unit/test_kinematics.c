@@ -21,8 +21,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Newton's iteration continues until Phi contains only rounding errors. Positions are therefore as
- * accurate as a few operations with lengths of up to 5 m. */
+/* Newton's iteration continues until Phi contains only rounding errors. Positions therefore have
+ * only the rounding errors of a few operations with lengths of up to 5 m. */
 static const double EXACT = 1e-13;
 
 /* ---- runs ---- */

@@ -92,7 +92,8 @@ static void a_rod_that_is_too_short_locks_the_crank_from_any_start(void **state)
   printf("stopped at most %.1e rad from the lock-up, %.1e m off the branch\n", worst.to_lock,
          worst.error);
   /* The crank rotates by 1e-10 rad in the shortest step. At a distance of 1e-9 rad from the
-   * lock-up, the rounding error of the angle is amplified 1e4 times. */
+   * lock-up, the error of the slider is 1e4 times as large as the rounding error of the crank
+   * angle. */
   assert_true(worst.to_lock <= 1e-6);
   assert_true(worst.error <= 1e-9);
 }

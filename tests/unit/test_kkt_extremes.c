@@ -194,7 +194,7 @@ static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
   }
 }
 
-/* Makes a row of particles, each of which is tied to the next one. Only the first has mass. */
+/* Makes a line of particles, each of which is tied to the next one. Only the first has mass. */
 static saddle make_massless_row(int particles)
 {
   saddle system = saddle_make_dense(particles, particles - 1);

@@ -345,8 +345,8 @@ static void jacobians_of_residuals_agree_with_differences(void **state)
 
 /* ---- definitions ---- */
 
-/* Makes a valid definition of one angle, which (cos, sin) represents. Tests replace single fields
- * of the definition. */
+/* Makes a valid definition of a body whose position is one angle, stored as (cos, sin). Tests
+ * replace single fields of the definition. */
 static void set_angle_definition(baum_coordinates_def *def)
 {
   static manifold_body body = {.mass = 1.0, .inertia = {1.0}};

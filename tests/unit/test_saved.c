@@ -16,9 +16,10 @@
 
 /* The checksums cover the sizes of all parts that a run saves. Never change a row of this table. If
  * sizes change, raise the version and add a row. Versions up to 8 had another kind of list. Version
- * 12 saves more angles of spatial joints than version 11. This run has no spatial joints, so both
- * checksums are equal. Version 13 saves one more number of the monitors. Version 14 also saves the
- * angles of springs in space. This run has none. Version 15 also saves the rates of events. */
+ * 12 saves more angles of spatial joints than version 11. The run of this test has no spatial
+ * joints, so both checksums are equal. Version 13 saves one more number of the monitors. Version 14
+ * also saves the angles of springs in space, but the run of this test has no such springs. Version
+ * 15 also saves the rates of events. */
 static const struct {
   int version;
   uint64_t list;

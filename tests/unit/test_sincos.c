@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the sines and cosines of src/base/sincos.h, and the frames that are computed with them. The
  * references are sinl() and cosl() in long double. Both functions reduce the argument exactly, and
- * their results have eleven more bits. */
+ * their results have eleven more bits than a double. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -73,7 +73,8 @@ static bool is_smooth(const test_point *p, int joint)
   return true;
 }
 
-/* Tries random states until differences can be used for all coordinates of the first joints. */
+/* Tries random states until differences can be used for all coordinates of the first `joints`
+ * joints. */
 static void find_smooth(test_point *p, int joints, uint64_t *seed)
 {
   bool smooth = false;
