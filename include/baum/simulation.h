@@ -356,7 +356,10 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
 /** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
  *  and the new state violates the constraints by at most counters.max_phi and
  *  counters.max_phi_rate, it is used as it is. Otherwise the option `start` decides whether the new
- *  state is assembled, refused or used as it is.
+ *  state is assembled, refused or used as it is. q determines angles of spatial joints only up to
+ *  whole revolutions. Each such angle takes the possible value nearest to its last one or, if a
+ *  driver acts on it and t differs from the time of the run, nearest to the value of the driver.
+ *  baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -367,6 +370,16 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
  *           BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
+
+/** Choose the number of whole revolutions in an angle of a spatial joint, for example after
+ *  baum_simulation_set_state() has given a new run the state of another run in which a spring was
+ *  wound up. The run restarts at its present state, as after baum_simulation_set_state(), and the
+ *  angle has the possible value that is nearest to `angle`.
+ *  @param simulation  unchanged on failure
+ *  @param joint,coordinate,angle  as for baum_workspace_set_angle()
+ *  @return  as baum_simulation_set_state() */
+BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum_joint_id joint,
+                                               baum_joint_coordinate coordinate, double angle);
 
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
  *  laws of drivers of the other run. The options, counters and warnings of the present run do not
@@ -843,7 +856,9 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
   /** Several motions may start from the initial configuration. */
   BAUM_WARNING_SINGULAR_START = 104,
-  BAUM_WARNING_BUSHING = 105 /**< The rotation of a bushing passed pi, where its moment jumps. */
+  /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion
+   *  spring nearly pointed in opposite directions, and a step was too long for its angle there. */
+  BAUM_WARNING_BUSHING = 105
 } baum_warning_code;
 
 /** Name of a kind of warnings.

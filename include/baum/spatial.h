@@ -235,7 +235,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. A run
  *  counts the revolutions of this angle. The bodies need not be connected by a joint. If the spring
  *  should act on a coordinate of a joint, use a joint spring instead. If axis and axis_b point in
- *  opposite directions, the angle is undefined and the torque is zero. */
+ *  opposite directions, the angle is undefined and the torque is zero. Near this position, a small
+ *  rotation changes the angle by up to 2 pi. A run whose steps are too long for this warns with
+ *  BAUM_WARNING_BUSHING. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */

@@ -262,22 +262,10 @@ double baum_workspace_input(const baum_workspace *workspace, baum_input_id id)
 baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
                                      baum_joint_coordinate which, double angle)
 {
-  static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to set"};
   const char *call = "baum_workspace_set_angle";
   if (!workspace) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the workspace is NULL", call);
   }
-  BAUM_I_TRY(baum_i_check_coordinate(workspace->mechanism, joint, which, call, &fields));
-  const baum_i_joint_coordinate c = baum_i_joint_coordinate_of(workspace->mechanism, joint, which);
-  if (!baum_i_is_spatial_angle(&c)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: coordinate is \"%s\" of %s, must be an angle of a spatial joint", call,
-                       baum_i_coordinate_name(which), baum_i_label(&c.joint->element).text);
-  }
-  if (!isfinite(angle)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: angle is %g rad, must be finite", call, angle);
-  }
   BAUM_I_TRY(baum_i_check_idle(workspace, call, "the workspace"));
-  baum_i_expect_angle(&c, &workspace->point, angle);
-  return BAUM_OK;
+  return baum_i_set_angle(&workspace->point, joint, which, angle, call);
 }

@@ -504,8 +504,8 @@ struct baum_i_force_type {
   /* Tell whether power() returns the power of the whole force. NULL if it never does. */
   bool (*power_is_whole)(const baum_i_force *force);
   baum_i_power whole_class; /* the class that receives the power of a whole force */
-  /* Tell whether the force jumps during a step from the configuration `from` to the configuration
-   * `to` (nq each). NULL if forces of the type never jump. */
+  /* Tell whether the force jumps, or may have lost a revolution, during a step from the
+   * configuration `from` to the configuration `to` (nq each). NULL if this never happens. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,
                 const double *to);
 };

@@ -240,11 +240,20 @@ void baum_i_run_observe_jumps(baum_simulation *run, const baum_i_state *end)
   const baum_i_point *point = &run->workspace->point;
   for (const baum_i_force_group *g = point->mechanism->force_groups; g->type; g++) {
     for (int i = 0; g->type->jumps && i < g->count; i++) {
-      if (g->type->jumps(g->forces[i], point, start->q, end->q)) {
+      if (!g->type->jumps(g->forces[i], point, start->q, end->q)) {
+        continue;
+      }
+      const baum_i_text label = baum_i_label(&g->forces[i]->element);
+      if (g->type->counts_revolutions) {
+        baum_i_run_warn(run, BAUM_WARNING_BUSHING, end->t, BAUM_I_NO_JOINT,
+                        "t = %.9g s: the axes of %s nearly point in opposite directions, and the "
+                        "step is too long to follow its angle; take smaller steps",
+                        end->t, label.text);
+      } else {
         baum_i_run_warn(run, BAUM_WARNING_BUSHING, end->t, BAUM_I_NO_JOINT,
                         "t = %.9g s: the rotation of %s has passed pi, where its moment jumps; for "
                         "larger rotations, use a joint and joint springs",
-                        end->t, baum_i_label(&g->forces[i]->element).text);
+                        end->t, label.text);
       }
     }
   }

@@ -5,7 +5,7 @@
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "mechanism/definition.h"
-#include "mechanism/general/coordinate.h"
+#include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
@@ -158,6 +158,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
   BAUM_I_TRY(baum_i_workspace_create(m, choice, &run->workspace));
   BAUM_I_TRY(make_states(run));
   baum_i_hold_angles(&run->workspace->point, o->start_time);
+  BAUM_I_TRY(baum_i_expect_driven_angles(&run->workspace->point, o->start_time));
   BAUM_I_TRY(baum_i_run_start(run, o->start_time, m->design_q, m->design_v));
   BAUM_I_TRY(choose_solver(run));
   BAUM_I_TRY(baum_i_run_check_velocities(run));

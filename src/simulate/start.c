@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "mechanism/general/coordinate.h"
+#include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
@@ -504,10 +504,52 @@ baum_status baum_i_run_set_state(baum_simulation *simulation, double t, const do
   return baum_i_run_end_call(simulation, status, &kept);
 }
 
+/* Copy the angles at the present state, or set *out to NULL if the mechanism has none. */
+static baum_status copy_angles(baum_simulation *run, double **out)
+{
+  const baum_i_point *point = &run->workspace->point;
+  (void)baum_i_run_follow_angles(run, &run->state); /* steps may have skipped this */
+  if (point->angles) {
+    *out = baum_i_copy(point->angles, (size_t)baum_i_angles_size(point->mechanism), sizeof **out);
+  }
+  return *out || !point->angles ? BAUM_OK : baum_i_fail_memory();
+}
+
+/* Free the copy of the angles. After a failure, give the run these angles. */
+static baum_status end_with_angles(baum_simulation *run, baum_status status, double *copy)
+{
+  const baum_i_point *point = &run->workspace->point;
+  if (copy && status < BAUM_OK) {
+    memcpy(point->angles, copy, (size_t)baum_i_angles_size(point->mechanism) * sizeof *copy);
+  }
+  baum_i_free(copy);
+  return status;
+}
+
 baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
                                       const double *v)
 {
+  double *angles = NULL;
   BAUM_I_TRY(check_state(simulation, t, q, v));
-  (void)baum_i_run_follow_angles(simulation, &simulation->state); /* steps may have skipped this */
-  return baum_i_run_set_state(simulation, t, q, v);
+  BAUM_I_TRY(copy_angles(simulation, &angles));
+  baum_i_kept_message kept = baum_i_message_keep();
+  baum_status status = t == simulation->state.t
+                         ? BAUM_OK
+                         : baum_i_expect_driven_angles(&simulation->workspace->point, t);
+  status = status == BAUM_OK ? baum_i_run_set_state(simulation, t, q, v) : status;
+  return baum_i_run_end_call(simulation, end_with_angles(simulation, status, angles), &kept);
+}
+
+baum_status baum_simulation_set_angle(baum_simulation *simulation, baum_joint_id joint,
+                                      baum_joint_coordinate which, double angle)
+{
+  const char *call = "baum_simulation_set_angle";
+  double *angles = NULL;
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
+  BAUM_I_TRY(copy_angles(simulation, &angles));
+  baum_i_kept_message kept = baum_i_message_keep();
+  const baum_i_state *now = &simulation->state;
+  baum_status status = baum_i_set_angle(&simulation->workspace->point, joint, which, angle, call);
+  status = status == BAUM_OK ? baum_i_run_set_state(simulation, now->t, now->q, now->v) : status;
+  return baum_i_run_end_call(simulation, end_with_angles(simulation, status, angles), &kept);
 }

@@ -411,6 +411,8 @@ static void calls_on_a_null_run_are_refused(void **state)
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_state(NULL, 0.0, numbers, numbers), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
+  ASSERT_SAYS(baum_simulation_set_angle(NULL, (baum_joint_id){0}, BAUM_COORDINATE_FIRST, 0.0),
+              BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_get(NULL, &channel, 1, numbers), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_unique_multipliers(NULL, &unique), BAUM_ERR_ARGUMENT,

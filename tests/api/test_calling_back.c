@@ -149,6 +149,7 @@ static void try_to_change(const asked *b)
   REFUSED(baum_simulation_advance_to(b->run, later));
   REFUSED(baum_simulation_sample(b->run, &later, 1, &energy, 1, x, NULL));
   REFUSED(baum_simulation_set_state(b->run, 0.0, x, x));
+  REFUSED(baum_simulation_set_angle(b->run, b->motor, BAUM_COORDINATE_FIRST, 1.0));
   REFUSED(baum_simulation_set_input(b->run, b->input, 2.0));
   REFUSED(baum_simulation_set_driver(b->run, b->motor, 0.0, 0.0, 0.0));
   REFUSED(baum_simulation_schedule_input(b->run, b->input, &later, &one, 1));

@@ -123,6 +123,18 @@ static void *const GARBAGE = (void *)(uintptr_t)16;
     return status;                                                      \
   }
 #define CALL(NAME) static baum_status call_##NAME(scene *s)
+#define SHORT_CALL(NAME, ...)   \
+  CALL(NAME)                    \
+  {                             \
+    return (NAME)(__VA_ARGS__); \
+  }
+
+SHORT_CALL(baum_mechanism_freeze, s->parts.mechanism)
+SHORT_CALL(baum_mechanism_check_derivatives, s->parts.mechanism)
+SHORT_CALL(baum_workspace_project, s->w, 0.0, s->q, s->v)
+SHORT_CALL(baum_simulation_set_angle, s->run, s->parts.bearing, BAUM_COORDINATE_FIRST, 7.0)
+SHORT_CALL(baum_simulation_continue, s->run, s->from)
+SHORT_CALL(baum_study_add_stress, s->study, baum_rk4())
 
 CALL(baum_mechanism_create)
 {
@@ -169,16 +181,6 @@ CALL(baum_mechanism_add_break_times)
   return baum_mechanism_add_break_times(s->parts.mechanism, times, 3);
 }
 
-CALL(baum_mechanism_freeze)
-{
-  return baum_mechanism_freeze(s->parts.mechanism);
-}
-
-CALL(baum_mechanism_check_derivatives)
-{
-  return baum_mechanism_check_derivatives(s->parts.mechanism);
-}
-
 CALL(baum_mechanism_mobility)
 {
   baum_mobility out;
@@ -204,11 +206,6 @@ CALL(baum_workspace_assemble)
   double v[EVERY_NV];
   free_all(v);
   return baum_workspace_assemble(s->w, 0.0, s->q, v, &s->parts.slider, 1);
-}
-
-CALL(baum_workspace_project)
-{
-  return baum_workspace_project(s->w, 0.0, s->q, s->v);
 }
 
 CALL(baum_workspace_residual_jacobian)
@@ -244,11 +241,6 @@ CALL(baum_simulation_add_event)
   return baum_simulation_add_event(s->run, &def, NULL);
 }
 
-CALL(baum_simulation_continue)
-{
-  return baum_simulation_continue(s->run, s->from);
-}
-
 CALL(baum_study_set_options)
 {
   baum_study_options o = baum_study_options_default();
@@ -269,11 +261,6 @@ CALL(baum_study_add_standard)
   grid.integrator = baum_rk4();
   grid.settings = 2;
   return baum_study_add_standard(s->study, &grid);
-}
-
-CALL(baum_study_add_stress)
-{
-  return baum_study_add_stress(s->study, baum_rk4());
 }
 
 CALL(baum_study_set_error)
@@ -424,6 +411,7 @@ static const call CALLS[] = {
   ROW(baum_workspace_residual_jacobian, FROZEN),
   ROW(baum_simulation_create, FROZEN),
   WORKS(baum_simulation_set_state),
+  ROW(baum_simulation_set_angle, RUNNING),
   ROW(baum_simulation_set_driver, RUNNING),
   ROW(baum_simulation_schedule_input, RUNNING),
   ROW(baum_simulation_add_event, RUNNING),

@@ -12,6 +12,7 @@
 
 #include <baum/baum.h>
 
+#include "base/rotation.h"
 #include "check.h"
 #include "construct.h"
 #include "runs.h"
@@ -346,6 +347,86 @@ static void a_state_that_is_set_stays_wound(void **state)
   }
 }
 
+/* A new run does not know that the spring of another run is wound, until it is given the angle. */
+static void a_run_uses_the_revolutions_that_it_is_given(void **state)
+{
+  (void)state;
+  baum_joint_id bearing;
+  baum_mechanism *m = make_wound(OF_JOINT, 0.0, &bearing);
+  baum_simulation *from = start(m, baum_rk8());
+  baum_simulation *run = start(m, baum_rk8());
+  check(baum_simulation_advance_to(from, 0.5));
+  const double angle = angle_of(from, bearing);
+  assert_true(angle > 10.0);
+  check(baum_simulation_set_state(run, 0.5, baum_simulation_q(from), baum_simulation_v(from)));
+  assert_true(fabs(angle_of(run, bearing)) <= 3.2);
+  check(baum_simulation_set_angle(run, bearing, BAUM_COORDINATE_ANGLE, angle + 1.0));
+  assert_true(fabs(angle_of(run, bearing) - angle) < 1e-12);
+  assert_int_equal(baum_simulation_set_angle(run, bearing, BAUM_COORDINATE_DISPLACEMENT, 0.0),
+                   BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_simulation_set_angle(run, bearing, BAUM_COORDINATE_ANGLE, (double)NAN),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_simulation_message(run), "angle is nan rad, must be finite"));
+  assert_true(fabs(counters_of(run).energy_change) < 1e-9 * RATE * RATE);
+  check(baum_simulation_advance_to(run, 1.0));
+  assert_true(fabs(angle_of(run, bearing) - wound_angle(1.0, 0.0)) < 1e-4);
+  assert_true(fabs(counters_of(run).energy_change) < 1e-6 * RATE * RATE);
+  baum_simulation_destroy(from);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* A driven angle has the revolutions of its driver at the start of a run, and at another time to
+ * which the run is set. A refused state changes nothing, and a state at the present time keeps
+ * revolutions that the user has chosen. */
+static void check_driven(double value, double start_time)
+{
+  baum_joint_id bearing;
+  baum_mechanism *wound = make_wound(OF_JOINT, 0.0, &bearing);
+  baum_mechanism *m = NULL;
+  baum_driver_def motor = baum_driver_def_default();
+  baum_simulation_options o = baum_simulation_options_default();
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
+  const double later = start_time + 10.0 * BAUM_I_REVOLUTION / RATE;
+  double out[2];
+  check(baum_mechanism_copy(wound, &m));
+  motor.joint = bearing;
+  motor.value = value;
+  motor.rate = RATE;
+  check(baum_mechanism_add_driver(m, &motor, NULL));
+  check(baum_mechanism_freeze(m));
+  o.integrator = baum_kinematics();
+  o.start_time = start_time;
+  baum_simulation *run = create_run(m, &o);
+  double want = value + RATE * start_time;
+  assert_true(fabs(angle_of(run, bearing) - want) < 1e-9);
+  check(baum_simulation_get(run, &energy, 1, out));
+  assert_true(fabs(out[1] - 0.5 * STIFFNESS * want * want) < 1e-9 * fmax(out[1], 1.0));
+  const double *q = baum_simulation_q(run);
+  const double *v = baum_simulation_v(run);
+  double still[6] = {0.0}; /* the driver demands another velocity */
+  assert_int_equal(baum_simulation_set_state(run, later, q, still), BAUM_ERR_INCONSISTENT);
+  assert_true(fabs(angle_of(run, bearing) - want) < 1e-9);
+  check(baum_simulation_set_state(run, later, q, v));
+  want = value + RATE * later;
+  assert_true(fabs(angle_of(run, bearing) - want) < 1e-9);
+  check(baum_simulation_set_angle(run, bearing, BAUM_COORDINATE_FIRST, want + BAUM_I_REVOLUTION));
+  check(baum_simulation_set_state(run, later, q, v));
+  assert_true(fabs(angle_of(run, bearing) - want - BAUM_I_REVOLUTION) < 1e-9);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+  baum_mechanism_destroy(wound);
+}
+
+static void a_driven_angle_has_the_revolutions_of_its_driver(void **state)
+{
+  (void)state;
+  check_driven(0.5, 0.0);
+  check_driven(4.0, 0.0);
+  check_driven(-9.5, 0.0);
+  check_driven(0.0, 5.0);
+}
+
 enum { SAMPLES = 40 };
 
 /* Returns the error of the angle in a study. The reference is given to the study, with `samples`
@@ -404,6 +485,8 @@ int main(void)
     cmocka_unit_test(energies_include_the_revolutions_of_the_spring),
     cmocka_unit_test(a_restored_spring_stays_wound),
     cmocka_unit_test(a_state_that_is_set_stays_wound),
+    cmocka_unit_test(a_run_uses_the_revolutions_that_it_is_given),
+    cmocka_unit_test(a_driven_angle_has_the_revolutions_of_its_driver),
     cmocka_unit_test(revolutions_of_a_given_reference_are_counted),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -396,6 +396,56 @@ static void a_bushing_that_passes_pi_warns(void **state)
   }
 }
 
+/* ---- a torsion spring whose axes pass antiparallel directions ---- */
+
+/* Rotates a sphere about the x axis. After half a revolution, the axes of its torsion spring are
+ * `distance` away from opposite directions. A step rotates the sphere by `step`. Returns the code
+ * of the run's warning, or 0. */
+static int warning_of_twist(double distance, double stiffness, double step)
+{
+  baum_warning warning = {.code = (baum_warning_code)0};
+  const double q[7] = {0.0, 0.0, 0.0, 1.0};
+  const double v[SIX] = {0.0, 0.0, 0.0, 1.0};
+  baum_mechanism *m = create_mechanism();
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
+  baum_spatial_torsion_spring_def def = baum_spatial_torsion_spring_def_default();
+  def.name = "twist";
+  def.body_a = BAUM_GROUND;
+  def.body_b = add_body(m, SPHERE);
+  set3(def.point, 0.0, 0.0, 0.0);
+  set3(def.axis_b, sin(distance), 0.0, cos(distance));
+  def.stiffness = stiffness;
+  check(baum_mechanism_add_spatial_torsion_spring(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = step;
+  baum_simulation *run = create_run(m, &o);
+  check(baum_simulation_set_state(run, 0.0, q, v));
+  baum_status status = baum_simulation_advance_to(run, 5.0);
+  assert_true(status == BAUM_OK || status == BAUM_WARNED);
+  if (status == BAUM_WARNED) {
+    check(baum_simulation_warning(run, 0, &warning, sizeof warning));
+    assert_true(warning.doubts_motion);
+    assert_true(fabs(warning.first - 0.5 * BAUM_I_REVOLUTION) <= 3.0 * step);
+    assert_non_null(strstr(warning.text, "the axes of force 1 \"twist\" nearly point in opposite"));
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+  return (int)warning.code;
+}
+
+static void a_torsion_spring_warns_if_a_step_may_lose_a_revolution(void **state)
+{
+  (void)state;
+  static const double weak = 1e-9; /* too weak to change the motion */
+  assert_int_equal(warning_of_twist(0.02, weak, 0.1), BAUM_WARNING_BUSHING);
+  assert_int_equal(warning_of_twist(1e-5, weak, 0.01), BAUM_WARNING_BUSHING);
+  assert_int_equal(warning_of_twist(0.02, weak, 0.02), 0);
+  assert_int_equal(warning_of_twist(0.5, weak, 0.1), 0);
+  assert_int_equal(warning_of_twist(0.02, 0.0, 0.1), 0); /* without torque */
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -404,6 +454,7 @@ int main(void)
     cmocka_unit_test(small_motions_are_those_of_the_linear_equations),
     cmocka_unit_test(every_method_makes_the_same_motion),
     cmocka_unit_test(a_bushing_that_passes_pi_warns),
+    cmocka_unit_test(a_torsion_spring_warns_if_a_step_may_lose_a_revolution),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,6 +91,20 @@ class Revolutions(unittest.TestCase):
             with self.assertRaisesRegex(baum.Error, "nan rad, must be finite"):
                 w.set_angle(pin, float("nan"))
 
+    def test_a_run_is_given_angles(self):
+        m = baum.Mechanism(gravity=(0, 0, 0))
+        wheel = m.spatial_body("wheel", mass=1, inertia=(1, 1, 1))
+        m.spatial_revolute("pin", m.ground, wheel, point=(0, 0, 0), axis=(0, 0, 1))
+        m.joint_spring("spiral", "pin", stiffness=2.0)
+        s = m.freeze().simulation("rk4", step=0.01)
+        s.set_angle("pin", 13.0)
+        self.assertAlmostEqual(s.get("pin.coordinate")[0], 4 * np.pi)
+        self.assertAlmostEqual(s.get("energy")[1], (4 * np.pi) ** 2)
+        with self.assertRaisesRegex(ValueError, "coordinate"):
+            s.set_angle("pin", 1.0, "nonsense")
+        with self.assertRaisesRegex(baum.Error, "nan rad, must be finite"):
+            s.set_angle("pin", float("nan"))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1468,6 +1468,7 @@ PROTOTYPES = {
     "baum_simulation_set_progress_interval": (c_int, [c_void_p, c_double]),
     "baum_simulation_set_time_limit": (c_int, [c_void_p, c_double]),
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_simulation_set_angle": (c_int, [c_void_p, baum_joint_id, c_int, c_double]),
     "baum_simulation_continue": (c_int, [c_void_p, c_void_p]),
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
     "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),

@@ -189,7 +189,8 @@ class SingularStartWarning(DoubtWarning):
 
 
 class BushingWarning(DoubtWarning):
-    """The rotation of a bushing has passed pi, where its moment jumps."""
+    """The rotation of a bushing has passed pi, where its moment jumps. Or a step was too long for a
+    spatial torsion spring whose axes nearly pointed in opposite directions."""
 
     code = 105
 

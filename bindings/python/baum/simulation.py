@@ -402,12 +402,25 @@ class Simulation(_calls.Closing):
 
         If the new state violates the constraints, the option `start` decides what happens. With
         start="assemble", v may be None, and entries of v may be NaN; assembly then determines them.
-        Raises baum.Error if the state cannot be assembled. The run is then unchanged.
+        Raises baum.Error if the state cannot be assembled. The run is then unchanged. q does not
+        determine the revolutions of angles in space; call set_angle() afterwards to choose them.
         """
         nq, nv, _ = self._sizes
         q = vector(q, nq, "q")
         v = np.full(nv, np.nan) if v is None else vector(v, nv, "v")
         self._call(lib.baum_simulation_set_state, number(t, "t"), address(q), address(v))
+        self._warn()
+
+    def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
+        """Set the number of whole revolutions in an angle of a spatial joint, for example after
+        set_state() has given a new run the state of another run. The run restarts at its present
+        state, and the angle has the possible value that is nearest to the given one [rad].
+
+        coordinate: which angle of the joint, as in Mechanism.driver().
+        """
+        found = self.mechanism.find("joint", joint)
+        which = word(COORDINATES, coordinate, "coordinate")
+        self._call(lib.baum_simulation_set_angle, found.id, which, number(angle, "angle"))
         self._warn()
 
     def set_input(self, input: InputLike, value: Scalar) -> None:

@@ -163,6 +163,22 @@ void baum_i_expect_angle(const baum_i_joint_coordinate *c, const baum_i_point *p
   stored[1] = 0.0;
 }
 
+baum_status baum_i_set_angle(const baum_i_point *point, baum_joint_id joint,
+                             baum_joint_coordinate which, double angle, const char *call)
+{
+  static const baum_i_coordinate_fields fields = {"joint", "coordinate", "to set"};
+  BAUM_I_TRY(baum_i_check_coordinate(point->mechanism, joint, which, call, &fields));
+  const baum_i_joint_coordinate c = baum_i_joint_coordinate_of(point->mechanism, joint, which);
+  if (!baum_i_is_spatial_angle(&c)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: coordinate is \"%s\" of %s, must be an angle of a spatial joint", call,
+                       baum_i_coordinate_name(which), baum_i_label(&c.joint->element).text);
+  }
+  BAUM_I_TRY(baum_i_check_finite(call, "angle", "rad", angle));
+  baum_i_expect_angle(&c, point, angle);
+  return BAUM_OK;
+}
+
 static double follow(double *angle, double value, double rate, const baum_i_point *point)
 {
   double near = angle[0] + 0.5 * (angle[1] + rate) * (point->t - *time_of(point));

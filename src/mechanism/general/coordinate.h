@@ -79,6 +79,11 @@ double baum_i_expected_angle(const baum_i_joint_coordinate *c, const baum_i_poin
 /* Return the expected angle of a force that counts revolutions. */
 double baum_i_expected_force_angle(const baum_i_force *force, const baum_i_point *point);
 
+/* Do what baum_workspace_set_angle() does, for the public function `call`. Returns BAUM_OK or
+ * BAUM_ERR_ARGUMENT. */
+baum_status baum_i_set_angle(const baum_i_point *point, baum_joint_id joint,
+                             baum_joint_coordinate which, double angle, const char *call);
+
 /* Set the expected angle of a coordinate, and set its expected rate to zero. */
 void baum_i_expect_angle(const baum_i_joint_coordinate *c, const baum_i_point *point, double angle);
 

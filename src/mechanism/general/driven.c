@@ -63,6 +63,24 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
   return BAUM_OK;
 }
 
+baum_status baum_i_expect_driven_angles(baum_i_point *point, double t)
+{
+  point->t = t;
+  for (int i = 0; point->angles && i < point->mechanism->joint_count; i++) {
+    const baum_i_joint *joint = point->mechanism->joints[i];
+    if (!joint->type->driven) {
+      continue;
+    }
+    const baum_i_joint_coordinate driven = driven_by(joint, point);
+    if (baum_i_is_spatial_angle(&driven)) {
+      double s[3];
+      BAUM_I_TRY(motion_of(joint, point, s));
+      baum_i_expect_angle(&driven, point, s[0]);
+    }
+  }
+  return BAUM_OK;
+}
+
 /* ---- evaluation ---- */
 
 /* Evaluates the coordinate and returns its difference from s. For an angle in space, the difference

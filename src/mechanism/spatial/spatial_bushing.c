@@ -409,19 +409,8 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
 static void rotation_at(const baum_i_force *element, const baum_i_point *point, const double *q,
                         double theta[3])
 {
-  const double *numbers = point->parameters + element->element.parameter;
-  double axes[2][9], r[9];
-  for (int k = 0; k < 2; k++) {
-    const baum_i_body_place *place = &point->mechanism->places[element->span.bodies[k]];
-    const baum_i_spatial_frame frame =
-      baum_i_spatial_frame_at((baum_i_frame_kind)place->kind, q + place->q, NULL);
-    for (int i = 0; i < 9; i += 3) {
-      baum_i_turn(frame.axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)9 * k + i, axes[k] + i);
-    }
-  }
-  for (int i = 0; i < 9; i++) {
-    r[i] = baum_i_dot3(axes[0] + (ptrdiff_t)3 * (i / 3), axes[1] + (ptrdiff_t)3 * (i % 3));
-  }
+  double r[9];
+  baum_i_spatial_relative_axes(element, point, q, r);
   const turn t = turn_of(r);
   memcpy(theta, t.theta, sizeof t.theta);
 }

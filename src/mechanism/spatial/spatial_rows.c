@@ -104,6 +104,24 @@ baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double
   return pair;
 }
 
+void baum_i_spatial_relative_axes(const baum_i_force *force, const baum_i_point *point,
+                                  const double *q, double r[9])
+{
+  const double *numbers = point->parameters + force->element.parameter;
+  double axes[2][9];
+  for (int k = 0; k < 2; k++) {
+    const baum_i_body_place *place = &point->mechanism->places[force->span.bodies[k]];
+    const baum_i_spatial_frame frame =
+      baum_i_spatial_frame_at((baum_i_frame_kind)place->kind, q + place->q, NULL);
+    for (int i = 0; i < 9; i += 3) {
+      baum_i_turn(frame.axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)9 * k + i, axes[k] + i);
+    }
+  }
+  for (int i = 0; i < 9; i++) {
+    r[i] = baum_i_dot3(axes[0] + (ptrdiff_t)3 * (i / 3), axes[1] + (ptrdiff_t)3 * (i % 3));
+  }
+}
+
 double baum_i_spatial_gradient_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
                                   double *gradient)
 {

@@ -106,6 +106,34 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
   return (baum_i_stretch){s.angle.value, s.rate, 1.0, s.no_direction};
 }
 
+/* Let d be the least distance of z_b from -z_a in a step in which z_b moves by l relative to z_a.
+ * For d << 1 the angle changes by nearly 2 pi while z_b moves by a few d. If l > 4.53 d, the
+ * prediction of baum_i_follow_angles() may differ from the angle by more than pi, and the count
+ * then loses a revolution. The limit is lower because z_b does not move along a straight line. A
+ * spring without torque loses nothing. */
+static bool jumps(const baum_i_force *force, const baum_i_point *point, const double *from,
+                  const double *to)
+{
+  static const double LIMIT = 3.0;
+  const baum_i_spring_law law = baum_i_spring_law_of(force, point);
+  if (!law.law && law.numbers[BAUM_I_STIFFNESS] == 0.0 && law.numbers[BAUM_I_DAMPING] == 0.0) {
+    return false;
+  }
+  double r[2][9], start[3], move[3], nearest[3];
+  baum_i_spatial_relative_axes(force, point, from, r[0]);
+  baum_i_spatial_relative_axes(force, point, to, r[1]);
+  for (int i = 0; i < 3; i++) {
+    start[i] = r[0][3 * i + 2] + (i == 2 ? 1.0 : 0.0);
+    move[i] = r[1][3 * i + 2] - r[0][3 * i + 2];
+  }
+  const double length = baum_i_dot3(move, move);
+  const double part = length > 0.0 ? -baum_i_dot3(start, move) / length : 0.0;
+  for (int i = 0; i < 3; i++) {
+    nearest[i] = start[i] + fmin(fmax(part, 0.0), 1.0) * move[i];
+  }
+  return length > LIMIT * LIMIT * baum_i_dot3(nearest, nearest);
+}
+
 /* ---- type ---- */
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
@@ -184,6 +212,7 @@ static const baum_i_force_type type = {
   .linearize = linearize,
   BAUM_I_SPRING_MEMBERS(baum_spatial_torsion_spring_def),
   .stretch = stretch,
+  .jumps = jumps,
 };
 
 BAUM_I_DEFINE(force, spatial_torsion_spring, type)
