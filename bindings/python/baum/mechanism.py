@@ -15,6 +15,7 @@ import numpy as np
 from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings, fmu
 from ._lib import lib, text
 from ._motion import TraceLike
+from ._strict import Strict
 from ._values import number, numbers, point, there_are, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
@@ -89,7 +90,7 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
 ADD_INPUT = "add one by Mechanism.input() before freezing"
 
 
-class Mechanism(Adding, AddingInSpace, Scenes):
+class Mechanism(Adding, AddingInSpace, Scenes, Strict):
     """A mechanism: bodies, joints, forces and inputs.
 
     First add elements. Then freeze() makes the mechanism constant, so that it can be simulated and
@@ -110,6 +111,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
     velocities v of these bodies. All of them return their result.
     """
 
+    handle: int
+
     def __init__(
         self,
         gravity: ArrayLike = GRAVITY,
@@ -127,7 +130,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """Take over a mechanism of the library. If it is a copy of the Mechanism `like`, take over
         the elements and functions of `like`, too."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
-        self.handle: int = address
+        self.handle = address
         self._sizes: Sizes | None = None  # None until they are read after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
@@ -325,11 +328,13 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @property
     def break_times(self) -> Array:
-        """The break times (n) in rising order [s]."""
+        """A copy of the break times (n) in rising order [s]. It is read-only."""
         count = ctypes.c_int32()
         place = lib.baum_mechanism_break_times(self.handle, ctypes.byref(count))
         found = numbers(place, count.value)
-        return np.empty(0) if found is None else found
+        found = np.empty(0) if found is None else found
+        found.flags.writeable = False
+        return found
 
     def freeze(self) -> Mechanism:
         """Check all definitions, and make the mechanism constant, so that it can be simulated.

@@ -252,6 +252,12 @@ class Simulation(_calls.Closing):
         assembled.
     """
 
+    mechanism: Mechanism
+    _advice = (
+        "options are arguments of Mechanism.simulation(), and set_state(), set_input() and "
+        "set_driver() change a run"
+    )
+
     def __init__(
         self,
         mechanism: Mechanism,
@@ -667,17 +673,17 @@ class Simulation(_calls.Closing):
 
     @property
     def q(self) -> Array:
-        """A copy of the present positions (nq)."""
+        """A copy of the present positions (nq). It is read-only; set_state() changes the state."""
         return self._copy(lib.baum_simulation_q, self._sizes.nq)
 
     @property
     def v(self) -> Array:
-        """A copy of the present velocities (nv)."""
+        """A copy of the present velocities (nv). It is read-only; set_state() changes the state."""
         return self._copy(lib.baum_simulation_v, self._sizes.nv)
 
     def _copy(self, function: Any, size: int) -> Array:
         place = function(self._owner.address)
-        return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()
+        return np.frombuffer(ctypes.string_at(place, 8 * size))  # bytes make it read-only
 
     @overload
     def get(self, channel: ChannelLike, /) -> Array: ...
@@ -704,10 +710,10 @@ class Simulation(_calls.Closing):
     @property
     def unique_multipliers(self) -> NDArray[np.bool_]:
         """Determine which multipliers are unique at the present state. Return one bool for each row
-        (nc)."""
+        (nc). The array is read-only."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)
-        return np.array(unique, dtype=bool)
+        return np.frombuffer(bytes(unique), dtype=bool)
 
     @property
     def energy_account(self) -> EnergyAccount:
