@@ -80,9 +80,14 @@ static void put_body(writer *w, baum_body_id id)
 
 static void put_joint(writer *w, baum_joint_id id)
 {
-  int k = baum_i_joint_index(w->mechanism, id);
-  const char *name = w->mechanism->joints[k]->element.name;
-  if (baum_i_index_of_name(w->mechanism, &baum_i_joint_family, name) == k) {
+  const baum_mechanism *m = w->mechanism;
+  int k = baum_i_joint_index(m, id);
+  const char *name = m->joints[k]->element.name;
+  int same = 0;
+  for (int i = 0; i < m->joint_count; i++) {
+    same += strcmp(m->joints[i]->element.name, name) == 0;
+  }
+  if (same == 1) {
     put_text(w, name);
   } else {
     baum_i_putf(w->out, "%d", k);
