@@ -373,8 +373,9 @@ static void files_hold_scenes(void **state)
 
 #define HEAD "{\"baum_scene\": 1, "
 #define BODY "{\"kind\": \"planar_body\", \"name\": \"b\", \"mass\": 1, \"inertia\": 1}"
-#define PIN_A \
-  "{\"kind\": \"planar_revolute\", \"name\": \"A\", \"body_a\": \"ground\", \"body_b\": \"b\"}"
+#define PIN_A                                                                                    \
+  "{\"kind\": \"planar_revolute\", \"name\": \"A\", \"body_a\": \"ground\", \"body_b\": \"b\", " \
+  "\"point\": [0, 0]}"
 #define DRIVER_A "{\"kind\": \"driver\", \"joint\": \"A\"}"
 
 static const char *const WRONG[][2] = {
