@@ -398,6 +398,8 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
       baum_i_digest_add_integer(sum, *(const bool *)at);
     } else if (f->kind == BAUM_I_FIELD_OWN_COUNT || f->kind == BAUM_I_FIELD_COORDINATE) {
       baum_i_digest_add_integer(sum, *(const int32_t *)at);
+    } else if (f->kind == BAUM_I_FIELD_JOINT) {
+      baum_i_digest_add_integer(sum, ((const baum_joint_id *)at)->index1);
     } else if (f->kind == BAUM_I_FIELD_INPUT) {
       baum_i_digest_add_integer(sum, ((const baum_input_id *)at)->index1);
     } else if (f->kind == BAUM_I_FIELD_OWN_ARRAY || f->kind == BAUM_I_FIELD_POINTS) {

@@ -190,9 +190,9 @@ baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
-/* Add the flags, the coordinates, the inputs, the arrays of numbers and the paths of bodies of a
- * definition to a digest. The function in fingerprint.c adds bodies and parameters. Fields that are
- * used only at the start of a run are not added. */
+/* Add the flags, the joints, the coordinates, the inputs, the arrays of numbers and the paths of
+ * bodies of a definition to a digest. The function in fingerprint.c adds bodies and parameters.
+ * Fields that are used only at the start of a run are not added. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
 /* Find the bodies on which an element acts. These are the bodies that its definition names, and the

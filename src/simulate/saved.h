@@ -14,7 +14,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 14, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 15, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
 /* The first parts of the list, in this order. They are checked before a run is restored. All other
  * parts are copied without a check. */

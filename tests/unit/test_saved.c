@@ -18,12 +18,14 @@
  * sizes change, raise the version and add a row. Versions up to 8 had another kind of list. Version
  * 12 saves more angles of spatial joints than version 11. This run has no spatial joints, so both
  * checksums are equal. Version 13 saves one more number of the monitors. Version 14 also saves the
- * angles of springs in space. This run has none. */
+ * angles of springs in space. This run has none. Version 15 has another fingerprint, which contains
+ * the joints that definitions refer to. */
 static const struct {
   int version;
   uint64_t list;
 } VERSIONS[] = {{9, 0x448b4b059414f4fd},  {10, 0x448b4b059414f4fd}, {11, 0x492d9d0abb55ace3},
-                {12, 0x492d9d0abb55ace3}, {13, 0x6634a5d176aadf59}, {14, 0x6634a5d176aadf59}};
+                {12, 0x492d9d0abb55ace3}, {13, 0x6634a5d176aadf59}, {14, 0x6634a5d176aadf59},
+                {15, 0x6634a5d176aadf59}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 
