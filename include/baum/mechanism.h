@@ -352,8 +352,9 @@ typedef struct baum_driver_def {
   double value;        /**< [rad or m] s at t = 0. Default: 0. */
   double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
   double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;    /**< A law that replaces the polynomial. Default: NULL. */
-  void *user;          /**< Passed to law. Not owned. Default: NULL. */
+  /** A law that replaces the polynomial, whose three numbers must then be 0. Default: NULL. */
+  baum_law_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_driver_def;
@@ -413,8 +414,9 @@ typedef struct baum_coupling_def {
   /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
    *  configuration. */
   double offset;
-  baum_coupling_fn *law; /**< A law that replaces ratio and offset. Default: NULL. */
-  void *user;            /**< Passed to law. Not owned. Default: NULL. */
+  /** A law that replaces ratio and offset, which must then have their defaults. Default: NULL. */
+  baum_coupling_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate_a;
   /** [-] which coordinate of joint_b. Default: BAUM_COORDINATE_FIRST. */
@@ -521,8 +523,8 @@ typedef struct baum_joint_spring_def {
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;
-  /** A law that replaces the three fields above; the spring then has no potential energy.
-   *  Default: NULL. */
+  /** A law that replaces the three fields above, which must then have their defaults; the spring
+   *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */

@@ -29,6 +29,12 @@ class Values(unittest.TestCase):
         self.says(TypeError, "times: numbers are wanted", s.sample, np.array(["2020-01-01"], "M8[s]"))
         self.assertEqual(s.time, 0)
 
+    def test_truth_is_no_number(self):
+        m = baum.Mechanism()
+        self.says(TypeError, "mass: a number is wanted, not True", m.planar_body, "x", mass=True)
+        self.says(TypeError, "position: numbers are wanted", m.planar_body, "x", position=(True, False))
+        self.assertEqual(m.planar_body("x", mass=None).definition["mass"], 1)
+
     def test_numbers_that_do_not_fit_are_not_cut(self):
         m = baum.Mechanism()
         self.says(ValueError, 'body "x": mass: the number is too large', m.planar_body, "x", mass=10**400)

@@ -17,9 +17,10 @@ LISTED = 30  # largest number of names in a message
 
 
 def number(value: Any, label: str) -> float:
-    """Convert a value to a float. Text is refused, even if it looks like a number."""
+    """Convert a value to a float. Text is refused, even if it looks like a number, and so are True
+    and False."""
     try:
-        if isinstance(value, (str, bytes, bytearray)):
+        if isinstance(value, (str, bytes, bytearray, bool, np.bool_)):
             raise TypeError
         return float(value)
     except (TypeError, ValueError):
@@ -67,7 +68,7 @@ def word(words: Mapping[str, int], value: Any, label: str) -> int:
 def vector(value: Any, size: int | None, label: str) -> Array:
     """Copy a value into a new array of `size` doubles. If size is None, any length is allowed."""
     try:
-        if np.asarray(value).dtype.kind not in "biufO":
+        if np.asarray(value).dtype.kind not in "iufO":
             raise TypeError
         array = np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):

@@ -6,6 +6,7 @@ from __future__ import annotations
 import ctypes
 import inspect
 import os
+import re
 import types
 import weakref
 from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, Sequence
@@ -87,6 +88,7 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
+REPLACED = re.compile("offset|free_(length|angle|value)")
 ADD_INPUT = "add one by Mechanism.input() before freezing"
 
 
@@ -398,7 +400,10 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
             new_place = given.get(element.name, set()) & {"point", "point_a", "point_b"}
             if element.family in ("joint", "force") and not new_place:
                 design_space.check_turned(element, angles, changes)
-                yield element.name, design.taken(element, moved)
+                taken = design.taken(element, moved)
+                if getattr(self.read(element), "law", None):  # it replaces these numbers
+                    taken = {key: x for key, x in taken.items() if not REPLACED.fullmatch(key)}
+                yield element.name, taken
 
     def _used_angles(self) -> Iterator[Joint]:
         """Return the joints whose angles are used by drivers, couplings or springs."""
