@@ -259,7 +259,14 @@ baum_status baum_i_scene_read_field(const baum_i_scene_reader *r, const baum_i_d
   if (f->kind >= BAUM_I_FIELD_FLAG) {
     return read_flag(r, node, at);
   }
-  return f->kind == BAUM_I_FIELD_NUMBERS
-           ? baum_i_scene_read_numbers(r, node, (int)(f->size / sizeof(double)), at)
-           : baum_i_scene_read_integer(r, node, at);
+  if (f->kind != BAUM_I_FIELD_NUMBERS) {
+    return baum_i_scene_read_integer(r, node, at);
+  }
+  const int count = (int)(f->size / sizeof(double));
+  BAUM_I_TRY(baum_i_scene_read_numbers(r, node, count, at));
+  /* later checks would name NaN, which the scene does not contain */
+  bool is_null = count == 1 && isnan(*(const double *)at);
+  return is_null && baum_i_check_number("", f->name, "", f->rule, NAN) != BAUM_OK
+           ? baum_i_scene_fail_kind(r, node, "a number")
+           : BAUM_OK;
 }

@@ -76,6 +76,15 @@ class Values(unittest.TestCase):
         self.says(TypeError, "cannot be pickled; build it in each process", pickle.dumps, s)
         self.assertTrue(copy.copy(m).frozen)
 
+    def test_names_are_suggested_whatever_their_case(self):
+        s = rod_pendulum()
+        self.says(ValueError, "did you mean 'rk8'", s.simulation, "RK8", rtol=1e-6)
+
+    def test_a_state_that_violates_the_constraints_is_called_given(self):
+        s = rod_pendulum().simulation("rk4", step=0.1)
+        self.says(baum.Error, "the given state violates .*; give a configuration closer to the "
+                  "assembled one", s.set_state, 0, (9, 9))
+
     def test_a_long_list_of_names_is_cut(self):
         m = baum.Mechanism()
         for _ in range(40):

@@ -53,8 +53,9 @@ def there_are(names: Iterable[str], given: Any) -> str:
     similar to the given name."""
     known = list(names)
     more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
-    near = difflib.get_close_matches(str(given), known, 1)
-    meant = f"; did you mean {near[0]!r}?" if near else ""
+    same = {name.lower(): name for name in known}
+    near = difflib.get_close_matches(str(given).lower(), same, 1)
+    meant = f"; did you mean {same[near[0]]!r}?" if near else ""
     return f"there are: {', '.join(known[:LISTED])}{more}{meant}"
 
 

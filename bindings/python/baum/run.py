@@ -250,6 +250,8 @@ class Run(Strict):
             return self._rows[:, recorded]
         found = self._of_body(name)
         if found is None:
+            if self._mechanism is not None and isinstance(key, str):
+                self._mechanism.channel(key)  # raises KeyError if there is no such channel
             raise KeyError(
                 f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
                 "velocities of bodies; name others in record=[...]"

@@ -211,7 +211,8 @@ class Simulation(_calls.Closing):
     atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. By
         default there is none.
     max_step: longest variable step [s], by default unlimited. Set it if a force is zero at first
-        and begins to act later, because long steps could miss its beginning.
+        and begins to act later, because long steps could miss its beginning, or if an event
+        function may pass zero twice within a quarter of a step.
     formulation: "default" is the first formulation that the integrator offers. Others are
         "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
@@ -488,7 +489,9 @@ class Simulation(_calls.Closing):
         on.
 
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
-        function(t, q, v) passes zero. The function receives q and v of the whole mechanism.
+        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. An
+        event function that passes zero twice within a quarter of a step may be missed; the option
+        max_step, or a smaller step, helps.
 
         direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
