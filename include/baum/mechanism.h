@@ -270,8 +270,8 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006/r
  *  before and after t, and the differences for gamma up to 0.05/r. Here r is the rate that follows
  *  from gravity and the characteristic length, or from the given velocities if these are faster. r
- *  is at most 1 per unit of time. If there is neither gravity nor a given velocity, r is 1. If phi is not
- *  defined before t = 0, give nu and gamma. */
+ *  is at most 1 per unit of time. If there is neither gravity nor a given velocity, r is 1. If phi
+ *  is not defined before t = 0, give nu and gamma. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -358,8 +358,9 @@ typedef struct baum_driver_def {
   double value;        /**< [rad or m] s at t = 0. Default: 0. */
   double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
   double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  baum_law_fn *law;    /**< A law that replaces the polynomial. Default: NULL. */
-  void *user;          /**< Passed to law. Not owned. Default: NULL. */
+  /** A law that replaces the polynomial, whose three numbers must then be 0. Default: NULL. */
+  baum_law_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_driver_def;
@@ -419,8 +420,9 @@ typedef struct baum_coupling_def {
   /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
    *  configuration. */
   double offset;
-  baum_coupling_fn *law; /**< A law that replaces ratio and offset. Default: NULL. */
-  void *user;            /**< Passed to law. Not owned. Default: NULL. */
+  /** A law that replaces ratio and offset, which must then have their defaults. Default: NULL. */
+  baum_coupling_fn *law;
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate_a;
   /** [-] which coordinate of joint_b. Default: BAUM_COORDINATE_FIRST. */
@@ -527,8 +529,8 @@ typedef struct baum_joint_spring_def {
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;
-  /** A law that replaces the three fields above; the spring then has no potential energy.
-   *  Default: NULL. */
+  /** A law that replaces the three fields above, which must then have their defaults; the spring
+   *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */

@@ -276,8 +276,8 @@ typedef struct baum_planar_spring_def {
   /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law that replaces the three fields above; the spring then has no potential energy.
-   *  Default: NULL. */
+  /** A law that replaces the three fields above, which must then have their defaults; the spring
+   *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
@@ -319,8 +319,8 @@ typedef struct baum_planar_torsion_spring_def {
   /** [rad] relative angle at which the spring exerts no torque. Default: NaN, the value in the
    *  design configuration. */
   double free_angle;
-  /** A law that replaces the three fields above; the spring then has no potential energy.
-   *  Default: NULL. */
+  /** A law that replaces the three fields above, which must then have their defaults; the spring
+   *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user;               /**< Passed to law. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */

@@ -228,7 +228,9 @@ typedef struct baum_simulation_options {
   /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
    *  times the scale. Default: NaN, none. */
   double atol;
-  /** [s] > 0, longest step of a variable-step integrator. Default: NaN, none. */
+  /** [s] > 0, longest step of a variable-step integrator. An event function that passes zero twice
+   *  within a quarter of a step may be missed; a smaller max_step prevents this. Default: NaN,
+   *  none. */
   double max_step;
   double start_time;  /**< [s] Default: 0. */
   baum_start start;   /**< Default: BAUM_START_ASSEMBLE. */
@@ -638,7 +640,7 @@ BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulat
  *  @param      simulation  the run
  *  @param[in]  channels    (count)
  *  @param      count       [-] >= 0
- *  @param[out] row         (baum_channels_width())
+ *  @param[out] row         (baum_channels_width()); may be NULL if count is 0
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
  *           (BAUM_ENERGY_ACCOUNT without the option), BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
  *           BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY */

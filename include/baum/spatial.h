@@ -128,8 +128,8 @@ typedef struct baum_spatial_spring_def {
   /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law that replaces the three fields above; the spring then has no potential energy.
-   *  Default: NULL. */
+  /** A law that replaces the three fields above, which must then have their defaults; the spring
+   *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */
@@ -190,9 +190,9 @@ typedef struct baum_spatial_cable_def {
   /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law for the tension [N], which replaces stiffness, damping, free_length and transition; the
-   *  cable then has no potential energy. It must return 0 where the cable is slack. Default: NULL.
-   */
+  /** A law for the tension [N], which replaces stiffness, damping, free_length and transition. They
+   *  must then have their defaults, and the cable has no potential energy. The law must return 0
+   *  where the cable is slack. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */
@@ -258,7 +258,8 @@ typedef struct baum_spatial_torsion_spring_def {
   double damping;   /**< [N m s/rad] >= 0. Default: 0. */
   /** [rad] angle at which the spring exerts no torque. Default: NaN, which means 0. */
   double free_angle;
-  /** A law for the torque [N m], which replaces the three numbers above. Default: NULL. */
+  /** A law for the torque [N m], which replaces the three numbers above; they must then have
+   *  their defaults. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads rate. RATTLE requires false. Default: true. */

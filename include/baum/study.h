@@ -258,10 +258,11 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *
  *  If the option file is set, the study appends every result to this file as a line of text as soon
  *  as the result is known. When this function returns, all results are on the disk. Another study
- *  can continue with this file if it has the same mechanism, span, samples, error, reference and
- *  option energy_account, and runs with the same version of the library. It then reads the results
- *  of its entries from the file; a last line that is cut off does no harm. The study does not
- *  compare user functions. Only one process at a time may use the file.
+ *  can continue with this file if it has the same mechanism, initial positions, velocities and
+ *  inputs, span, samples, error, reference and option energy_account, and runs with the same
+ *  version of the library. It then reads the results of its entries from the file; a last line that
+ *  is cut off does no harm. The study does not compare user functions. Only one process at a time
+ *  may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),

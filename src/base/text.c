@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "base/buffer.h"
+
 enum { DELETE = 0x7f };
 
 int baum_i_print(char *text, size_t size, const char *format, ...)
@@ -48,5 +50,7 @@ baum_status baum_i_check_name(const char *family, int number, const char *name)
                          family, number, byte, (int)(at - name));
     }
   }
-  return BAUM_OK;
+  return !name || baum_i_is_utf8(name)
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d: name is not UTF-8", family, number);
 }

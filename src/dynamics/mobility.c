@@ -65,7 +65,7 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
   baum_status status = BAUM_OK;
-  say(report, "%d %s, %d coordinates, %d constraint rows.", report->degrees_of_freedom,
+  say(report, "%d %s, %d velocities, %d constraint rows.", report->degrees_of_freedom,
       report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
   if (m->velocity_row_count > 0) {
     say(report, " %d %s of velocity level: %d of velocity, %d of position.", m->velocity_row_count,

@@ -274,6 +274,29 @@ static baum_status check_input(const baum_mechanism *mechanism, const baum_input
   return none ? BAUM_OK : baum_i_check_input(mechanism, *id, label, field);
 }
 
+/* A number and the law that replaces it contradict each other. */
+static baum_status check_law(const baum_i_definition *definition, const void *def,
+                             const char *label)
+{
+  const baum_i_def_field *law = definition->fields;
+  while (law->name && !(law->kind == BAUM_I_FIELD_LAW && has_function(law, def))) {
+    law++;
+  }
+  for (const baum_i_def_field *f = definition->fields; law->name && f->name; f++) {
+    if (f->kind == BAUM_I_FIELD_NUMBERS && f->offset >= law->counter) {
+      const double value = *(const double *)baum_i_field_at(f, def);
+      const double usual = baum_i_field_default(f, 0);
+      if (value != usual && !(isnan(value) && isnan(usual))) {
+        return baum_i_fail(BAUM_ERR_ARGUMENT,
+                           "%s: %s is %g, but law is given, which replaces %s; give only one of "
+                           "them",
+                           label, f->name, value, f->name);
+      }
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_field(const baum_i_def_field *f, const baum_mechanism *mechanism,
                                const void *def, const char *label)
 {
@@ -303,6 +326,7 @@ baum_status baum_i_fields_check(const baum_i_definition *definition,
   for (const baum_i_def_field *f = definition->fields; f->name; f++) {
     BAUM_I_TRY(check_field(f, mechanism, def, label));
   }
+  BAUM_I_TRY(check_law(definition, def, label));
   return definition->check ? definition->check(mechanism, def, label) : BAUM_OK;
 }
 
@@ -398,6 +422,8 @@ void baum_i_fields_digest(const baum_i_definition *definition, const void *def, 
       baum_i_digest_add_integer(sum, *(const bool *)at);
     } else if (f->kind == BAUM_I_FIELD_OWN_COUNT || f->kind == BAUM_I_FIELD_COORDINATE) {
       baum_i_digest_add_integer(sum, *(const int32_t *)at);
+    } else if (f->kind == BAUM_I_FIELD_JOINT) {
+      baum_i_digest_add_integer(sum, ((const baum_joint_id *)at)->index1);
     } else if (f->kind == BAUM_I_FIELD_INPUT) {
       baum_i_digest_add_integer(sum, ((const baum_input_id *)at)->index1);
     } else if (f->kind == BAUM_I_FIELD_OWN_ARRAY || f->kind == BAUM_I_FIELD_POINTS) {

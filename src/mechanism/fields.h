@@ -59,6 +59,9 @@ typedef enum baum_i_field_kind {
   BAUM_I_FIELD_INPUT,      /* an input, or none */
   BAUM_I_FIELD_FUNCTION,   /* a user function that must be given */
   BAUM_I_FIELD_OPTIONAL_FUNCTION,
+  /* an optional user function that replaces the numbers in the field at `counter` and in the fields
+   * after it; these numbers must then have their defaults */
+  BAUM_I_FIELD_LAW,
   /* an optional user function, which cannot be added or removed later */
   BAUM_I_FIELD_KEPT_FUNCTION,
   BAUM_I_FIELD_USER /* the pointer that user functions receive */
@@ -78,7 +81,7 @@ typedef struct baum_i_def_field {
   baum_i_rule rule; /* rule for numbers and arrays of numbers */
   /* defaults of the first numbers of the field; all other defaults are 0 */
   double value[BAUM_I_FIELD_DEFAULTS];
-  /* for an array: the offset of the field that counts its entries */
+  /* for an array: the offset of the field that counts its entries; for a law: see there */
   size_t counter;
   /* for an array: the offset of the count that is used if the field at `counter` is 0 */
   size_t instead;
@@ -104,6 +107,13 @@ typedef struct baum_i_def_field {
 #define BAUM_I_OPTIONAL(DEF, FIELD, RULE, UNIT)                                                \
   BAUM_I_NUMBERS(DEF, FIELD, RULE, UNIT, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, \
                  BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN)
+
+/* The function `law`, which replaces the numbers in the field FIRST and in the fields after it. */
+#define BAUM_I_LAW(DEF, FIRST)                                       \
+  {                                                                  \
+    BAUM_I_FIELD_OF(DEF, law), .unit = "", .kind = BAUM_I_FIELD_LAW, \
+                               .counter = offsetof(DEF, FIRST)       \
+  }
 
 /* An array whose length is the field COUNTER, or the field INSTEAD if COUNTER is 0. */
 #define BAUM_I_ARRAY(DEF, FIELD, KIND, RULE, COUNTER, INSTEAD)                                  \
@@ -190,9 +200,9 @@ baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const 
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);
 void baum_i_fields_release(const baum_i_definition *definition, void *def);
 
-/* Add the flags, the coordinates, the inputs, the arrays of numbers and the paths of bodies of a
- * definition to a digest. The function in fingerprint.c adds bodies and parameters. Fields that are
- * used only at the start of a run are not added. */
+/* Add the flags, the joints, the coordinates, the inputs, the arrays of numbers and the paths of
+ * bodies of a definition to a digest. The function in fingerprint.c adds bodies and parameters.
+ * Fields that are used only at the start of a run are not added. */
 void baum_i_fields_digest(const baum_i_definition *definition, const void *def, baum_i_digest *sum);
 
 /* Find the bodies on which an element acts. These are the bodies that its definition names, and the

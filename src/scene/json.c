@@ -293,7 +293,8 @@ baum_status baum_i_json_parse(const char *text, size_t size, const char *label, 
 {
   *out = (baum_i_json){.texts = baum_i_alloc(size, 1)};
   BAUM_I_TRY(baum_i_check_memory(out->texts));
-  parser p = {text, text + size, 1, 0, label, out, out->texts};
+  bool has_mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0; /* byte order mark of UTF-8 */
+  parser p = {has_mark ? text + 3 : text, text + size, 1, 0, label, out, out->texts};
   int32_t whole = 0;
   baum_status status =
     size < INT32_MAX ? parse_value(&p, NULL, &whole) : fail(&p, "the text is too long");

@@ -109,6 +109,15 @@ static baum_status fail_name(const baum_i_scene_reader *r, const baum_i_json_nod
                      node->line, family->name, node->text, where, baum_i_nearest_note(&near).text);
 }
 
+static baum_status fail_several(const baum_i_scene_reader *r, const baum_i_json_node *node,
+                                const char *several, const char *one)
+{
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: line %d: there are several %s \"%.80s\"; give the number of the %s, "
+                     "counted from 0",
+                     r->label, node->line, several, node->text, one);
+}
+
 baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_json_node *node,
                                    baum_body_id *out)
 {
@@ -116,10 +125,7 @@ baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_js
   if (node->kind == BAUM_I_JSON_TEXT) {
     index = baum_i_scene_find_body(&r->names, node->text);
     if (index < -1) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: line %d: there are several bodies \"%.80s\"; give the number of the "
-                         "body, counted from 0",
-                         r->label, node->line, node->text);
+      return fail_several(r, node, "bodies", "body");
     }
     if (index < 0) {
       return fail_name(r, node, &baum_i_body_family, "");
@@ -134,6 +140,22 @@ baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_js
   return BAUM_OK;
 }
 
+/* Tell whether the scene gives the name of joint k to another joint, too, before or after the
+ * element that refers to it. */
+static bool is_shared(const baum_i_scene_reader *r, const char *name, int32_t k)
+{
+  const baum_i_json_node *list = baum_i_json_find(r->json, r->json->nodes, "joints");
+  int32_t place = 0;
+  for (const baum_i_json_node *node = baum_i_json_first(r->json, list); node;
+       node = baum_i_json_next(r->json, node), place++) {
+    const baum_i_json_node *own = baum_i_json_find(r->json, node, "name");
+    if (place != k && own && own->kind == BAUM_I_JSON_TEXT && strcmp(own->text, name) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 static baum_status read_joint(const baum_i_scene_reader *r, const baum_i_json_node *node,
                               baum_joint_id *out)
 {
@@ -142,6 +164,9 @@ static baum_status read_joint(const baum_i_scene_reader *r, const baum_i_json_no
     k = baum_i_index_of_name(r->mechanism, &baum_i_joint_family, node->text);
     if (k < 0) {
       return fail_name(r, node, &baum_i_joint_family, " before this element");
+    }
+    if (is_shared(r, node->text, k)) {
+      return fail_several(r, node, "joints", "joint");
     }
   } else {
     BAUM_I_TRY(read_place(r, node, r->mechanism->joint_count, "joint", &k));
@@ -187,18 +212,26 @@ static baum_status read_hook(const baum_i_scene_reader *r, const baum_i_json_nod
                              bool is_user, void *out)
 {
   const char *name = NULL;
+  const baum_hook *found = NULL;
+  bool several = false;
   BAUM_I_TRY(baum_i_scene_read_text(r, node, &name));
   for (int k = 0; k < r->hook_count; k++) {
     const baum_hook *hook = &r->hooks[k];
     if (strcmp(hook->name, name) == 0 && is_user == (hook->user != NULL)) {
-      memcpy(out, is_user ? (const void *)&hook->user : (const void *)&hook->function,
-             sizeof hook->function);
-      return BAUM_OK;
+      several =
+        several || (found && (found->user != hook->user || found->function != hook->function));
+      found = hook;
     }
   }
+  if (found && !several) {
+    memcpy(out, is_user ? (const void *)&found->user : (const void *)&found->function,
+           sizeof found->function);
+    return BAUM_OK;
+  }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "%s: line %d: \"%.60s\" is the %s \"%.80s\", for which there is no hook",
-                     r->label, node->line, node->key, is_user ? "pointer" : "function", name);
+                     "%s: line %d: \"%.60s\" is the %s \"%.80s\", for which there %s", r->label,
+                     node->line, node->key, is_user ? "pointer" : "function", name,
+                     several ? "are several hooks" : "is no hook");
 }
 
 /* ---- fields ---- */
@@ -226,7 +259,14 @@ baum_status baum_i_scene_read_field(const baum_i_scene_reader *r, const baum_i_d
   if (f->kind >= BAUM_I_FIELD_FLAG) {
     return read_flag(r, node, at);
   }
-  return f->kind == BAUM_I_FIELD_NUMBERS
-           ? baum_i_scene_read_numbers(r, node, (int)(f->size / sizeof(double)), at)
-           : baum_i_scene_read_integer(r, node, at);
+  if (f->kind != BAUM_I_FIELD_NUMBERS) {
+    return baum_i_scene_read_integer(r, node, at);
+  }
+  const int count = (int)(f->size / sizeof(double));
+  BAUM_I_TRY(baum_i_scene_read_numbers(r, node, count, at));
+  /* later checks would name NaN, which the scene does not contain */
+  bool is_null = count == 1 && isnan(*(const double *)at);
+  return is_null && baum_i_check_number("", f->name, "", f->rule, NAN) != BAUM_OK
+           ? baum_i_scene_fail_kind(r, node, "a number")
+           : BAUM_OK;
 }

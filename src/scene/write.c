@@ -37,16 +37,6 @@ static void put_key(writer *w, const char *key)
   baum_i_putf(w->out, ", \"%s\": ", key);
 }
 
-/* Write the name of an element or input. The function fails if the name is not UTF-8, because
- * put_text() would change such a name. */
-static baum_status put_name(writer *w, const char *family, int number, const char *name)
-{
-  put_text(w, name);
-  return w->addresses || baum_i_is_utf8(name)
-           ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d: its name is not UTF-8", family, number);
-}
-
 static void put_number(writer *w, double x)
 {
   baum_i_put(w->out, baum_i_exact(x, "null").text);
@@ -80,9 +70,14 @@ static void put_body(writer *w, baum_body_id id)
 
 static void put_joint(writer *w, baum_joint_id id)
 {
-  int k = baum_i_joint_index(w->mechanism, id);
-  const char *name = w->mechanism->joints[k]->element.name;
-  if (baum_i_index_of_name(w->mechanism, &baum_i_joint_family, name) == k) {
+  const baum_mechanism *m = w->mechanism;
+  int k = baum_i_joint_index(m, id);
+  const char *name = m->joints[k]->element.name;
+  int same = 0;
+  for (int i = 0; i < m->joint_count; i++) {
+    same += strcmp(m->joints[i]->element.name, name) == 0;
+  }
+  if (same == 1) {
     put_text(w, name);
   } else {
     baum_i_putf(w->out, "%d", k);
@@ -311,7 +306,7 @@ static baum_status put_element(writer *w, const baum_i_element *element)
   baum_i_putf(w->out, "{\"kind\": \"%s\"", kind_name(element->definition));
   if (((const baum_i_def_head *)element->def)->name) {
     put_key(w, "name");
-    BAUM_I_TRY(put_name(w, element->family, element->index, element->name));
+    put_text(w, element->name);
   }
   for (const baum_i_def_field *f = element->definition->fields; f->name; f++) {
     BAUM_I_TRY(put_field(w, f, element->def));
@@ -347,7 +342,7 @@ static baum_status put_inputs(writer *w)
   baum_i_put(w->out, ",\n  \"inputs\": [");
   for (int k = 0; k < m->input_count; k++) {
     baum_i_put(w->out, k > 0 ? ",\n    {\"name\": " : "\n    {\"name\": ");
-    BAUM_I_TRY(put_name(w, "input", k + 1, m->input_names[k]));
+    put_text(w, m->input_names[k]);
     put_key(w, "initial");
     put_number(w, m->inputs[k]);
     baum_i_put(w->out, "}");

@@ -81,9 +81,12 @@ static baum_status check_both(const baum_simulation *run, const baum_simulation 
   BAUM_I_TRY(baum_i_check_given(call, "the run to continue", from != NULL));
   bool same = run->fingerprint.structure == from->fingerprint.structure &&
               run->fingerprint.numbers == from->fingerprint.numbers;
-  return same
-           ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the two runs are of different mechanisms", call);
+  return same ? BAUM_OK
+              : baum_i_fail(
+                  BAUM_ERR_ARGUMENT,
+                  "%s: the two runs are of different mechanisms; "
+                  "baum_workspace_project() and baum_simulation_set_state() carry a state over",
+                  call);
 }
 
 baum_status baum_simulation_continue(baum_simulation *simulation, const baum_simulation *from)

@@ -456,7 +456,7 @@ baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel 
 {
   int width = 0;
   BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_get"));
-  BAUM_I_TRY(baum_i_check_given("baum_simulation_get", "row", row != NULL));
+  BAUM_I_TRY(baum_i_check_given("baum_simulation_get", "row", row || count == 0));
   BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   return baum_i_output(simulation, &simulation->state, channels, count, row);
 }

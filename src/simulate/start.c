@@ -66,15 +66,16 @@ static baum_status fail_far(baum_simulation *run, const double *design, const ba
                             int coordinate, double moved, double limit)
 {
   double scale = run->workspace->mechanism->scale[coordinate];
+  const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_text joint = name_worst_joint(run, run->trial.t, design);
+  bool is_design = memcmp(design, m->design_q, (size_t)m->nq * sizeof *design) == 0;
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
-    "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the design configuration "
-    "violates %s most, see baum_mechanism_svg(); give a design configuration closer to the "
-    "assembled one%s",
+    "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the %s violates %s most, see "
+    "baum_mechanism_svg(); give a configuration closer to the assembled one%s",
     run->trial.t, baum_i_label(&body->element).text, moved, unit_of(body, coordinate),
-    limit * scale, unit_of(body, coordinate), joint.text,
-    baum_i_degrees(run->workspace->mechanism).text);
+    limit * scale, unit_of(body, coordinate), is_design ? "design configuration" : "given state",
+    joint.text, baum_i_degrees(m).text);
 }
 
 /* Find the largest displacement that assembly has caused, and fail if it is too large. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The study file consists of lines of text. Each line is written as soon as its result is known.
  *
- *   baum-study 3 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX
- *   library HEX #SUM
+ *   baum-study 4 structure HEX numbers HEX start HEX span HEX samples HEX error HEX account HEX
+ *   reference HEX library HEX #SUM
  *   reference DIGITS ... | TEXT #SUM
  *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
@@ -27,15 +27,16 @@
 #include "base/platform.h"
 #include "base/text.h"
 #include "mechanism/fingerprint.h"
+#include "mechanism/identify.h"
 #include "study/report.h"
 #include "study/study.h"
 #include "study/study_line.h"
 
-enum { LINE = BAUM_I_STUDY_LINE, MARKS = 8 };
+enum { LINE = BAUM_I_STUDY_LINE, MARKS = 9 };
 static const char HEAD[] = "baum-study ";
 static const char REFERENCE[] = "reference";
 static const char ENTRY[] = "entry ";
-static const char VERSION[] = "baum-study 3";
+static const char VERSION[] = "baum-study 4";
 
 struct baum_i_study_file {
   FILE *stream;
@@ -80,6 +81,18 @@ static uint64_t digest_numbers(const double *numbers, size_t count, uint64_t bef
   return digest.value;
 }
 
+/* A fingerprint of the mechanism does not contain the data with which its runs start. */
+static uint64_t digest_start(const baum_mechanism *m)
+{
+  baum_i_digest d = {digest_numbers(m->design_q, (size_t)m->nq, 0)};
+  for (int i = 0; i < m->nv; i++) {
+    const double v = isnan(m->design_v[i]) ? (double)NAN : m->design_v[i]; /* NaN has many forms */
+    baum_i_digest_add(&d, &v, sizeof v);
+    baum_i_digest_add_integer(&d, m->held[i]);
+  }
+  return digest_numbers(baum_i_initial_inputs(m), (size_t)m->input_count, d.value);
+}
+
 static uint64_t digest_error(const baum_study *study)
 {
   baum_i_digest d = {0};
@@ -117,6 +130,8 @@ static void mark_study(const baum_study *study, mark marks[MARKS])
   const mark all[MARKS] = {
     {"structure", "the elements of the mechanism", print.structure},
     {"numbers", "the numbers of the mechanism", print.numbers},
+    {"start", "the initial positions, velocities, inputs or held bodies",
+     digest_start(study->mechanism)},
     {"span", "the time span", digest_numbers(span, 2, 0)},
     {"samples", "the samples", digest_numbers(r->samples.times, (size_t)r->samples.n, 0)},
     {"error", "the definition of the error", digest_error(study)},
@@ -171,7 +186,7 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
     if (!strstr(line, wanted)) {
       return baum_i_fail(BAUM_ERR_BUFFER,
                          "study: file %s belongs to another study: %s differ%s; use another file",
-                         file->path, marks[k].what, k < 2 || k == 3 ? "" : "s");
+                         file->path, marks[k].what, k < 3 || k == 4 ? "" : "s");
     }
   }
   return BAUM_OK;

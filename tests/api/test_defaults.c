@@ -397,7 +397,8 @@ static any_def change(const element_kind *kind, const any_def *good, const char 
     const element_field *field = &fields.list[k];
     double value[FIELD_NUMBERS_MAX];
     bool keeps_length = strcmp(field->name, "orientation") == 0;
-    if (field->type != FIELD_NUMBERS || keeps_length) {
+    bool is_replaced = strcmp(field->name, "ratio") == 0; /* by the law of the coupling */
+    if (field->type != FIELD_NUMBERS || keeps_length || is_replaced) {
       continue;
     }
     memcpy(value, def.bytes + field->offset, field->size);

@@ -334,6 +334,14 @@ static void a_file_of_another_study_is_refused_with_what_differs(void **state)
   other = study_of(&s);
   ASSERT_SAYS(baum_study_run(other), BAUM_ERR_BUFFER, "another study|mechanism");
   baum_study_destroy(other);
+
+  model_pendulum faster = MODEL_PENDULUM_A01;
+  faster.v += 1.0;
+  model_destroy(&s.m);
+  assert_int_equal(model_pendulum_rod(&faster, &s.m), BAUM_OK);
+  other = study_of(&s);
+  ASSERT_SAYS(baum_study_run(other), BAUM_ERR_BUFFER, "another study|the initial positions, vel");
+  baum_study_destroy(other);
   end_scene(&s);
 }
 

@@ -41,6 +41,30 @@ class Springs(unittest.TestCase):
         np.testing.assert_allclose(force(m, (0, 0, 0, 0, 0, 1)), [0, 0, 9, 0, 0, -9])
         m.check_derivatives()
 
+    def test_numbers_that_a_law_replaces_are_refused(self):
+        def law(*given):
+            return 0, 0, 0
+
+        m = pair()
+        pin = m.revolute("pin", "ground", "a", point=(0, 0))
+        other = m.revolute("other", "a", "b", point=(1, 0))
+        ends = {"point_a": (0, 0), "point_b": (0, 0)}
+        bodies = {"bodies": ["a", "b"], "points": [(0, 0, 0)] * 2}
+        for add, given, field in (
+            (m.driver, {"joint": pin}, {"rate": 3}),
+            (m.coupling, {"joint_a": pin, "joint_b": other}, {"ratio": 2}),
+            (m.joint_spring, {"joint": pin}, {"stiffness": 1e3}),
+            (m.spring, {"body_a": "a", "body_b": "b", **ends}, {"free_length": 0}),
+            (m.torsion_spring, {"body_a": "a", "body_b": "b"}, {"damping": 1}),
+            (m.cable, bodies, {"transition": 0.1}),
+        ):
+            name = next(iter(field))
+            with self.assertRaisesRegex(baum.Error, f"{name} is .*, but law is given, which replaces {name}"):
+                add("twice", law=law, **given, **field)
+            add(add.__name__, law=law, **given)
+        moved = m.copy(b={"position": (3, 5)})
+        self.assertTrue(np.isnan(moved["joint_spring"].definition["free_value"]))
+
     def test_a_law_gives_the_tension_of_a_spring(self):
         seen = []
 

@@ -244,6 +244,25 @@ class Running(unittest.TestCase):
                 self.assertEqual((a.name, a.state), (b.name, b.state))
                 np.testing.assert_array_equal([a.error, a.cpu], [b.error, b.cpu])
 
+    def test_a_file_of_another_motion_is_refused(self):
+        def made(velocity=1.0, held=False, initial=0.0, driven=0):
+            m = baum.Mechanism()
+            m.planar_particle("free", velocity=(velocity, 0), held=held)
+            m.load("jet", "free", force=(1, 0), input=m.input("u", initial))
+            body = m.planar_body("a")
+            slots = [m.pin_in_slot(None, "ground", body, point=(x, 0)) for x in (0, 1)]
+            m.driver("push", slots[driven], rate=1)
+            return m.freeze()
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.study")
+            small(made(), file=path).run()
+            for change in {"velocity": 2.0}, {"held": True}, {"initial": 1.0}:
+                with self.assertRaisesRegex(baum.Error, "initial positions, velocities, inputs or held"):
+                    small(made(**change), file=path).run()
+            with self.assertRaisesRegex(baum.Error, "the numbers of the mechanism differ"):
+                small(made(driven=1), file=path).run()
+
     def test_row_gains_come_back_as_keywords(self):
         m = slider_crank()
         study = baum.study(m, 0, 0.2, samples=10, repeats=1, validate=False)

@@ -100,6 +100,44 @@ class SweepTest(unittest.TestCase):
         self.assertTrue(np.isnan(swept["q"][0]).all())
         self.assertTrue(np.isfinite(swept["q"][1:]).all())
 
+    def test_the_file_of_another_sweep_is_refused(self):
+        m = baum.Mechanism()
+        m.planar_body("rod", position=(0.5, 0))
+        pin = m.revolute("pin", "ground", "rod", point=(0, 0))
+        m.load("motor", "rod", torque=1)
+        m.force("drag", "rod", lambda t, q, v: -0.1 * v)
+        stiffer = m.copy()
+        stiffer["drag"].set(force=lambda t, q, v: -0.2 * v)
+        places = np.array([[0.5, 0.0], [0.5, 0.1]])
+        usual = dict(integrator="rk4", step=0.1, executor=Serial(), record=[pin.angle],
+                     formulation="baumgarte", gains=baum.fixed(1, 1))
+        changes = [
+            dict(reduce=lambda run: run["rod.pose"].min()),
+            dict(reduce=lambda run: run["rod.pose"].max()),
+            dict(reduce=lambda run: run["rod.pose"][0].max()),
+            dict(record=["pin.phi"]),
+            dict(gains=baum.fixed(1 + 1e-9, 1)),
+            dict(row_gains={"pin": [1, 1 + 1e-12]}),
+            dict(mechanism=stiffer),
+            dict(places=places + 4e-9),
+        ]
+        with tempfile.TemporaryDirectory() as folder:
+            def run(mechanism=m, places=places, integrator="rk4", **given):
+                return baum.sweep(mechanism, {"rod.position": places}, [0, 0.1], integrator,
+                                  file=Path(folder) / "sweep.pickle", **given)
+
+            first = run(**usual)
+            np.testing.assert_array_equal(run(**dict(usual, record="pin.angle"))["pin.angle"],
+                                          first["pin.angle"])
+            for other in changes:
+                with self.assertRaisesRegex(ValueError, "is of another sweep"):
+                    run(**dict(usual, **other))
+            (Path(folder) / "sweep.pickle").unlink()
+            run(**dict(usual, **changes[0]))
+            for other in changes[1:3]:
+                with self.assertRaisesRegex(ValueError, "is of another sweep"):
+                    run(**dict(usual, **other))
+
     def test_a_cancelled_sweep_continues_from_its_file(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "sweep.pickle"

@@ -29,6 +29,12 @@ class Values(unittest.TestCase):
         self.says(TypeError, "times: numbers are wanted", s.sample, np.array(["2020-01-01"], "M8[s]"))
         self.assertEqual(s.time, 0)
 
+    def test_truth_is_no_number(self):
+        m = baum.Mechanism()
+        self.says(TypeError, "mass: a number is wanted, not True", m.planar_body, "x", mass=True)
+        self.says(TypeError, "position: numbers are wanted", m.planar_body, "x", position=(True, False))
+        self.assertEqual(m.planar_body("x", mass=None).definition["mass"], 1)
+
     def test_numbers_that_do_not_fit_are_not_cut(self):
         m = baum.Mechanism()
         self.says(ValueError, 'body "x": mass: the number is too large', m.planar_body, "x", mass=10**400)
@@ -70,11 +76,69 @@ class Values(unittest.TestCase):
         self.says(TypeError, "cannot be pickled; build it in each process", pickle.dumps, s)
         self.assertTrue(copy.copy(m).frozen)
 
+    def test_names_are_suggested_whatever_their_case(self):
+        s = rod_pendulum()
+        self.says(ValueError, "did you mean 'rk8'", s.simulation, "RK8", rtol=1e-6)
+
+    def test_a_state_that_violates_the_constraints_is_called_given(self):
+        s = rod_pendulum().simulation("rk4", step=0.1)
+        self.says(baum.Error, "the given state violates .*; give a configuration closer to the "
+                  "assembled one", s.set_state, 0, (9, 9))
+
     def test_a_long_list_of_names_is_cut(self):
         m = baum.Mechanism()
         for _ in range(40):
             m.planar_particle()
         self.says(KeyError, "body29 and 11 more", m.__getitem__, "nobody")
+
+
+class Attributes(unittest.TestCase):
+    """An assignment to an attribute that does not exist would vanish."""
+
+    def refuses(self, owner, name, message):
+        with self.assertRaisesRegex(AttributeError, message):
+            setattr(owner, name, 5)
+
+    def test_elements_name_what_changes_their_definitions(self):
+        m = rod_pendulum()
+        self.refuses(m["bob"], "mass", r"set\(mass=\.\.\.\) changes the definition before freezing, "
+                     r"and Mechanism.copy\(\) in a copy: m.copy\(bob=dict\(mass=\.\.\.\)\)$")
+        self.refuses(m["bob"], "masss", "there are: mass, .*; did you mean 'mass'")
+        self.refuses(m["bob"], "Outline", "did you mean 'outline'")
+        self.refuses(m["bob"], "name", 'body "bob" has no attribute \'name\' that can be set')
+        self.refuses(m["rod"], "stiffness", 'joint "rod" has no .*; there are: .*length')
+        self.refuses(m.ground, "mass", "body \"ground\" has no attribute 'mass' that can be set; "
+                     "there are: outline$")
+        free = baum.Mechanism()
+        self.refuses(free.input("u", 1), "initial", r"m.copy\(u=dict\(initial=")
+        free["u"].set(initial=2)
+        free.ground.outline = [[0, 0], [1, 0], [0, 1]]
+
+    def test_other_objects_name_what_can_be_set(self):
+        m = rod_pendulum()
+        self.refuses(m, "gravty", "there are: characteristic_length, gravity; did you mean 'gravity'")
+        self.refuses(m, "copy", "a Mechanism has no attribute 'copy' that can be set")
+        s = m.simulation("rk4", step=0.1)
+        for name in "step", "rtol", "tme", "time":
+            self.refuses(s, name, "options are arguments of Mechanism.simulation")
+        self.refuses(baum.Workspace(m), "q", "a Workspace has no attribute 'q' that can be set$")
+        self.refuses(baum.study(m, 0, 1), "samples", "options are arguments of baum.study")
+        self.refuses(s.sample([0.1]), "record", "a Run has no attribute 'record'")
+
+    def test_private_names_and_derived_classes_are_free(self):
+        class Own(baum.Mechanism):
+            def __init__(self):
+                super().__init__()
+                self.crank = self.planar_body("crank")
+
+        m = Own()
+        m.note = m.copy()._note = "any"
+        self.assertEqual((m.crank.name, m.note), ("crank", "any"))
+
+    def test_copies_cannot_be_written_into(self):
+        s = rod_pendulum().simulation("rk4", step=0.1)
+        for copied in s.q, s.v, s.unique_multipliers, s.mechanism.break_times:
+            self.assertFalse(copied.flags.writeable)
 
 
 class Instead(unittest.TestCase):

@@ -234,6 +234,20 @@ static void a_damper_in_space_is_refused(void **state)
   }
 }
 
+static void damping_is_refused_as_damping(void **state)
+{
+  (void)state;
+  scene s = {.mechanism = create_mechanism()};
+  baum_spatial_body_def body = baum_spatial_body_def_default();
+  baum_spatial_bushing_def bushing = baum_spatial_bushing_def_default();
+  bushing.body_a = BAUM_GROUND;
+  memset(bushing.point, 0, sizeof bushing.point);
+  bushing.damping[0] = 1.0;
+  assert_int_equal(baum_mechanism_add_spatial_body(s.mechanism, &body, &bushing.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_spatial_bushing(s.mechanism, &bushing, NULL), BAUM_OK);
+  expect_refusal(&s, "force 1|depends on velocities, because its damping is not 0; take");
+}
+
 /* RATTLE knows how the momenta of rigid bodies change on SO(3). It does not know this for a
  * manifold that the user defines. */
 static void gyroscopic_moments_of_the_user_are_refused(void **state)
@@ -321,6 +335,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(springs_are_supported_and_dampers_are_refused),
     cmocka_unit_test(a_damper_in_space_is_refused),
+    cmocka_unit_test(damping_is_refused_as_damping),
     cmocka_unit_test(gyroscopic_moments_of_the_user_are_refused),
     cmocka_unit_test(functions_of_time_and_position_are_supported),
     cmocka_unit_test(functions_without_a_declaration_are_refused_by_name),

@@ -78,9 +78,11 @@ static void drive(planar_scene *scene, baum_joint_id joint, baum_law_fn *law)
 {
   baum_driver_def def = baum_driver_def_default();
   def.joint = joint;
-  def.value = 0.3;
-  def.rate = -2.0;
-  def.acceleration = 5.0;
+  if (!law) {
+    def.value = 0.3;
+    def.rate = -2.0;
+    def.acceleration = 5.0;
+  }
   def.law = law;
   def.user = &fast;
   assert_int_equal(baum_mechanism_add_driver(scene->mechanism, &def, NULL), BAUM_OK);
@@ -302,11 +304,11 @@ static void definitions_come_back(void **state)
   baum_driver_def first = baum_driver_def_default();
   first.name = "motor";
   first.joint = pin_between(&scene, scene.link, scene.crank);
-  first.rate = 4.0;
   baum_driver_def second = first;
+  first.value = 1.0;
+  first.rate = 4.0;
+  first.acceleration = -2.0;
   second.name = "other";
-  second.value = 1.0;
-  second.acceleration = -2.0;
   second.law = swing;
   second.user = &fast;
   CHECK_ROUND_TRIP(joint, driver, user, scene.mechanism, &first, &second);

@@ -24,6 +24,18 @@ static baum_planar_torsion_spring_def between(baum_body_id a, baum_body_id b)
   return def;
 }
 
+/* A law replaces the numbers, so they must have their defaults. */
+static baum_planar_torsion_spring_def with_law(baum_planar_torsion_spring_def def,
+                                               baum_spring_fn *law, spring_law *user)
+{
+  def.stiffness = 0.0;
+  def.damping = 0.0;
+  def.free_angle = NAN;
+  def.law = law;
+  def.user = user;
+  return def;
+}
+
 static baum_status add(baum_mechanism *mechanism, const void *def)
 {
   return baum_mechanism_add_planar_torsion_spring(mechanism, def, NULL);
@@ -37,9 +49,8 @@ static void add_linear(planar_scene *scene, baum_body_id a, baum_body_id b)
 
 static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
-  baum_planar_torsion_spring_def def = between(a, b);
-  def.law = spring_law_cubic;
-  def.user = &spring_law_good;
+  const baum_planar_torsion_spring_def def =
+    with_law(between(a, b), spring_law_cubic, &spring_law_good);
   assert_int_equal(add(scene->mechanism, &def), BAUM_OK);
 }
 
@@ -50,8 +61,9 @@ static void open_at(test_point *p, baum_spring_fn *law, spring_law *user, const 
 {
   planar_scene scene = planar_scene_make();
   baum_planar_torsion_spring_def def = between(scene.crank, scene.link);
-  def.law = law;
-  def.user = user;
+  if (law) {
+    def = with_law(def, law, user);
+  }
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
   assert_int_equal(baum_mechanism_set_gravity(scene.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   test_point_open(p, scene.mechanism);
@@ -146,10 +158,9 @@ static void wrong_derivatives_are_found(void **state)
   (void)state;
   for (int entry = 0; entry <= 2; entry++) {
     planar_scene scene = planar_scene_make();
-    baum_planar_torsion_spring_def def = between(scene.crank, scene.link);
     spring_law law = {.wrong = entry};
-    def.law = spring_law_cubic;
-    def.user = &law;
+    const baum_planar_torsion_spring_def def =
+      with_law(between(scene.crank, scene.link), spring_law_cubic, &law);
     assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
     assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_OK);
     check_spring_law_verdict(scene.mechanism, "T", entry);
@@ -203,13 +214,8 @@ static void definitions_come_back(void **state)
   (void)state;
   planar_scene scene = planar_scene_make();
   const baum_planar_torsion_spring_def first = between(scene.link, scene.crank);
-  baum_planar_torsion_spring_def second = first;
+  baum_planar_torsion_spring_def second = with_law(first, spring_law_cubic, &spring_law_good);
   second.name = "other";
-  second.stiffness = 2.5;
-  second.damping = 0.5;
-  second.free_angle = -4.0;
-  second.law = spring_law_cubic;
-  second.user = &spring_law_good;
   CHECK_ROUND_TRIP(force, planar_torsion_spring, user, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }

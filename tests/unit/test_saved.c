@@ -19,7 +19,8 @@
  * 12 saves more angles of spatial joints than version 11. The run of this test has no spatial
  * joints, so both checksums are equal. Version 13 saves one more number of the monitors. Version 14
  * also saves the angles of springs in space, but the run of this test has no such springs. Version
- * 15 also saves the rates of events. */
+ * 15 also saves the rates of events, and its fingerprint of the mechanism contains the joints that
+ * definitions refer to. */
 static const struct {
   int version;
   uint64_t list;

@@ -22,6 +22,7 @@ from typing import Any, Callable, NoReturn, TypeVar
 
 from . import errors
 from ._lib import lib, text
+from ._strict import Strict
 
 Self = TypeVar("Self", bound="Closing")
 Call = Callable[..., Any]
@@ -301,7 +302,7 @@ class Handle:
         )
 
 
-class Closing:
+class Closing(Strict):
     """Base class of objects that are closed by close(), or at the end of a `with` block."""
 
     _owner: Handle

@@ -17,9 +17,10 @@ LISTED = 30  # largest number of names in a message
 
 
 def number(value: Any, label: str) -> float:
-    """Convert a value to a float. Text is refused, even if it looks like a number."""
+    """Convert a value to a float. Text is refused, even if it looks like a number, and so are True
+    and False."""
     try:
-        if isinstance(value, (str, bytes, bytearray)):
+        if isinstance(value, (str, bytes, bytearray, bool, np.bool_)):
             raise TypeError
         return float(value)
     except (TypeError, ValueError):
@@ -52,8 +53,9 @@ def there_are(names: Iterable[str], given: Any) -> str:
     similar to the given name."""
     known = list(names)
     more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
-    near = difflib.get_close_matches(str(given), known, 1)
-    meant = f"; did you mean {near[0]!r}?" if near else ""
+    same = {name.lower(): name for name in known}
+    near = difflib.get_close_matches(str(given).lower(), same, 1)
+    meant = f"; did you mean {same[near[0]]!r}?" if near else ""
     return f"there are: {', '.join(known[:LISTED])}{more}{meant}"
 
 
@@ -67,7 +69,7 @@ def word(words: Mapping[str, int], value: Any, label: str) -> int:
 def vector(value: Any, size: int | None, label: str) -> Array:
     """Copy a value into a new array of `size` doubles. If size is None, any length is allowed."""
     try:
-        if np.asarray(value).dtype.kind not in "biufO":
+        if np.asarray(value).dtype.kind not in "iufO":
             raise TypeError
         array = np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):

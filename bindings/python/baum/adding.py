@@ -408,7 +408,8 @@ class Adding:
         ratio: in the unit of b per unit of a.
         offset: in the unit of b, [rad] or [m]. By default the offset is such that the design
             configuration satisfies the row.
-        law(a): f(a), its first and its second derivative. The law replaces ratio and offset.
+        law(a): f(a), its first and its second derivative. The law replaces ratio and offset, which
+            must then have their defaults.
         user: the last argument of a compiled function.
         coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
         """
@@ -437,7 +438,7 @@ class Adding:
         rate: first derivative at t = 0 [rad/s] or [m/s].
         acceleration: second derivative, constant [rad/s^2] or [m/s^2].
         law(t): the value, its first and its second derivative at the time t [s]. The law replaces
-            value, rate and acceleration.
+            value, rate and acceleration, which must then be 0.
         user: the last argument of a compiled function.
         coordinate: which coordinate of the joint; "first" is the first one in the list below.
 
@@ -546,8 +547,8 @@ class Adding:
         damping: [N s/m].
         free_length: length without force [m], by default the distance in the design configuration.
         law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping and free_length. The spring then has no potential
-            energy.
+            law replaces stiffness, damping and free_length, which must then have their defaults.
+            The spring then has no potential energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
             False.
         user: the last argument of a compiled function.
@@ -574,8 +575,8 @@ class Adding:
         damping: [N m s/rad].
         free_angle: angle without torque [rad], by default the angle in the design configuration.
         law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
-            rate. The law replaces stiffness, damping and free_angle. The spring then has no
-            potential energy.
+            rate. The law replaces stiffness, damping and free_angle, which must then have their
+            defaults. The spring then has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
@@ -602,8 +603,8 @@ class Adding:
         free_value: value without force [rad] or [m], by default the value in the design
             configuration.
         law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
-            respect to both arguments. The law replaces stiffness, damping and free_value. The
-            spring then has no potential energy.
+            respect to both arguments. The law replaces stiffness, damping and free_value, which
+            must then have their defaults. The spring then has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())

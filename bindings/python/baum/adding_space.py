@@ -506,8 +506,9 @@ class AddingInSpace:
         free_length: length up to which the cable is slack [m], by default the length in the design
             configuration.
         law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping, free_length and transition, and must return zeros where
-            the cable is slack. The cable then has no potential energy.
+            law replaces stiffness, damping, free_length and transition, which must then have their
+            defaults. It must return zeros where the cable is slack. The cable then has no potential
+            energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.

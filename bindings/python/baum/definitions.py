@@ -179,16 +179,16 @@ class Definition:
         self._label = label
         self._find = find
         self._types: dict[str, Any] = {field[0]: field[1] for field in kind.struct._fields_}
-        self._names = [ARGUMENTS.get(name, name) for name in self._types if name not in HIDDEN]
+        self.names = [ARGUMENTS.get(name, name) for name in self._types if name not in HIDDEN]
         if _abi.baum_force_fn in self._types.values():
-            self._names.append("inputs")
+            self.names.append("inputs")
 
     def fill(self, fields: Mapping[str, Any]) -> Definition:
         """Set the fields that are not None. Functions are set last, because the shapes of their
         results follow from the other fields. Returns the definition."""
-        unknown = [name for name in fields if name not in self._names]
+        unknown = [name for name in fields if name not in self.names]
         if unknown:
-            known = there_are(self._names, unknown[0])
+            known = there_are(self.names, unknown[0])
             raise TypeError(f"{self._label} has no {unknown[0]}; {known}")
         given = {
             FIELDS.get(name, name): fields[name] for name in fields if fields[name] is not None

@@ -12,9 +12,10 @@ import operator
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from . import _abi, outlines
-from ._values import vector
+from ._strict import Strict, properties
+from ._values import there_are, vector
 from .channels import Channel
-from .definitions import COORDINATES, Kind, as_dict
+from .definitions import COORDINATES, Definition, Kind, as_dict
 from .outlines import Outline, OutlineLike
 from .typing import ArrayLike
 
@@ -46,7 +47,7 @@ def one(family: str) -> str:
     return f"an {family}" if family[0] in "aeiou" else f"a {family}"
 
 
-class Element:
+class Element(Strict):
     """Base class of bodies, joints, forces and inputs.
 
     mechanism: the mechanism that the element belongs to.
@@ -55,16 +56,35 @@ class Element:
 
     family = ""
 
+    if TYPE_CHECKING:  # an annotation outside of this block would let users set the attribute
+        mechanism: Mechanism
+        name: str
+        kind: Kind | None
+        id: Any
+        nq: int
+        nv: int
+
     def __init__(self, mechanism: Mechanism, name: str, entry: Entry) -> None:
-        self.mechanism = mechanism
-        self.name = name
-        self.kind = entry.kind
-        self.id = entry.id
-        self.nq = entry.nq
-        self.nv = entry.nv
+        same = {field: getattr(entry, field) for field in ("kind", "id", "nq", "nv")}
+        vars(self).update(same, mechanism=mechanism, name=name)
 
     def __repr__(self) -> str:
         return f"<{self.kind.name if self.kind else self.family} {self.name!r}>"
+
+    def _refusal(self, name: str) -> str:
+        fields = ["initial"] if self.family == "input" else []
+        if self.kind is not None:
+            names = Definition(self.kind, "", self.mechanism.find).names
+            fields = [field for field in names if field != "name"]
+        what = f'{self.family} "{self.name}" has no attribute {name!r} that can be set'
+        if fields:
+            known = f"{name if name in fields else 'field'}=..."
+            what += (
+                f"; set({known}) changes the definition before freezing, and Mechanism.copy() in a "
+                f"copy: m.copy({self.name}=dict({known}))"
+            )
+        others = [*fields, *properties(type(self))]
+        return what if name in fields else f"{what}; {there_are(others, name)}"
 
     def _identity(self) -> tuple[str, int, int]:
         return self.family, self.id.index1, self.id.tag

@@ -6,6 +6,7 @@ from __future__ import annotations
 import ctypes
 import inspect
 import os
+import re
 import types
 import weakref
 from typing import TYPE_CHECKING, Any, Iterator, Literal, Mapping, NamedTuple, Sequence
@@ -15,6 +16,7 @@ import numpy as np
 from . import _abi, _calls, _html, _motion, _records, design, design_space, drawings, fmu
 from ._lib import lib, text
 from ._motion import TraceLike
+from ._strict import Strict
 from ._values import number, numbers, point, there_are, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
@@ -86,10 +88,11 @@ def _entry_of(address: int, family: str, id: ctypes.Structure) -> Entry:
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
+REPLACED = re.compile("offset|free_(length|angle|value)")
 ADD_INPUT = "add one by Mechanism.input() before freezing"
 
 
-class Mechanism(Adding, AddingInSpace, Scenes):
+class Mechanism(Adding, AddingInSpace, Scenes, Strict):
     """A mechanism: bodies, joints, forces and inputs.
 
     First add elements. Then freeze() makes the mechanism constant, so that it can be simulated and
@@ -110,6 +113,8 @@ class Mechanism(Adding, AddingInSpace, Scenes):
     velocities v of these bodies. All of them return their result.
     """
 
+    handle: int
+
     def __init__(
         self,
         gravity: ArrayLike = GRAVITY,
@@ -127,7 +132,7 @@ class Mechanism(Adding, AddingInSpace, Scenes):
         """Take over a mechanism of the library. If it is a copy of the Mechanism `like`, take over
         the elements and functions of `like`, too."""
         self._owner = _calls.Handle(address, lib.baum_mechanism_destroy, "mechanism")
-        self.handle: int = address
+        self.handle = address
         self._sizes: Sizes | None = None  # None until they are read after freezing
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
@@ -325,11 +330,13 @@ class Mechanism(Adding, AddingInSpace, Scenes):
 
     @property
     def break_times(self) -> Array:
-        """The break times (n) in rising order [s]."""
+        """A copy of the break times (n) in rising order [s]. It is read-only."""
         count = ctypes.c_int32()
         place = lib.baum_mechanism_break_times(self.handle, ctypes.byref(count))
         found = numbers(place, count.value)
-        return np.empty(0) if found is None else found
+        found = np.empty(0) if found is None else found
+        found.flags.writeable = False
+        return found
 
     def freeze(self) -> Mechanism:
         """Check all definitions, and make the mechanism constant, so that it can be simulated.
@@ -393,7 +400,10 @@ class Mechanism(Adding, AddingInSpace, Scenes):
             new_place = given.get(element.name, set()) & {"point", "point_a", "point_b"}
             if element.family in ("joint", "force") and not new_place:
                 design_space.check_turned(element, angles, changes)
-                yield element.name, design.taken(element, moved)
+                taken = design.taken(element, moved)
+                if getattr(self.read(element), "law", None):  # it replaces these numbers
+                    taken = {key: x for key, x in taken.items() if not REPLACED.fullmatch(key)}
+                yield element.name, taken
 
     def _used_angles(self) -> Iterator[Joint]:
         """Return the joints whose angles are used by drivers, couplings or springs."""

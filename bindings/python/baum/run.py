@@ -12,6 +12,7 @@ import numpy as np
 from . import _html, _motion, _records, drawings, movies, scenes, units
 from ._motion import Forces, TraceLike
 from ._rotation import matrix
+from ._strict import Strict
 from ._values import number
 from .channels import Channel, Layout
 from .drawings import Drawing, Page
@@ -107,7 +108,7 @@ class _Pickled(NamedTuple):
     channels: dict[str, bytes]
 
 
-class Run:
+class Run(Strict):
     """The samples of a run.
 
     t: times (n) [s].
@@ -128,6 +129,18 @@ class Run:
     available.
     """
 
+    t: Array
+    q: Array
+    v: Array
+    status: Status
+    failure: str | None
+    counters: Counters
+    explain: str
+    warnings: list[Warning]
+    near_singular: list[NearSingular]
+    events: list[Event]
+    energy_account: EnergyAccount | None
+
     def __init__(
         self,
         mechanism: Mechanism,
@@ -141,7 +154,7 @@ class Run:
         self._pickled: _Pickled | None = None
         self.t = times
         self.status = status
-        self.failure: str | None = None
+        self.failure = None
         self.counters, self.explain, self.warnings = account[:3]
         self.near_singular, self.events, self.energy_account = account[3:]
         self._slices = layout.slices
@@ -237,6 +250,8 @@ class Run:
             return self._rows[:, recorded]
         found = self._of_body(name)
         if found is None:
+            if self._mechanism is not None and isinstance(key, str):
+                self._mechanism.channel(key)  # raises KeyError if there is no such channel
             raise KeyError(
                 f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
                 "velocities of bodies; name others in record=[...]"

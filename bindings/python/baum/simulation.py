@@ -211,7 +211,8 @@ class Simulation(_calls.Closing):
     atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. By
         default there is none.
     max_step: longest variable step [s], by default unlimited. Set it if a force is zero at first
-        and begins to act later, because long steps could miss its beginning.
+        and begins to act later, because long steps could miss its beginning, or if an event
+        function may pass zero twice within a quarter of a step.
     formulation: "default" is the first formulation that the integrator offers. Others are
         "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
@@ -251,6 +252,12 @@ class Simulation(_calls.Closing):
         options that the library refuses, and for a mechanism that is not frozen or cannot be
         assembled.
     """
+
+    mechanism: Mechanism
+    _advice = (
+        "options are arguments of Mechanism.simulation(), and set_state(), set_input() and "
+        "set_driver() change a run"
+    )
 
     def __init__(
         self,
@@ -495,7 +502,9 @@ class Simulation(_calls.Closing):
         on.
 
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
-        function(t, q, v) passes zero. The function receives q and v of the whole mechanism.
+        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. An
+        event function that passes zero twice within a quarter of a step may be missed; the option
+        max_step, or a smaller step, helps.
 
         direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
@@ -680,17 +689,17 @@ class Simulation(_calls.Closing):
 
     @property
     def q(self) -> Array:
-        """A copy of the present positions (nq)."""
+        """A copy of the present positions (nq). It is read-only; set_state() changes the state."""
         return self._copy(lib.baum_simulation_q, self._sizes.nq)
 
     @property
     def v(self) -> Array:
-        """A copy of the present velocities (nv)."""
+        """A copy of the present velocities (nv). It is read-only; set_state() changes the state."""
         return self._copy(lib.baum_simulation_v, self._sizes.nv)
 
     def _copy(self, function: Any, size: int) -> Array:
         place = function(self._owner.address)
-        return np.frombuffer(ctypes.string_at(place, 8 * size)).copy()
+        return np.frombuffer(ctypes.string_at(place, 8 * size))  # bytes make it read-only
 
     @overload
     def get(self, channel: ChannelLike, /) -> Array: ...
@@ -717,10 +726,10 @@ class Simulation(_calls.Closing):
     @property
     def unique_multipliers(self) -> NDArray[np.bool_]:
         """Determine which multipliers are unique at the present state. Return one bool for each row
-        (nc)."""
+        (nc). The array is read-only."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)
-        return np.array(unique, dtype=bool)
+        return np.frombuffer(bytes(unique), dtype=bool)
 
     @property
     def energy_account(self) -> EnergyAccount:

@@ -150,6 +150,9 @@ class Study(_calls.Closing):
         values that the library refuses.
     """
 
+    mechanism: Mechanism
+    _advice = "options are arguments of baum.study()"
+
     def __init__(
         self,
         mechanism: Mechanism,

@@ -6,19 +6,24 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import ctypes
 import hashlib
 import itertools
 import os
 import pickle
 import time
+import types
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
+from . import _abi
 from ._values import there_are, vector
+from .channels import Channel
 from .errors import Error, Status
+from .gains import Gains
 from .progress import Line, stream
 from .run import Run
 from .typing import Array, ArrayLike, ChannelLike
@@ -285,8 +290,10 @@ def sweep(
         all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
         the status STOP_CANCELLED.
     file: a file that keeps finished runs, so that a sweep that was interrupted continues when you
-        call sweep() again. The file of another sweep is refused with ValueError. The file is a
-        pickle; open only files that you trust.
+        call sweep() again. The file of another sweep, or of another version of baum, is refused
+        with ValueError. `reduce` and the functions of the mechanism are compared by their names and
+        their code, but not by the values of other variables that they use. The file is a pickle;
+        open only files that you trust.
 
     A run that fails does not stop the other runs. Raises KeyError if the element of a parameter
     does not exist, TypeError if its field does not exist, and TypeError or ValueError if its values
@@ -345,6 +352,31 @@ def _fill(
         line.close()
 
 
+def _plain(value: Any) -> Any:
+    """Convert a value to lists and simple objects whose repr() is exact, and the same in every
+    process. A function is converted to its name and its code, without the values of variables that
+    it uses."""
+    if isinstance(value, types.CodeType):
+        return value.co_code, value.co_names, _plain(value.co_consts)
+    if isinstance(value, Gains):
+        return value.name, _plain(value.values)
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, (set, frozenset)):
+        return sorted(map(repr, value))  # the order of a set depends on the process
+    if isinstance(value, Mapping):
+        return sorted((str(name), _plain(x)) for name, x in value.items())
+    if isinstance(value, (list, tuple)):
+        return [_plain(x) for x in value]
+    if callable(value) or isinstance(value, ctypes.c_void_p):
+        named = value if hasattr(value, "__qualname__") else type(value)
+        code = _plain(getattr(value, "__code__", None))
+        return named.__module__, named.__qualname__, code
+    return repr(value)
+
+
 class _File:
     """The file that keeps the finished runs of a sweep."""
 
@@ -352,9 +384,11 @@ class _File:
         self._path = Path(path)
         self._count = len(rows)
         self._next = 0.0
-        given = (task.mechanism.scene(), task.names, rows, task.times.tolist())
-        options = (str(task.method), str(task.record), sorted(task.options.items()))
-        self._key = hashlib.sha256(repr((given, options)).encode()).hexdigest()
+        functions = [value for _, (value, _) in task.mechanism.kept_objects()]
+        record = [one.key if isinstance(one, Channel) else one for one in task.record]
+        key = [_abi.VERSION, task.mechanism.scene(), functions, *task[1:4], rows, record]
+        key += [task.reduce, task.options]
+        self._key = hashlib.sha256(repr(_plain(key)).encode()).hexdigest()
 
     def read(self) -> list[_Result | None]:
         if not self._path.exists():

@@ -36,6 +36,8 @@ class Workspace(_calls.Closing):
         cannot evaluate the state; exceptions of your own functions.
     """
 
+    mechanism: Mechanism
+
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         out = ctypes.c_void_p()

@@ -43,7 +43,7 @@ static const baum_i_def_field fields[] = {
   BAUM_I_FIELD(baum_coupling_def, joint_b, JOINT),
   BAUM_I_NUMBERS(baum_coupling_def, ratio, FINITE, "[unit b / unit a]", 1.0),
   BAUM_I_OPTIONAL(baum_coupling_def, offset, OPTIONAL, "rad or m"),
-  BAUM_I_FIELD(baum_coupling_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_LAW(baum_coupling_def, ratio),
   BAUM_I_FIELD(baum_coupling_def, user, USER),
   BAUM_I_FIELD(baum_coupling_def, coordinate_a, COORDINATE),
   BAUM_I_FIELD(baum_coupling_def, coordinate_b, COORDINATE),

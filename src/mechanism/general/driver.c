@@ -13,7 +13,7 @@ static const baum_i_def_field fields[] = {
   BAUM_I_NUMBERS(baum_driver_def, value, FINITE, "rad or m", 0.0),
   BAUM_I_NUMBERS(baum_driver_def, rate, FINITE, "rad/s or m/s", 0.0),
   BAUM_I_NUMBERS(baum_driver_def, acceleration, FINITE, "rad/s^2 or m/s^2", 0.0),
-  BAUM_I_FIELD(baum_driver_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_LAW(baum_driver_def, value),
   BAUM_I_FIELD(baum_driver_def, user, USER),
   BAUM_I_FIELD(baum_driver_def, coordinate, COORDINATE),
   {0},

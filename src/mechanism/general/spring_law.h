@@ -36,10 +36,10 @@ typedef struct baum_i_spring_def {
                    BAUM_I_HAS_SPRING_FIELD(DEF, depends_on_velocity),                          \
                  #DEF " has the fields of baum_i_spring_def in another order")
 
-#define BAUM_I_SPRING_FIELDS(DEF, PER_LENGTH, PER_RATE, FREE, RULE, UNIT)              \
-  BAUM_I_NUMBERS(DEF, stiffness, NOT_NEGATIVE, PER_LENGTH, 0.0),                       \
-    BAUM_I_NUMBERS(DEF, damping, NOT_NEGATIVE, PER_RATE, 0.0),                         \
-    BAUM_I_OPTIONAL(DEF, FREE, RULE, UNIT), BAUM_I_FIELD(DEF, law, OPTIONAL_FUNCTION), \
+#define BAUM_I_SPRING_FIELDS(DEF, PER_LENGTH, PER_RATE, FREE, RULE, UNIT) \
+  BAUM_I_NUMBERS(DEF, stiffness, NOT_NEGATIVE, PER_LENGTH, 0.0),          \
+    BAUM_I_NUMBERS(DEF, damping, NOT_NEGATIVE, PER_RATE, 0.0),            \
+    BAUM_I_OPTIONAL(DEF, FREE, RULE, UNIT), BAUM_I_LAW(DEF, stiffness),   \
     BAUM_I_FIELD(DEF, user, USER), BAUM_I_FIELD(DEF, depends_on_velocity, CLAIM)
 
 typedef struct baum_i_spring_law {
