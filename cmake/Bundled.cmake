@@ -2,8 +2,8 @@
 # Compiles the parts of SuiteSparse 5 and SUNDIALS 6 that baum uses. Their source files become part
 # of the library. BAUM_BUNDLED is the folder that contains the folders SuiteSparse-* and sundials-*.
 # Sets
-#   BAUM_BUNDLED_OBJECTS    what the libraries contain
-#   BAUM_BUNDLED_LICENSES   folder with license texts
+#   BAUM_BUNDLED_OBJECTS    the object files, which become part of the library
+#   BAUM_BUNDLED_LICENSES   the folder with the license texts of SuiteSparse and SUNDIALS
 file(GLOB suitesparse ${BAUM_BUNDLED}/SuiteSparse-5.*)
 file(GLOB sundials ${BAUM_BUNDLED}/sundials-6.*)
 if(NOT suitesparse OR NOT sundials)
@@ -24,7 +24,7 @@ file(GLOB files ${sundials}/src/sundials/sundials_*.c ${sundials}/src/cvode/*.c 
 list(FILTER files EXCLUDE REGEX "futils|xbraid|profiler|hypamgpre")
 list(APPEND bundled ${files})
 
-# All targets use 32-bit indices.
+# SUNDIALS uses 32-bit indices on all systems.
 file(STRINGS ${sundials}/CMakeLists.txt version REGEX "^set\\(PACKAGE_VERSION_(MAJOR|MINOR|PATCH)")
 string(REGEX MATCHALL "[0-9]+" version "${version}")
 list(GET version 0 PACKAGE_VERSION_MAJOR)
@@ -56,7 +56,7 @@ target_compile_definitions(baum_bundled PRIVATE NTIMER NPRINT)
 target_compile_options(baum_bundled PRIVATE -w -ffp-contract=off)
 set(BAUM_BUNDLED_OBJECTS $<TARGET_OBJECTS:baum_bundled>)
 
-# The folder of KLU contains the text of the LGPL.
+# The text of the LGPL, lesser.txt, is copied into the folder KLU.
 set(BAUM_BUNDLED_LICENSES ${CMAKE_CURRENT_BINARY_DIR}/licenses)
 set(BAUM_RUNTIME_LICENSES "" CACHE STRING "License texts of what the compiler adds to the libraries")
 file(COPY ${BAUM_RUNTIME_LICENSES} DESTINATION ${BAUM_BUNDLED_LICENSES}/runtime)

@@ -19,8 +19,8 @@ foreach(
   endif()
 endforeach()
 if(CMAKE_C_COMPILER_ID MATCHES Clang)
-  # clang warns about NAN and INFINITY of the C standard, which are floats by definition. gcc checks
-  # the same rule without this warning.
+  # With this option, clang warns about NAN and INFINITY of the C standard, which are floats by
+  # definition. gcc does not warn about them.
   list(REMOVE_ITEM BAUM_WARNINGS -Wdouble-promotion)
   # In this project, integer constants are enums. New releases of compilers warn when enums are used
   # with doubles.
@@ -67,7 +67,7 @@ if(BAUM_SANITIZE)
   add_link_options(${sanitize})
 endif()
 
-# The fuzzer is told which branches of the code its inputs take.
+# With these options, the compiled code tells the fuzzer which branches an input takes.
 if(BAUM_FUZZ)
   if(NOT CMAKE_C_COMPILER_ID MATCHES Clang)
     message(FATAL_ERROR "BAUM_FUZZ needs clang and its libFuzzer, not ${CMAKE_C_COMPILER}")

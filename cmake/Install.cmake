@@ -37,7 +37,7 @@ install(
         cmake/FindSuiteSparse.cmake cmake/FindBaumSundials.cmake
   DESTINATION ${config_dir})
 
-# The file baum.pc contains only names of libraries. They are the libraries that baum links.
+# The file baum.pc names the libraries that baum links. It contains no paths of these libraries.
 set(BAUM_PC_PRIVATE "")
 foreach(target IN LISTS BAUM_SUNDIALS_TARGETS)
   string(REPLACE "SUNDIALS::" " -lsundials_" flag ${target})

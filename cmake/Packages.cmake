@@ -59,7 +59,7 @@ install(
   COMPONENT python
   EXCLUDE_FROM_ALL)
 
-# documents(COMPONENT PACKAGE) makes the files that each package installs in /usr/share/doc.
+# documents(COMPONENT PACKAGE) makes the files that PACKAGE installs in /usr/share/doc.
 function(documents component package)
   set(folder ${PROJECT_BINARY_DIR}/documents/${package})
   file(READ LICENSE licence)

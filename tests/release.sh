@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: sh tests/release.sh [--check]
 #
-# Makes the files of a release. The script checks the sources and runs every stage of tests/run.sh. Then it copies the
-# packages and their SHA-256 digests into build/dist. This takes hours. If a stage fails, the next call continues with
-# this stage, as long as the commit is the same. With --check, the script only checks the sources, which takes a few
-# seconds. It does not publish the release, but prints the commands for this.
+# Makes the files of a release. The script checks the sources and runs every stage of tests/run.sh.
+# Then it copies the packages and their SHA-256 digests into build/dist. This takes hours. If a
+# stage fails, the next call continues with this stage, as long as the commit is the same. At the
+# end, the script prints the commands that publish the release, but does not run them. With --check,
+# the script only checks the sources, which takes a few seconds.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -99,7 +100,7 @@ mkdir -p "$out"
 touch "$passed"
 for stage in $(sh tests/run.sh --list); do
   grep -qx "$stage" "$passed" && continue
-  # The folder may contain only packages of this commit.
+  # The folder build/wheels/out may contain only packages of this commit.
   [ "$stage" != wheels ] || rm -rf build/wheels/out
   sh tests/run.sh "$stage"
   echo "$stage" >>"$passed"

@@ -3,14 +3,15 @@
 # usage: sh tests/run.sh [STAGE...]
 #        sh tests/run.sh --list     print the names of all stages
 #
-# Installs missing packages and runs the named stages, one after the other, until one fails. Without an argument, it
-# runs the stages in the first row. The stages in the second row run only if they are named.
+# Installs missing packages and runs the named stages, one after the other, until one fails. Without
+# an argument, it runs the stages in the first of the rows below. The stages in the second row run
+# only if they are named.
 #   format types docs build test asan minimal install python
 #   tidy coverage valgrind thread analyzer sweeps fuzz random browser site links debs packages readme fresh trixie wheels
 # BAUM_COVERAGE is the smallest line coverage of src that stage coverage accepts, in percent (default: 95). Five folders
 # of src must always have 100 %.
-# BAUM_FUZZ_SECONDS is the time for which stage fuzz runs each target (default: 600).
-# BAUM_FRESH names the stages that stage fresh runs in the bare system (default: the first row).
+# BAUM_FUZZ_SECONDS is the time for which stage fuzz runs each fuzzer (default: 600).
+# BAUM_FRESH names the stages that stage fresh runs on a bare Debian (default: the first row).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -191,8 +192,9 @@ stage_site() {
   build/site-venv/bin/python tests/browser/check_site.py build/site
 }
 
-# Checks the links of the site to other sites: those of the pages, of the headers and of the docstrings. This is the
-# only check of the documents that needs a network. Without a network, the stage returns the exit code 77.
+# Checks the links to other sites in the pages of the documentation site, in the headers and in the
+# docstrings. This is the only check of the documents that needs a network. Without a network, the
+# stage returns the exit code 77.
 stage_links() {
   getent hosts www.sphinx-doc.org >/dev/null || { echo "skipped: there is no network"; return 77; }
   build_dev
@@ -202,8 +204,8 @@ stage_links() {
     build/site-source build/site-links
 }
 
-# If an input makes a target fail, it remains in build/fuzz as crash-*. Correct the error, and add the input to
-# tests/fuzz/corpus.
+# If an input makes a fuzzer fail, the input is kept in build/fuzz as crash-*. Then correct the
+# error, and add the input to tests/fuzz/corpus.
 stage_fuzz() {
   need_venv
   need_packages libclang-rt-14-dev
@@ -234,7 +236,8 @@ stage_random() {
   build/random/tests/bench_sweeps all
 }
 
-# fresh_run RELEASE COMMAND... runs commands on a bare Debian, in a clone of the project.
+# fresh_run RELEASE COMMAND... runs the commands on a bare Debian RELEASE, in a clone of the
+# project.
 fresh_run() {
   need_packages debootstrap git
   rm -rf build/fresh-clone
@@ -250,8 +253,8 @@ stage_fresh() {
   fresh_run bookworm "sh examples/run.sh" "sh tests/run.sh ${BAUM_FRESH:-}"
 }
 
-# Runs the stages that depend on the compiler or on SUNDIALS on a bare Debian 13, which has SUNDIALS 7. Also builds
-# and installs the Debian packages of baum there.
+# On a bare Debian 13, which has SUNDIALS 7, runs the stages that depend on the compiler or on
+# SUNDIALS. Also builds and installs the Debian packages of baum there.
 stage_trixie() {
   fresh_run trixie "sh tests/run.sh build test minimal install python debs" \
     "sh tests/install/packages.sh build/debian"

@@ -17,7 +17,7 @@ as_root() {
   if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# need_packages NAME... installs those of these packages that are missing.
+# need_packages NAME... installs those of the named packages that are missing.
 need_packages() {
   command -v dpkg-query >/dev/null || { echo "this system is not Debian; please install: $*"; return 0; }
   missing=

@@ -3,12 +3,12 @@
  * of settings and compares each run with a reference. Here each study is made twice: once with a
  * reference that the study computes, and once with the reference of the catalogue.
  *
- * usage: bench_catalog [ENTRY]
+ * usage: bench_catalog [MECHANISM]
  *
  * The grid is small. It contains every integrator with each of its formulations, at three steps or
  * tolerances. If the formulation has gains, they are chosen by the integrator's default rule, by
- * the rule `auto`, and as two constants. Runs that take more than 0.05 s are stopped.
- * tests/support/catalog_grid.h defines which entries of a study are considered wrong.
+ * the rule `auto`, and as two constants. Runs that take more than 0.05 s are stopped. Each run is
+ * an entry of the study. tests/support/catalog_grid.h defines which entries are considered wrong.
  */
 #include <stdio.h>
 #include <string.h>

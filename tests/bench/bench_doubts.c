@@ -5,7 +5,7 @@
  *   bench_doubts [-n MECHANISMS] [-f FIRST_SEED] [-s SETTING] [-j THREADS] [-c] [-e]
  *
  *   -n, -f number of mechanisms, and seed of the first one; by default 100 and 0
- *   -s      only settings whose name contains the text
+ *   -s      only settings whose names contain the text SETTING
  *   -j      1 or 2 threads; 1 by default
  *   -c      print a line of CSV per run instead of the tables
  *   -e      with the option error_check
@@ -15,8 +15,8 @@
  * run is its largest position error at ten samples. Lengths are relative to the characteristic
  * length. A run is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong.
  * The growth of a motion is the largest factor by which a perturbation grows between any two of 20
- * sample times. To make velocities comparable with positions, they are divided by the mean rate of
- * the motion.
+ * sample times. In a perturbation, velocities are divided by the mean rate of the motion, which
+ * makes them comparable with positions.
  *
  * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
  * too many wrong fixed-step runs are silent, which means that no warning doubts their motion. If
@@ -250,8 +250,8 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Prints quantiles of the error divided by the estimated error. Only runs that have both are
- * used. */
+/* Prints quantiles of the error divided by the estimated error. Runs that have stopped, and runs
+ * without an estimated error, are skipped. */
 static void print_quantiles(const bench *b, int setting)
 {
   double *ratios = malloc((size_t)b->count * sizeof *ratios);

@@ -78,8 +78,8 @@ static void show_catalog(const char *name, int count, double end)
   baum_mechanism_destroy(m);
 }
 
-/* Draws a row of pendulums side by side. There is no run, so every sample is the design
- * configuration. */
+/* Draws a row of pendulums side by side. The samples do not come from a run: all angles grow by
+ * 1e-3 rad from one sample to the next, and the positions remain the same. */
 static void show_many(int bodies, int count)
 {
   baum_mechanism *m = NULL;

@@ -147,7 +147,8 @@ static void print_head(void)
   printf(
     "\nThe column ns is the CPU time per evaluation. rel: this time divided by that of the first "
     "solver.\nThe phases are in ns. other: time of the whole evaluation outside of the phases, for "
-    "checks,\nrefinement and copies. apart: largest relative difference of a.\n");
+    "checks,\nrefinement and copies. apart: largest difference from the accelerations of the first "
+    "solver,\nrelative to the largest acceleration.\n");
   printf("%-12s %6s %-11s %10s %8s %6s %9s %9s %9s %9s %9s %6s\n", "case", "n", "solver", "ns",
          "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
@@ -331,8 +332,9 @@ static bool step_once(void *self, int part)
   return baum_simulation_step(self, 16) == BAUM_OK;
 }
 
-/* Takes steps of 1e-9 s, so that the configuration hardly changes. The gains suit longer steps:
- * gains of 1e9 1/s would amplify the rounding errors of Phi, and refinement would take longer. */
+/* Takes steps of 1e-9 s, so that the configuration hardly changes. The gains are not computed from
+ * this step. If they were, they would be about 1e9 1/s, which would amplify the rounding errors of
+ * Phi, and refinement would take longer. */
 static bool bench_steps_of(scene_kind kind, int n)
 {
   scene at;

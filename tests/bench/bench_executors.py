@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run 1000 slider-cranks by baum.sweep() on each kind of executor, and compare all bits.
+"""Run 1000 slider-cranks by baum.sweep() on each kind of executor, and compare all bits of their
+results.
 
 usage: bench_executors.py [COUNT]                                 with Dask, if it is installed
        mpiexec -n 3 python -m mpi4py.futures bench_executors.py   with MPI: one manager, 2 workers

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests whether a constant alpha = beta is better than the rule `auto`.
+/* Tests whether constant gains alpha = beta are better than the gains of the rule `auto`.
  *
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
@@ -241,7 +241,8 @@ int main(int argc, char **argv)
       (void)fprintf(stderr, "bench_gains: %s\n", baum_message());
       return 1;
     }
-    printf("%-22s references at h and h/2 are %.1e apart\n", problem.name, problem.apart);
+    printf("%-22s references with a step and with half of it differ by %.1e\n", problem.name,
+           problem.apart);
     judge_problem(&problem, &args, &cells, &held);
     gain_problem_clear(&problem);
   }

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares the computing time that this library and other software need for a given error.
  *
- * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all entries by default
+ * usage: bench_peers [PROBLEM]
+ *
+ * PROBLEM is the name of a mechanism of the catalogue. By default, all problems are run.
  *
  * A study runs rk8, dp5 and rk4 with every formulation, and with many steps and tolerances. For
- * each error, the table shows the entry with the smallest CPU time. The CPU time is measured from
- * the creation of a run to its end.
+ * each given error, the table shows the smallest CPU time of a run that has at most this error. The
+ * CPU time is measured from the creation of a run to its end.
  *
  * For planar problems, the errors include all positions, at 50 samples. bench_work_precision
  * compares only one angle of the N-four-bar, at ten times, and has more settings. Its cheapest runs

@@ -109,8 +109,8 @@ static void compare_all(const problem *at, const baum_mechanism *mechanism)
 
 int main(void)
 {
-  printf("errors with projection, with gains by auto, with the best gains (their neighbours); "
-         "coarse to fine\n");
+  printf("errors with projection, with the gains of auto, with the best gains (with neighbouring "
+         "gains);\nsteps and tolerances decrease from left to right\n");
   for (int k = 0; problem_at(k); k++) {
     model m;
     if (problem_at(k)->build(&m) != BAUM_OK) {

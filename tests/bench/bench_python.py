@@ -112,7 +112,8 @@ def report_study(grid, language, phi):
 
 
 def short_run(m, options):
-    """Return the counters of a run, after the wall times of creating it, advancing it and reading q."""
+    """Return the wall times of creating a run, of advancing it and of reading q, and then the
+    counters of the run."""
     clock = time.perf_counter
     times = [clock()]
     s = m.simulation("rk8", rtol=1e-5, **options)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares accelerations of random mechanisms with those in quadruple precision.
  *
- *   bench_random [COUNT [FIRST SEED]]     10000 seeds from seed 0 by default
+ *   bench_random [COUNT [FIRST_SEED]]     10000 seeds from seed 0 by default
  *
  * Each seed gives two mechanisms, one without and one with velocity-level constraints. The program
  * prints and counts accelerations with an error above 1e-9, mechanisms that are refused although
@@ -16,11 +16,10 @@
 static void report(const random_tally *t)
 {
   (void)printf(
-    "%ld mechanisms with %ld rows of velocity level, %ld configurations: %ld met (%ld of them with "
-    "dependent rows), %ld rightly "
-    "refused, "
+    "%ld mechanisms with %ld rows of velocity level, %ld configurations: %ld accurate (%ld of them "
+    "with dependent rows), %ld rightly refused, "
     "%ld wrong, %ld with rows that contradict each other, %ld false alarms; degrees of freedom of "
-    "%ld mechanisms compared, %ld wrong; largest error of those met %.2g\n",
+    "%ld mechanisms compared, %ld wrong; largest error of an accurate one %.2g\n",
     t->mechanisms, t->velocity_rows, t->poses, t->counts[RANDOM_MET], t->dependent,
     t->counts[RANDOM_REFUSED], t->counts[RANDOM_WRONG], t->counts[RANDOM_CONFLICT],
     t->counts[RANDOM_FALSE_ALARM], t->mobilities, t->counts[RANDOM_MOBILITY], t->worst);

@@ -2,7 +2,7 @@
 /* Compares accelerations and reactions of random spatial mechanisms with those in quadruple
  * precision.
  *
- *   bench_random_spatial [COUNT [FIRST SEED]]     10000 seeds from seed 0 by default
+ *   bench_random_spatial [COUNT [FIRST_SEED]]     10000 seeds from seed 0 by default
  *
  * Each seed gives two mechanisms, one without and one with further elements (random_further.h). The
  * program prints and counts results with an error above 1e-9, mechanisms that are refused although
@@ -18,12 +18,12 @@ static void report(const spatial_tally *t)
 {
   (void)printf(
     "%ld mechanisms, %ld configurations and %ld that could not be projected\n"
-    "met %ld, %ld of them with dependent rows, %ld ill-conditioned, %ld reactions; rightly "
+    "accurate %ld, %ld of them with dependent rows, %ld ill-conditioned, %ld reactions; rightly "
     "refused %ld, too sensitive to rounding %ld\n"
     "%ld rows of velocity level; degrees of freedom of %ld mechanisms compared\n"
     "wrong: conflicts %ld, constraints %ld, accelerations %ld, reactions %ld, balance %ld, degrees "
     "of freedom %ld; false alarms %ld\n"
-    "largest errors of those met: accelerations %.2g (seed %llu), reactions %.2g\n",
+    "largest errors of the accurate ones: accelerations %.2g (seed %llu), reactions %.2g\n",
     t->mechanisms, t->configurations, t->not_projected, t->counts[SPATIAL_MET], t->dependent,
     t->ill_conditioned, t->reactions, t->counts[SPATIAL_REFUSED], t->unjudged, t->velocity_rows,
     t->mobilities, t->counts[SPATIAL_CONFLICT], t->counts[SPATIAL_OFF],

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests whether reactions balance the forces if rows are redundant and masses are very different.
  *
- *   bench_reactions [COUNT [FIRST SEED]]     1000 mechanisms from seed 0 by default
+ *   bench_reactions [COUNT [FIRST_SEED]]     1000 mechanisms from seed 0 by default
  *
  * Each mechanism is evaluated on its constraints, and with violations of 1e-6 and 1e-3. It is
  * evaluated both by a workspace and by a run. The program prints and counts the results in which
  * forces are out of balance by more than 1e-9 of their size. It fails if there are any. It also
- * prints results for mass ratios of up to 1e14.
+ * prints the reaction of a bracket for mass ratios of up to 1e14.
  */
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ static long report(const char *what, long counts[][REDUNDANT_VERDICTS])
 {
   long wrong = 0;
   for (int k = 0; k < REDUNDANT_STATES; k++) {
-    (void)printf("%-10s %-20s %5ld met, %5ld refused, %5ld wrong\n", what, STATES[k],
+    (void)printf("%-10s %-20s %5ld right, %5ld refused, %5ld wrong\n", what, STATES[k],
                  counts[k][REDUNDANT_MET], counts[k][REDUNDANT_REFUSED],
                  counts[k][REDUNDANT_WRONG]);
     wrong += counts[k][REDUNDANT_WRONG];
@@ -68,7 +68,7 @@ int main(int count, char **arguments)
   wrong += report("run", tally.run);
   wrong += tally.wrong_unique;
   (void)printf(
-    "largest imbalance of those met: %.2g; %ld multipliers whose uniqueness is reported wrongly\n",
+    "largest imbalance of right ones: %.2g; %ld multipliers whose uniqueness is reported wrongly\n",
     tally.worst, tally.wrong_unique);
   return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

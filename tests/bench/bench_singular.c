@@ -3,8 +3,8 @@
  *
  *   bench_singular [STARTS [MECHANISM [SEED]]]
  *
- * STARTS is the number of starts, 20 by default. MECHANISM is one of MECHANISMS. By default all of
- * them are run. SEED is the seed for the starts, 1 by default.
+ * STARTS is the number of starts, 20 by default. MECHANISM is a name in the table MECHANISMS below.
+ * By default all mechanisms are run. SEED is the seed for the starts, 1 by default.
  *
  * Each line is for one mechanism and one setting. It first counts the failed runs. Then it counts
  * the right runs and the right runs with a branch warning, and gives the largest error of right

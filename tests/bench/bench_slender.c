@@ -2,7 +2,7 @@
 /* Compares accelerations of random mechanisms of slender rods (slender_rods.h) with those in
  * quadruple precision.
  *
- *   bench_slender [COUNT [FIRST SEED [UNITS OF LENGTH IN A METRE]]]   1000 seeds from 0 by default
+ *   bench_slender [COUNT [FIRST_SEED [UNITS OF LENGTH IN A METRE]]]   1000 seeds from 0 by default
  *
  * Prints how many results are right, refused or wrong, for each decade of the smallest ratio of an
  * axial to a transverse moment of inertia. Fails if a result is wrong without a message, or refused

@@ -88,8 +88,8 @@ static int sweep_four_bars(const arguments *with)
     for (int gravity = 0; gravity < 2; gravity++) {
       if (with->full || gravity == k % 2) {
         sweep_scene s = sweep_four_bar(k, gravity == 1, 3.0);
-        printf("%s, %g of a length, gravity %g m/s^2: growth %.2g\n", s.name, s.parameter,
-               s.gravity, s.growth);
+        printf("%s, relative change of a length %g, gravity %g m/s^2: growth %.2g\n", s.name,
+               s.parameter, s.gravity, s.growth);
         (void)fflush(stdout);
         sweep_steps(&s, 0.03, 0.1, with->full ? 40 : 20); /* [rad] */
         sweep_steps(&s, 0.003, 0.03, with->full ? 20 : 10);

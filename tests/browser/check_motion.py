@@ -2,10 +2,10 @@
 """usage: check_motion.py FOLDER
 
 Writes pages of planar and spatial runs, with names that contain scripts, and operates them in
-headless Chromium. Pages must load without console messages, must play, step, scrub, zoom and
-rotate, and must fit desktop and telephone screens in light and dark. Plots must follow the time,
-and nearer solids must cover farther ones. Saves pages and screenshots in FOLDER, and lists the
-checks that fail.
+headless Chromium. Pages must load without console messages, must play, step, zoom and rotate, and
+must fit desktop and telephone screens in light and dark. The time bar and the plots must change the
+time, and nearer solids must cover farther ones. Saves pages and screenshots in FOLDER, and lists
+the checks that fail.
 """
 
 import base64
@@ -117,7 +117,8 @@ def solids():
 
 
 def write_solids(template, path):
-    """Put the scene into a page that the library has written."""
+    """Write a copy of the page `template`, which the library has written, with the scene of solids
+    as its data. Return the points of the scene and the bodies that are visible there."""
     data, seen = solids()
     text = json.dumps(data).replace("<", "\\u003c")
     with open(template, encoding="utf-8") as file:
@@ -336,8 +337,8 @@ def check_marks(browser, checks):
 
 
 def touch(browser, *moments):
-    """Move two fingers through these positions, which are fractions of the width and the height of
-    the stage."""
+    """Move two fingers through the positions `moments`, which are fractions of the width and the
+    height of the stage."""
     left, top, width, height = browser.run("(() => { stage.scrollIntoView({block: 'center'});"
                                            " const r = stage.getBoundingClientRect(); return [r.left, r.top, r.width, r.height]; })()")
     browser.call("Emulation.setTouchEmulationEnabled", enabled=True)

@@ -172,7 +172,7 @@ def check_entries(browser, study, checks):
 
 def check_advice(browser, checks):
     """Check that the page shows each recommended setting with the error, the work and the CPU time
-    that the library states, except for the effect of rounding the setting."""
+    that the library states. The numbers may differ slightly, because the setting is rounded."""
     advice = json.loads(browser.run("document.getElementById('data').textContent"))["report"]["recommendations"]
     why = {each["setting"]: each["why"] for each in advice if each["setting"]}
     rows = browser.run("Array.from(document.querySelectorAll('#advice tbody tr:has(summary)'), row =>"

@@ -124,8 +124,9 @@ def svg_image(svg):
     return "svg+xml;base64," + base64.b64encode(svg.encode()).decode()
 
 
-# Returns the number of open gaps at the start, and the number after all bodies have been moved.
-# Returns null if the page has no gaps.
+# A gap is a line that a page draws where a joint is violated. Returns the number of gaps that are
+# open at the start, and the number after all bodies have been moved. Returns null if the page has
+# no gaps.
 GAPS = """(() => {
   const gaps = shapes.filter(shape => shape.style === 'gap'), frames = framesAt(at(first));
   const open = () => gaps.filter(shape => isOpen(ends(shape, frames))).length, before = open();

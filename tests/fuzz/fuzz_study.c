@@ -142,7 +142,7 @@ static const truth *true_ones(void)
 typedef struct document {
   char line[LINES][BAUM_I_STUDY_LINE];
   int count;
-  bool sealed; /* whether some line that no study has written has a correct digest */
+  bool sealed; /* whether the digest of a changed line has been corrected */
 } document;
 
 static void add_line(document *d, const char *line)
@@ -205,8 +205,7 @@ static void change(document *d, fuzz_bytes *b, const truth *t)
   }
 }
 
-/* Writes the changed file. Returns true if a line that no study has written has a correct
- * digest. */
+/* Writes the changed file. Returns true if the digest of a changed line has been corrected. */
 static bool write_changed(fuzz_bytes *b, const truth *t)
 {
   static document d;

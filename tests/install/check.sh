@@ -56,7 +56,8 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
-# Follows docs/install.md, where the library is in ~/baum, with the first program of README.md.
+# Runs the commands of docs/install.md, which expect the library in ~/baum, with the first program
+# of README.md.
 echo "the commands of docs/install.md for programs"
 . "$source/documented.sh"
 page=$project/docs/install.md

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions that follow the instructions of the documents, as users do. readme.sh and wheels.sh
-# source this file.
+# Functions that follow the instructions of the documents, as users do. check.sh, readme.sh and
+# wheels.sh source this file.
 
 # first_block FILE LANGUAGE prints the first code block in LANGUAGE of the document FILE.
 first_block() {
@@ -15,7 +15,7 @@ documented() {
     inside' "$1"
 }
 
-# follow FILE HEADING N prints the commands of such a block and runs them.
+# follow FILE HEADING N prints the commands of the N-th block under the heading and runs them.
 follow() {
   documented "$1" "$2" "$3" >commands.sh
   [ -s commands.sh ] || { echo "$1 has no command block $3 under \"$2\""; return 1; }

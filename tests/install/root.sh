@@ -2,7 +2,8 @@
 # Functions that make a bare Debian in a folder and use it as root. The scripts fresh.sh and
 # wheels.sh source this file.
 
-# Mounts and processes are in separate namespaces. They end together with the command.
+# This prefix runs a command with its own namespaces for mounts and processes. These mounts and
+# processes end together with the command.
 apart="unshare --mount --pid --fork --kill-child"
 
 # make_root ROOT RELEASE [OPTION OF debootstrap...] makes the bare system. It uses the mirror, proxy

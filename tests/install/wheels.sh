@@ -145,7 +145,8 @@ END
   rm -rf "$bare"
 }
 
-# run_python_tests TARGET COMMAND... runs some tests of the Python package. Wine writes only to pipes.
+# run_python_tests TARGET COMMAND... runs some tests of the Python package. Their output goes
+# through a pipe, because Wine writes only to pipes.
 run_python_tests() {
   target=$1
   shift
@@ -232,7 +233,7 @@ test_windows_python() {
   cd "$project"
 }
 
-# pip compiles the source archive for the SuiteSparse and SUNDIALS of this system.
+# pip compiles the source archive with the SuiteSparse and SUNDIALS that this system has.
 test_sdist() {
   fresh=$work/sdist-venv
   python3 -m venv --clear "$fresh"

@@ -24,8 +24,8 @@ typedef struct judge_rows {
 } judge_rows;
 
 typedef struct judge_factors {
-  int n;
-  int m;
+  int n;                               /* number of coordinates */
+  int m;                               /* number of rows */
   double columns[JUDGE_ROWS][JUDGE_N]; /* the Householder vectors of J~^T */
   double r[JUDGE_ROWS][JUDGE_ROWS];
   double root[JUDGE_N]; /* M^1/2, or ones if not weighted */
@@ -44,8 +44,8 @@ bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, j
  * or in the Euclidean metric if the factors are not weighted. */
 void judge_nearest(const judge_factors *f, const double *rhs, double *x);
 
-/** Writes column k < n - m of an orthonormal basis of the null space of J. The factors must not be
- * weighted. */
+/** Writes column k of an orthonormal basis of the null space of J. The basis has n - m columns. The
+ * factors must not be weighted. */
 void judge_null_vector(const judge_factors *f, int k, double *out);
 
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,

@@ -29,7 +29,7 @@ enum { JUDGE_CODES = 8, JUDGE_SAMPLES = JUDGE_SEGMENTS / 2 };
 typedef struct judge_outcome {
   judge_class class;
   baum_status status;
-  double error;     /* [-] largest error of positions at a sample: lengths / length, angles / rad */
+  double error;     /* [-] largest position error at the samples, relative to a length or 1 rad */
   double error_end; /* [-] the same at the last sample */
   bool doubted;
   int codes[JUDGE_CODES];

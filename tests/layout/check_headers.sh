@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_headers.sh C_COMPILER INCLUDE
 # Checks that every public header compiles if it is included alone, once or twice, in C11 and in
-# C++17. CXX is the C++ compiler.
+# C++17. The environment variable CXX names the C++ compiler (default: c++).
 set -eu
 cc=$1
 include=$2

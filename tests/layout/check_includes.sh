@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_includes.sh PROJECT
-# Checks includes. A layer may include only lower layers. Only the backend file for another library
-# may include its headers. Public headers may include only public headers and those of the C
-# library.
+# Checks includes. A layer may include only lower layers. The headers of another library may be
+# included only in the backend files for that library. Public headers may include only public
+# headers and those of the C library.
 set -eu
 cd "$1"
 
@@ -54,7 +54,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (!quoted) {
       if (header in c_library || header ~ /^baum\/[a-z_]+\.h$/) next
       if (!foreign_allowed(FILENAME, header))
-        fail("<" header "> is foreign here; it belongs in its one backend file")
+        fail("<" header "> of another library may be included only in its backend files")
       next
     }
     if (part[1] == "include") { fail("a public header includes private \"" header "\""); next }

@@ -26,8 +26,8 @@ SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
 This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
-sources. `#` stands for a number, and `...` for a name or another text. *As failed* means that the message is added to another
-failure, whose status it keeps. Each warning links to its [entry](cookbook/warnings.md).
+sources. `#` stands for a number, and `...` for a name or another text. *As failed* means that the text is added to the message
+of another failure, and that the status of this failure remains. Each warning links to its [entry](cookbook/warnings.md).
 [theory/errors.md](theory/errors.md) describes the warnings that put a result in doubt, and
 [status.h](../include/baum/status.h) the statuses. `sh tests/run.sh coverage` lists the messages that no test triggers.
 """
@@ -69,8 +69,8 @@ class Source:
         self.functions = re.findall(r"(?m)^(?:static )?[\w ]+?[ *](\w+)\(([^;{}]*?)\)\n\{\n(.*?)^\}", self.text, flags=re.S)
 
     def literals(self, expression):
-        """Return the texts that an expression may have. There is one for each branch of a
-        condition, and for each entry of a table."""
+        """Return all texts that can be the value of an expression. There is one for each branch of
+        a condition, and for each entry of a table."""
         for name, value in self.strings.items():
             expression = re.sub(rf"\b{name}\b", lambda _, v=value: v, expression)
         table = re.match(r"(\w+)\[", expression)
@@ -92,8 +92,8 @@ class Source:
         self.messages += [(code, text, first, self.text[:end].count("\n") + 1) for text in texts]
 
     def expanded(self, template, values):
-        """Return the variants of a template. If the texts for a %s are known and have several
-        words, each of them gives a variant."""
+        """Return the variants of a format. If the texts that replace a %s are known and consist of
+        several words, each of these texts gives a variant."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
@@ -110,7 +110,7 @@ class Source:
     def read(self):
         for sink, (code, form) in self.sinks.items():
             for start, end, arguments in self.calls(sink):
-                # this is a macro that contains the status and the beginning of the message
+                # the sink is a macro that contains the status and the beginning of the message
                 if isinstance(code, str):
                     texts, status, values = self.literals(form + " " + arguments[0]), code, arguments[1:]
                 else:
@@ -124,8 +124,8 @@ class Source:
         return self.messages
 
     def wrapper_of(self, start, values):
-        """Find the function that contains a call, if this function passes on texts of its caller.
-        Return the function and the parameters that are these texts."""
+        """Find the function that contains a call. If its callers pass texts to this function, and
+        it passes them on in the call, return its name and the parameters that are these texts."""
         for name, parameters, body in self.functions:
             at = self.text.find(body)
             if at <= start < at + len(body) and name not in SINKS:

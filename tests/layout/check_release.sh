@@ -75,7 +75,7 @@ sed -i 's/BAUM_VERSION_PATCH 1/BAUM_VERSION_PATCH 2/' include/baum/version.h
 commit "two versions"
 refused "versions that differ" "one place"
 
-# A value of an enum that changes breaks compiled programs.
+# If the value of an enum constant changes, compiled programs break.
 sed -i 's/X(BAUM_WARNED, 10,/X(BAUM_WARNED, 11,/' include/baum/status.h
 for version in "7 1 2 3" "7 2 0 4" "8 0 0 3"; do
   # shellcheck disable=SC2086

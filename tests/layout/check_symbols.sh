@@ -19,7 +19,8 @@ complain() {
 
 exported=$(nm -D --defined-only "$shared" | awk '{ print $NF }')
 global=$(nm -g --defined-only "$static" | awk 'NF >= 3 { print $NF }')
-# Each line is a call to a function outside of the library, in the form: object symbol.
+# Each line contains the name of an object file, and a symbol that this file uses but does not
+# define.
 called=$(nm -g --undefined-only "$static" | awk '
   /:$/ { object = $1; sub(/:$/, "", object); next }
   NF == 2 { print object, $2 }')

@@ -25,8 +25,8 @@ holds() {
     END { exit !found }' "$1" "$2"
 }
 
-# check DOCUMENT LANGUAGE FOLDER checks that some file in the folder contains every block of the
-# language.
+# check DOCUMENT LANGUAGE FOLDER checks every block of the document that is marked with the
+# language. Some file in the folder must contain the block.
 check() {
   blocks=$scratch/$(basename "$1").$2
   mkdir "$blocks"
@@ -53,7 +53,7 @@ for program in "$@"; do
   "$program" >"$scratch/prints/$(basename "$program")" 2>&1 || fail "$program: exit code $?"
 done
 cd "$project"
-holds README.md examples/first.c || fail "README.md: not examples/first.c as it stands"
+holds README.md examples/first.c || fail "README.md does not contain examples/first.c unchanged"
 for document in README.md docs/tutorial.md; do
   check "$document" c "$scratch/sources"
   check "$document" text "$scratch/prints"

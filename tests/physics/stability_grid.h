@@ -8,9 +8,10 @@
  *
  * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / (beta^2
  * h^2)) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the
- * characteristic length. If h omega = 1e-5, the steady violation is 1e-10 of the characteristic
- * length. In the corner of the grid where alpha h is largest and beta^2 h^2 is smallest, it is
- * about 20 times as large. For methods of higher order it is smaller.
+ * characteristic length. The step is 1e-5 / omega, where omega is the rate of the motion at the
+ * start. The steady violation is then 1e-10 of the characteristic length. In the corner of the grid
+ * where alpha h is largest and beta^2 h^2 is smallest, it is about 20 times as large. For methods
+ * of higher order it is smaller.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H

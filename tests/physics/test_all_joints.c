@@ -287,8 +287,8 @@ static void kinematics_agrees_with_projection_for_every_joint(void **state)
 
 /* ---- reactions ---- */
 
-/* A mechanism in motion, and its residual M a - g. When the test has subtracted all reactions from
- * the residual, it must be zero. */
+/* A mechanism in motion, and its residual M a - g. After the test has subtracted all reactions, the
+ * residual must be zero. */
 typedef struct balance {
   test_point p;
   baum_workspace *workspace;
@@ -330,7 +330,7 @@ static void close_balance(balance *b)
 }
 
 /* Subtracts sign * f from the residual of one body. f consists of a force at a point and a moment.
- * Returns the power of f. */
+ * Returns the power of sign * f. */
 static double apply(balance *b, int index, const double at[3], const double f[3], double sign)
 {
   const baum_i_frame *frame = &b->p.point.frames[index];

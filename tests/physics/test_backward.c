@@ -33,7 +33,7 @@ static const double ROUNDING = 1e-11;
 
 typedef struct method {
   const baum_integrator *integrator;
-  /* [s], or NaN for variable steps; the sample times of tests/data are multiples of it */
+  /* [s] NaN for variable steps. The sample times of tests/data are multiples of the step. */
   double step;
   double rtol;
   baum_formulation formulation;

@@ -206,7 +206,7 @@ static void kinematics_crosses_breaks_in_both_directions(void **state)
     (void)kinked(targets[i], s, NULL);
     assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
     assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of values up to 10 */
+    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding error of values that are at most 10 */
     ASSERT_NEAR(row[1], s[1], 0.0, 1e-12);
     ASSERT_NEAR(row[2], 2.0 * s[2], 0.0, 1e-11);
   }

@@ -106,7 +106,7 @@ static void bars_locked_by_two_pins_rotate_as_if_welded(void **state)
 }
 
 /* RATTLE and generalized-alpha use the same pivots in many steps. When the omitted rows change,
- * they must choose new pivots. */
+ * these methods must choose new pivots. */
 static void index_3_methods_make_several_revolutions(void **state)
 {
   (void)state;

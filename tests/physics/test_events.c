@@ -247,7 +247,8 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
 }
 
 /* The times of the two events differ only by rounding. With IDA they differ by up to 5e-13 s,
- * because of its iteration. The tolerance of events must treat them as simultaneous. */
+ * because of its iteration. The differences are below the tolerance of the events, so the run must
+ * treat the events as simultaneous. */
 static void simultaneous_terminal_events_stop_the_run_once(void **state)
 {
   (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator for mechanisms whose positions are on a manifold.
- * There are two: a heavy top, and a slider-crank whose bodies represent their angle by (cos, sin).
- * The step is halved repeatedly, and the errors are compared. The rule `auto` chooses the gains,
- * which are the same for all these steps. */
+ * They are three tops, and a slider-crank whose bodies represent their angle by (cos, sin). The
+ * step is halved repeatedly, and the errors are compared. The rule `auto` chooses the gains, which
+ * are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,8 +27,8 @@ static const double END = 0.5;
  * test_order.c. The runs take only half a second, so that error terms of the next order are larger.
  * Such terms may also increase the slope. */
 static const double TOO_FLAT = 0.25;
-/* This is the limit for the orders 5 and 8, instead of TOO_FLAT. It is wide enough, because a wrong
- * coefficient would give slopes of at most 2. */
+/* This is the limit for the orders 5 and 8, instead of TOO_FLAT. It still finds wrong coefficients,
+ * because these would give slopes of at most 2. */
 static const double TOO_FLAT_HIGH = 0.6;
 static const double TOO_STEEP = 0.8;
 

@@ -200,8 +200,8 @@ static double apart(int n, const double *x, const double *y)
   return largest;
 }
 
-/* Runs both models by the same method. Returns the difference of their positions. Neither model may
- * be much less accurate than the other one. */
+/* Runs the mixed and the spatial model by the same method. Returns the difference of their
+ * positions. The mixed model may not be much less accurate than the spatial one. */
 static double compare(const baum_simulation_options *options, const outcome *exact)
 {
   const outcome mixed = run_to(false, false, END, options);

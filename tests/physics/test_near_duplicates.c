@@ -34,7 +34,9 @@ typedef enum again {
   FOOT_ASIDE,
   GUIDE_TURNED,
   GUIDE_APART,
-  ROD_ASIDE, /* a massless rod on the line of the rod; it fits only in this configuration */
+  /* a massless rod from crank to slider, on the line of the body `rod`; it fits only in this
+   * configuration */
+  ROD_ASIDE,
   ROD_LONGER,
   AGAIN_COUNT
 } again;

@@ -105,7 +105,7 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
          mode.fixed ? "fixed" : "variable", baum_formulation_name(formulation), error,
          counters.max_phi);
   assert_true(error <= allowed(mode));
-  assert_true(counters.max_phi <= 1e-2); /* without stabilization the violation would reach 1 m */
+  assert_true(counters.max_phi <= 1e-2);
   assert_int_equal(counters.near_singular_intervals, 0);
   baum_simulation_destroy(run);
   model_destroy(&m);

@@ -142,7 +142,7 @@ static void assert_kept(const baum_mechanism *mechanism, const scene *of,
 
 static void assert_kept_by_all(model *m, const scene *of)
 {
-  printf("\nlargest violation, in parts of the bound\n%-22s %-25s %10s %10s\n", "", "", "Phi",
+  printf("\nlargest violation divided by its bound\n%-22s %-25s %10s %10s\n", "", "", "Phi",
          "Phi'");
   for (int k = 0; baum_integrator_at(k); k++) {
     const baum_integrator *integrator = baum_integrator_at(k);

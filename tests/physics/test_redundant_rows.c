@@ -270,8 +270,8 @@ static void permanent_and_momentary_redundancy_are_distinguished_in_any_unit(voi
   }
 }
 
-/* The runs start with redundant rows, or near a singular configuration, or both. The cranks must
- * rotate together with th'' = -k cos th. */
+/* The runs start with redundant rows, or near a singular configuration, or both. All cranks must
+ * rotate by the same angle th, with th'' = -k cos th and a constant k. */
 static void a_run_may_start_next_to_a_singular_configuration(void **state)
 {
   (void)state;

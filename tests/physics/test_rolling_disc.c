@@ -30,9 +30,9 @@
  *   I w' - m rho x (rho x w') = -w x I w + m rho x (rho' x w) + m g rho x k,
  *   I = I_t + (I_a - I_t) n n^T,   n' = w x n
  *
- * in ground axes. Here m is the mass, and I_a and I_t are the moments of inertia about n and about
- * transverse axes. The state consists of n, the angular velocity w, and the horizontal position of
- * the centre.
+ * in ground axes. Here m is the mass, g is the acceleration of gravity, and I_a and I_t are the
+ * moments of inertia about n and about transverse axes. The state consists of n, the angular
+ * velocity w, and the horizontal position of the centre.
  */
 
 static const double MASS = 1.2;

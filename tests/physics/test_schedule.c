@@ -294,8 +294,8 @@ static void kinematics_gives_the_effort_for_the_present_input(void **state)
     double t = targets[i];
     assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
     assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
-    ASSERT_NEAR(row[0], -torque_at(t), 0.0, 1e-12); /* rounding of 50 N m */
-    ASSERT_NEAR(row[1], 2.0 * t, 0.0, 1e-13);       /* rounding of angles */
+    ASSERT_NEAR(row[0], -torque_at(t), 0.0, 1e-12); /* rounding error of at most 50 N m */
+    ASSERT_NEAR(row[1], 2.0 * t, 0.0, 1e-13);       /* rounding error of angles */
   }
   close_all(run, &d);
 }

@@ -91,8 +91,8 @@ static void the_recommended_setting_is_accurate(void **state)
 
 /* In these two cases, a step ends close to a flat configuration. In the first case it ends 5e-7 rad
  * from the flat configuration. The acceleration that the equations give there has no correct digit.
- * In the second case, an ordinary projection does not converge at the end of the step. Runs whose
- * steps do not end close to it have errors of 4e-6. */
+ * In the second case, an ordinary projection does not converge at the end of the step. Runs in
+ * which no step ends close to a flat configuration have errors of 4e-6. */
 static void fixed_steps_may_end_in_a_singular_configuration(void **state)
 {
   (void)state;
@@ -175,8 +175,8 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
 }
 
 /* A small error in a singular configuration causes a violation. Because of this violation, the
- * mechanism cannot reach the next singular configuration. The motion reverses shortly before, and
- * continues on the other branch. */
+ * mechanism cannot reach the next singular configuration. The motion reverses shortly before this
+ * configuration, and continues on the other branch. */
 static void drifting_runs_that_leave_their_branch_warn(void **state)
 {
   (void)state;

@@ -152,8 +152,9 @@ static double sensitivity(const posed *p, double gain)
   return most;
 }
 
-/* Adds to `worst` the errors at the present state. Calls the internal function for accelerations,
- * because the public one replaces the multipliers by those of least norm if a row is omitted. */
+/* Updates the largest errors `worst` with the errors at the present state. Calls the internal
+ * function for accelerations, because the public one replaces the multipliers by those of least
+ * norm if a row is omitted. */
 static void meet(posed *p, double gain, double rounded, errors *worst)
 {
   baum_workspace *w = p->workspace;
@@ -168,8 +169,8 @@ static void meet(posed *p, double gain, double rounded, errors *worst)
   worst->lambda = worse(quad_error(p->nc, p->lambda, p->want_lambda), worst->lambda);
 }
 
-/* Adds to `worst` the errors at a state, and those at a second state that violates the
- * constraints. */
+/* Updates the largest errors `worst` with the errors at a state, and with those at a second state
+ * that violates the constraints. */
 static void meet_all(posed *p, uint64_t *seed, double rounded, errors *worst)
 {
   meet(p, 0.0, rounded, worst);

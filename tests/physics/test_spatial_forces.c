@@ -350,8 +350,8 @@ static void every_method_makes_the_same_motion(void **state)
 /* ---- a bushing that rotates too far ---- */
 
 /* Runs a sphere that rotates in a bushing about a tilted axis. Returns the code of the run's
- * warning, or 0 if there is none. With the initial angular velocity w_0, the angle reaches at most
- * w_0 / sqrt(k / I). */
+ * warning, or 0 if there is none. With the initial angular velocity w_0, the rotational stiffness k
+ * and the moment of inertia I, the angle reaches at most w_0 / sqrt(k / I). */
 static int warning_of(double angle, double stiffness, bool fixed)
 {
   static const double n[3] = {2.0 / 7.0, -3.0 / 7.0, 6.0 / 7.0};

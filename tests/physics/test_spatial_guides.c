@@ -350,9 +350,10 @@ static void three_knife_edges_are_a_ball_joint(void **state)
 
 /* ---- a cable over two points ---- */
 
-/* Weights m1 and m2 hang from a cable over two points of ground, and move down by x1 and x2. With
- * the stiffness k and the damping c, the elongation s of the cable satisfies s'' = 2 g - (1/m1 +
- * 1/m2) (k s + c s'). Moreover, m1 x1 - m2 x2 has the constant acceleration (m1 - m2) g. */
+/* Weights of the masses m1 and m2 hang from a cable over two points of ground, and move down by x1
+ * and x2. With the stiffness k and the damping d of the cable, its elongation s satisfies s'' = 2 g
+ * - (1/m1 + 1/m2) (k s + d s'). Moreover, m1 x1 - m2 x2 has the constant acceleration (m1 - m2)
+ * g. */
 static const double K = 400.0, D = 6.0, M1 = 2.0, M2 = 3.0;
 
 static baum_mechanism *make_pulleys(double stretch)
@@ -475,7 +476,8 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   const double fall = sqrt(2.0 * 0.5 / G);
   const double w = sqrt(200.0);
   const double speed = G * fall;
-  /* z + 1 = -g / w^2 + a cos(w t + p) is 0 when the cable becomes taut, and when it slackens. */
+  /* On the cable, z + 1 = -g / w^2 + a cos(w t + p) with constants a and p. It is 0 when the cable
+   * becomes taut, and when it slackens. */
   const double on_cable = 2.0 / w * (0.5 * 3.14159265358979324 + atan(G / w / speed));
   o.integrator = baum_dp5();
   o.rtol = 1e-10;
@@ -491,7 +493,8 @@ static void a_weight_falls_into_the_cable_and_returns(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The residual must stay small although the cable becomes taut and slack several times. */
+/* The residual of the energy account must stay small although the cable becomes taut and slack
+ * several times. */
 static void the_energy_residual_stays_small_across_slack(void **state)
 {
   (void)state;
@@ -535,7 +538,8 @@ static void the_tension_is_continuous_and_never_negative(void **state)
       check(baum_workspace_force(w, 0.0, q, v, force));
       const double tension = force[2] + G;
       assert_true(tension >= -1e-14 && (s > 0.0 || fabs(tension) <= 1e-14));
-      /* the largest slope of the tension over the length is k + 1.5 c |l'| / d with d = 1e-4 m */
+      /* The slope of the tension over the length l is at most k + 1.5 c |l'| / d. Here k is the
+       * stiffness, c is the damping, and d = 1e-4 m is the elongation at which damping is full. */
       assert_true(fabs(tension - before) <= 1e-6 * (200.0 + 1.5 * 5.0 * 2.0 / 1e-4) + 1e-12);
       before = tension;
       const double x = fmin(s / 1e-4, 1.0);

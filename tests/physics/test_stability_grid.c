@@ -41,8 +41,8 @@ static void watch_circle(physics_mechanism which)
   }
   printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", watched.nc,
          TAYLOR_STEPS, worst);
-  /* Relative to the scale, the initial violations are at least 1e-7. In each step, the motion adds
-   * h^2 |gamma|, which is about 1e-10. */
+  /* Relative to the characteristic length, the initial violations are at least 1e-7. In each step,
+   * the motion adds h^2 |gamma|, which is about 1e-10. */
   assert_true(worst < 1e-2);
   unwatch(&watched);
   unwatch(&consistent);

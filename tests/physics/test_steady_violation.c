@@ -102,8 +102,9 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
 /* Compares the largest violation of the run with the largest violation that is predicted. Both are
  * in the counters. The two agree if gamma is largest late in the run, as it is for the pendulum.
  * For the free crank, gamma is largest at the start. At the start, however, Phi rises from zero and
- * overshoots like a step response, by at most 100 %. With explicit Euler and (0.3, 0.7), whose
- * roots have the modulus 0.94, an overshoot of 90 % was measured. */
+ * overshoots like a step response, by at most 100 %. With explicit Euler and (alpha h, beta h) =
+ * (0.3, 0.7), an overshoot of 90 % was measured. The amplification factors then have the modulus
+ * 0.94. */
 static void compare_counters(const watched_run *watched, physics_mechanism which)
 {
   baum_counters c = counters_of(watched->run);

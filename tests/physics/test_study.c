@@ -60,7 +60,7 @@ static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_
 }
 
 /* Compares the reference that the study computes with the reference of the catalogue. Also compares
- * the estimated error of this reference with the actual difference. */
+ * the estimated error of the computed reference with the actual difference. */
 static void check_entry(const baum_catalog_entry *entry)
 {
   const baum_catalog_choice choice = {.name = entry->name};

@@ -152,7 +152,7 @@ static void a_study_of_many_threads_can_be_cancelled_from_another_thread(void **
   }
   assert_int_equal(pthread_join(thread, NULL), 0);
   check(j.status);
-  for (int k = 1; k <= 3; k++) { /* the progress function cancels after one entry */
+  for (int k = 1; k <= 3; k++) { /* the progress function cancels in its call 3, 6 or 9 */
     j.seen.calls = 0;
     j.seen.cancel_at = 3 * k;
     check(baum_study_run(j.study));

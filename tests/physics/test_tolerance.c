@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tighter tolerance must give a smaller error. Integrators with variable steps are tested with
- * the index-1 equations. They are compared with references, with rtol from 1e-4 to 1e-10. */
+/* A tighter tolerance must give a smaller error. Runs of the integrators with variable steps are
+ * compared with references, at rtol from 1e-4 to 1e-10. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -180,7 +180,7 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
     baum_counters counters = counters_of(run);
     printf(
       "\n%s: start at %.17g rad/s, |Phi| %.1e, |Phi'| %.1e, change of the design configuration "
-      "%.2g of the scale\n",
+      "%.2g characteristic lengths\n",
       REFERENCES[driven].name, v[2], counters.max_phi, counters.max_phi_rate,
       counters.start_change);
 

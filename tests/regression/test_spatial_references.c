@@ -82,7 +82,7 @@ static void every_method_reaches_the_references(void **state)
 #endif
 }
 
-/* The two governors are not run, because they have dampers, which RATTLE refuses. */
+/* RATTLE refuses dampers, so the two flyball governors are not in this list. */
 static void rattle_converges_to_the_references_with_its_order(void **state)
 {
   (void)state;

@@ -155,7 +155,8 @@ static const decades DECADES[] = {
    GAIN_WAYS, true, 0},
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio),
    KIND(CRANK) | KIND(WINDOWS) | KIND(SPATIAL_CRANK) | KIND(RSSR), -12, 12, 3, WAYS, false, 0},
-  /* For Bricard's mechanism, this is the ratio of a rod's moments of inertia. It is at most 2. */
+  /* For Bricard's mechanism, `ratio` is the ratio of a rod's moments of inertia, which is at most
+   * 2. */
   {"space_mass_ratio", "space: mass ratio", NUMBER(scene.ratio), KIND(BRICARD), -12, 0, 3, WAYS,
    false, 0},
   {"space_stiffness", "space: stiffness", NUMBER(scene.stiffness), KIND(SPATIAL_CRANK), 0, 12, 2,

@@ -30,8 +30,8 @@ static const double GAIN = 5.0; /* [1/s] alpha = beta */
 typedef enum bare_way { ADAMS, BDF, INDEX1, INDEX3, BARE_WAYS } bare_way;
 static const char *const BARE_NAMES[BARE_WAYS] = {"CVODE Adams", "CVODE BDF", "IDA index 1",
                                                   "IDA index 3"};
-/* Each program is compared with one of these settings of the library. Both programs that use IDA
- * are compared with the same setting. */
+/* The setting of the library with which each of the hand-written programs is compared. Both
+ * programs that use IDA are compared with the same setting. */
 static const char *const BESIDE[BARE_WAYS] = {"adams", "bdf", "ida ggl", "ida ggl"};
 
 /* ---- the equations, by hand ---- */
@@ -75,8 +75,9 @@ typedef struct rows {
   double j[ROWS][Q];
 } rows;
 
-/* Adds a point to two rows, multiplied by `sign`. It is the point (x, 0) of body b, which is
- * r + A(angle) (x, 0) in ground axes. */
+/* Adds the position of a point, multiplied by `sign`, to two rows. The point is (x, 0) in the axes
+ * of body b. Its position in ground axes is r + A(angle) (x, 0), where r is the position of the
+ * body and A is the rotation matrix. */
 static void add_point(rows *r, int row, const double *q, const double *v, int b, double x,
                       double sign)
 {

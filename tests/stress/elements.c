@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steady motion of the disc. The axis of the disc is at the angle p from the vertical. The centre
  * moves with the angular velocity W on a circle of radius c, and the contact point is on the outer
- * side. Relative to axes that precess with the disc, it spins about its axis with -x'. R is its
- * radius. Its moments of inertia are I_a (axial) and I_t (transverse). The contact point does not
- * slip, and the angular momentum about the centre is balanced, if
+ * side. Relative to axes that precess with the disc, the disc spins about its axis with -x'. The
+ * disc has the mass m, the radius R, and the moments of inertia I_a (axial) and I_t (transverse).
+ * The acceleration of gravity is g. The contact point does not slip, and the angular momentum about
+ * the centre is balanced, if
  *
  *   x' = W (c / R + cos p),   m g R cos p = W^2 sin p (m R c + I_a c / R + I_t cos p)
  *
@@ -11,14 +12,15 @@
  *
  *   (A - I_t) cos p W^2 - A x' W + m g R cot p = 0
  *
- * The bushing has equal stiffness k in all directions, and also damping d. Its points are at the
- * distance b from the axis of the revolute joint. At the start, the angle is RELAXED larger than
- * the angle at which the bushing is relaxed. If h is the angle from the relaxed one, its torque is
- * -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ * The bushing has the same stiffness k and the same damping d in all directions. Its points are at
+ * the distance b from the axis of the revolute joint. At the start, the angle is larger by RELAXED
+ * than the angle at which the bushing is relaxed. If h is the angle of the pendulum minus this
+ * relaxed angle, the torque of the bushing is -k (b^2 sin h + h) - d (b^2 + 1) x'.
  *
- * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable runs from the bead to the
- * point (0, 0, h), and over a length SIDE to its end. With l = sqrt(r^2 + (h - c x)^2), its torque
- * is -(k (l - RELAXED_LENGTH) + d l') dl/dx.
+ * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable has the stiffness k and the
+ * damping d. It runs from the bead to the point (0, 0, h), and from there over the length SIDE to
+ * its end. With l = sqrt(r^2 + (h - c x)^2), the torque of the cable is
+ * -(k (l - RELAXED_LENGTH) + d l') dl/dx.
  */
 #include "elements.h"
 
@@ -39,7 +41,8 @@ static const double RELAXED = 0.1;
 static const double RISE = 0.4; /* c [m/rad] */
 static const double TOP = 2.0;  /* h */
 static const double SIDE = 0.5;
-static const double RELAXED_LENGTH = 1.0; /* of the cable without SIDE; the cable is always taut */
+/* The free length of the cable without SIDE. The cable is always taut. */
+static const double RELAXED_LENGTH = 1.0;
 
 static const long double MASSES[2][4] = {{1, 0.04L, 0.05L, 0.06L}, {1, 0.02L, 0.03L, 0.04L}};
 static const long double DISC_MASS[4] = {1, 0.0625L, 0.0625L, 0.125L};

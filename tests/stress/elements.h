@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial mechanisms of the stress grid with elements that the catalogue does not have. They are
- * functions of one angle x, like all spatial mechanisms of the grid (space.c). Gravity acts along
- * -z.
+/* Spatial mechanisms of the stress grid with elements that the catalogue does not have. Their
+ * coordinates are functions of one angle x, as in all spatial mechanisms of the grid (space.c).
+ * Gravity acts along -z.
  *
  *   wheel    an unbalanced wheel rolls on a plane, and moves a slider by its axle
  *   disc     a tilted disc rolls on a circle, in steady motion; x is the angle of its spin

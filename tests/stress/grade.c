@@ -31,9 +31,9 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* No promise is larger than this, because a result with a larger error would be useless. With fixed
- * steps, the bound is WORTHLESS. With variable steps, it is TOLERANCES x rtol if that is larger
- * than WORTHLESS. */
+/* Promises have an upper bound, because a result with a larger error would be useless. With fixed
+ * steps, the bound is WORTHLESS. With variable steps, it is WORTHLESS or TOLERANCES x rtol,
+ * whichever is larger. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
@@ -169,8 +169,8 @@ static void count(trial *t)
   }
 }
 
-/* If a body is displaced in the design configuration, the true motion starts where the library has
- * assembled it. */
+/* If a body is displaced in the design configuration, the true motion starts in the configuration
+ * that the library has assembled. */
 static void take_start(trial *t)
 {
   scene *s = &t->scene;

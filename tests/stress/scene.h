@@ -48,7 +48,7 @@ typedef struct scene {
   double violation; /* [m] by how much the last body is displaced in the design configuration */
   int spare;        /* number of redundant joints */
   double off;       /* [m] by how much the redundant joints differ from the others */
-  double gap;       /* [rad] or [m] distance from a singular configuration, which grade.c needs */
+  double gap;       /* [rad] or [m] distance from a singular configuration, for grade.c */
   /* Whether this is a planar mechanism built of spatial elements in a tilted plane. */
   bool tilted;
   model_units units;

@@ -50,7 +50,8 @@ int space_bodies(const scene *s)
 }
 
 /* Returns the angular velocity of precession. A top with a horizontal axis precesses steadily at m
- * g l / (C n). Here C is its axial moment of inertia, and n is its spin. */
+ * g l / (C n). Here m is the mass, l = 1 m is the distance of the centre of mass from the fixed
+ * point, C is the axial moment of inertia, and n is the spin. */
 static double precession(const scene *s)
 {
   double axial = TOP_MASS * TOP_RADIUS * TOP_RADIUS / 2;
@@ -94,7 +95,8 @@ static carried crank_body(int body, jets x)
   return rod;
 }
 
-/* The angle b of the rocker is the solution of A cos b + B sin b = C. */
+/* The angle b of the rocker is the solution of d[1] cos b + d[2] sin b = c. Here d is the vector
+ * from the tip of the crank to the pivot of the rocker. */
 static carried rssr_body(int body, jets x)
 {
   carried tip = carried_at(0, 0, 0);

@@ -249,7 +249,8 @@ static void dense_fill(const dense_solver *s)
   }
 }
 
-/* Exchanges two whole rows, together with their right sides. */
+/* Exchanges row k with the row that has the largest entry in column k, together with their right
+ * sides. */
 static bool dense_pivot(dense_solver *s, int k)
 {
   int n = s->c.n;

@@ -32,8 +32,8 @@ typedef struct neighbours {
   long double both[NUMBERS][NUMBERS];        /* the matrix G, and later its Cholesky factor L */
 } neighbours;
 
-/* Computes z = (q, v / rate), in units of errors. The velocities v are computed by differences of
- * q. */
+/* Computes z = (q, v / rate). Each entry is divided by its unit, a length or 1 rad. The velocities
+ * v are computed by differences of q. */
 static void measure(const sweep_scene *s, const sweep_motion *m, const long double *y,
                     long double *z)
 {

@@ -44,8 +44,8 @@ typedef struct sweep_tally {
   sweep_fault faults[SWEEP_FAULTS];
 } sweep_tally;
 
-/* Begins a part of the sweeps. If `fixed` is true, it contains all methods with a fixed step,
- * otherwise all methods with a variable step. Each method has all its formulations. */
+/* Begins a part of the sweeps. If `fixed` is true, the part contains all methods with a fixed step,
+ * otherwise all methods with a variable step. Each integrator is used with all its formulations. */
 void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv);
 /* Makes one run with a method. `setting` is the step [s] or rtol. */
 sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting);
