@@ -235,7 +235,12 @@ typedef struct baum_simulation_options {
   double start_time;  /**< [s] Default: 0. */
   baum_start start;   /**< Default: BAUM_START_ASSEMBLE. */
   baum_solver solver; /**< Default: BAUM_SOLVER_AUTO. */
-  /** Check derivatives first, see baum_mechanism_check_derivatives(). Default: true. */
+  /** Check the derivatives of user functions, first as baum_mechanism_check_derivatives() does.
+   *  During the run they are checked again after 32, 96, 224, 480, ... steps, and at the end of a
+   *  call that has advanced the run by enough steps since the last check. These checks call the
+   *  functions at states near those of the run. If a derivative is wrong there, the run warns with
+   *  BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last good
+   *  state, even without this option, and the message names a wrong one. Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
@@ -860,7 +865,9 @@ typedef enum baum_warning_code {
   BAUM_WARNING_SINGULAR_START = 104,
   /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion
    *  spring nearly pointed in opposite directions, and a step was too long for its angle there. */
-  BAUM_WARNING_BUSHING = 105
+  BAUM_WARNING_BUSHING = 105,
+  /** A user function returned a wrong derivative at a state of the run. */
+  BAUM_WARNING_WRONG_DERIVATIVE = 106
 } baum_warning_code;
 
 /** Name of a kind of warnings.

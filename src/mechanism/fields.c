@@ -137,6 +137,16 @@ static bool has_function(const baum_i_def_field *f, const void *def)
   return function != NULL;
 }
 
+bool baum_i_fields_have_function(const baum_i_definition *definition, const void *def)
+{
+  for (const baum_i_def_field *f = definition->fields; f->name; f++) {
+    if (f->kind >= BAUM_I_FIELD_FUNCTION && f->kind < BAUM_I_FIELD_USER && has_function(f, def)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 static baum_status check_array(const baum_i_def_field *f, const void *def, const char *label)
 {
   const double *values = pointer_at(f, def);

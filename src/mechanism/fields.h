@@ -195,6 +195,9 @@ baum_status baum_i_fields_check(const baum_i_definition *definition,
 baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const void *present,
                                      const void *next, const char *label);
 
+/* Tell whether a definition gives a user function. */
+bool baum_i_fields_have_function(const baum_i_definition *definition, const void *def);
+
 /* Replace the arrays of a definition by copies. Returns BAUM_OK, or BAUM_ERR_MEMORY. After a
  * failure the definition owns no memory. */
 baum_status baum_i_fields_own(const baum_i_definition *definition, void *def);

@@ -198,6 +198,7 @@ typedef struct baum_i_point {
   double *scratch; /* (mechanism->scratch_size) for user functions and differences */
   bool retry;      /* set by a failure that a smaller step may avoid */
   bool asking;     /* set while a user function runs; the user function must not use this point */
+  bool checks_run; /* set while derivatives are checked at a state of a run */
 } baum_i_point;
 
 /* Return the frame of a body in the design configuration at rest. May be called before freeze. */

@@ -35,6 +35,7 @@ static void keep_trial(baum_simulation *run)
     run->integrator->accept(run->self, &run->problem, &run->state);
   }
   baum_i_crossings_look(run);
+  baum_i_run_recheck(run, &run->state, false);
 }
 
 /* ---- a fixed-step method to a target ---- */
@@ -170,6 +171,7 @@ static baum_status internal_step(baum_simulation *run)
   }
   baum_i_run_observe(run, run->ahead.t, false);
   baum_i_crossings_look(run);
+  baum_i_run_recheck(run, &run->ahead, false);
   return BAUM_OK;
 }
 
@@ -293,6 +295,9 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
     return status;
   }
   baum_i_kept_message reason = baum_i_message_keep();
+  if (status == BAUM_OK || status == BAUM_STOP_EVENT) {
+    baum_i_run_recheck(run, state, true);
+  }
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);

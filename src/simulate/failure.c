@@ -141,6 +141,13 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
   char text[BAUM_I_MESSAGE_SIZE / 2] = "";
   baum_i_probe_begin(&probe, run->workspace);
   append_place(run, at, text, sizeof text);
+  int joint = BAUM_I_NO_JOINT;
+  if (baum_i_run_find_wrong_derivative(run, at, &joint)) {
+    return baum_i_fail(baum_i_probe_end(&probe, status),
+                       "%.400s%.200s; correct a user function: "
+                       "%.300s",
+                       probe.message.text, text, baum_message());
+  }
   return baum_i_fail(baum_i_probe_end(&probe, status), "%.500s%s; %s", probe.message.text, text,
                      help);
 }

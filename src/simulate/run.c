@@ -91,6 +91,7 @@ const char *baum_warning_name(baum_warning_code code)
     {BAUM_WARNING_ACCURACY, "accuracy"},
     {BAUM_WARNING_SINGULAR_START, "singular_start"},
     {BAUM_WARNING_BUSHING, "bushing"},
+    {BAUM_WARNING_WRONG_DERIVATIVE, "wrong_derivative"},
   };
   for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
     if (names[i].code == code) {

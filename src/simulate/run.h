@@ -105,6 +105,8 @@ struct baum_simulation {
   bool reporting;       /* true while progress() runs */
   /* [s] time in the motion at which the lengths of the steps were last checked; see interrupt.c */
   double paced_at;
+  bool has_functions; /* true if the mechanism has user functions whose derivatives are checked */
+  int64_t rechecked;  /* counters.steps at the last check of derivatives; see recheck.c */
 };
 
 /* ---- run.c ---- */
@@ -369,6 +371,16 @@ baum_status baum_i_run_limit_acceleration(baum_simulation *run);
  * near a singular configuration, where its rounding errors would be larger than the error of the
  * step. Returns the statuses of baum_i_project(). */
 baum_status baum_i_run_project(baum_simulation *run, double t);
+
+/* ---- recheck.c ---- */
+
+/* Check the derivatives of user functions at a state, for which the workspace must not be needed
+ * any more. Returns true after setting the message if a derivative is wrong. *joint is then set as
+ * baum_i_check_at() does. Overwrites run->spare. */
+bool baum_i_run_find_wrong_derivative(baum_simulation *run, const baum_i_state *at, int *joint);
+
+/* Do the same if it is due after a step or at the end of a call, and warn. */
+void baum_i_run_recheck(baum_simulation *run, const baum_i_state *at, bool ends_call);
 
 /* ---- failure.c ---- */
 

@@ -193,6 +193,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 /* Discard the data that are not saved. */
 static void forget_unsaved(baum_simulation *run)
 {
+  run->rechecked = run->counters.steps;
   baum_i_workspace_forget(run->workspace);
   baum_i_companion_forget(run);
   if (run->account) {

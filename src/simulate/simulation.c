@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "mechanism/definition.h"
+#include "mechanism/general/check.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
@@ -154,6 +155,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
                                    : o->solver == BAUM_SOLVER_QR ? BAUM_I_KKT_QR
                                                                  : BAUM_I_KKT_AUTO;
   run->counters.error_estimate = (double)NAN;
+  run->has_functions = baum_i_has_checked_functions(m);
   BAUM_I_TRY(o->check_derivatives ? baum_mechanism_check_derivatives(m) : BAUM_OK);
   BAUM_I_TRY(baum_i_workspace_create(m, choice, &run->workspace));
   BAUM_I_TRY(make_states(run));

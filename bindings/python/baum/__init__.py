@@ -45,6 +45,7 @@ from .errors import (
     UncertainSensitivityWarning,
     ViolationWarning,
     Warning,
+    WrongDerivativeWarning,
 )
 from .gains import Gains, auto, best_damping, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
@@ -154,6 +155,7 @@ __all__ = [
     "ViolationWarning",
     "Warning",
     "Workspace",
+    "WrongDerivativeWarning",
     "a",
     "auto",
     "best_damping",

@@ -443,6 +443,7 @@ class baum_warning_code(enum.IntEnum):
     BAUM_WARNING_ACCURACY = 103
     BAUM_WARNING_SINGULAR_START = 104
     BAUM_WARNING_BUSHING = 105
+    BAUM_WARNING_WRONG_DERIVATIVE = 106
 
 
 class baum_warning(Structure):

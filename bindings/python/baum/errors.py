@@ -195,6 +195,12 @@ class BushingWarning(DoubtWarning):
     code = 105
 
 
+class WrongDerivativeWarning(DoubtWarning):
+    """One of your functions returned a wrong derivative at a state of the run."""
+
+    code = 106
+
+
 class UncertainSensitivityWarning(Warning):
     """sensitivities() found different derivatives with two sizes of its difference step. This
     warning does not belong to a run."""

@@ -230,7 +230,8 @@ class Simulation(_calls.Closing):
         constraints. "as_given" accepts such a configuration and does not assemble it.
     solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
     check_derivatives: True first compares the derivatives of your functions with finite
-        differences.
+        differences, and does so again at some states of the run. If a derivative is wrong there,
+        the run warns with WrongDerivativeWarning.
     max_steps: number of steps after which a call fails.
     energy_account: True computes the work of all forces during the run. The property and the
         channel `energy_account` report this work.

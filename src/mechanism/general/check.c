@@ -22,6 +22,12 @@
  * configuration, the check skips this configuration. If a user function fails in all
  * configurations, the check fails. A function is allowed to fail in the design configuration,
  * because velocities that are not given are set to zero there.
+ *
+ * During a run, baum_i_check_at() checks the functions again at a state of the run. It calls them
+ * less often: it compares all columns of a matrix together, along one direction, and each column
+ * only if the results differ. A derivative that looks wrong must also look wrong at two points
+ * shortly before the state, or at two points shortly after it, because the state itself may be at a
+ * jump of a second derivative, for example at the end of a phase of constant acceleration.
  */
 #include "mechanism/general/check.h"
 
@@ -150,6 +156,39 @@ static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, i
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
 }
 
+/* Return the k-th quasi-random number with alternating sign and a magnitude between 0.2 and 1. */
+static double spread(int k)
+{
+  double size = 0.6 + 0.4 * baum_i_golden(k);
+  return k % 2 == 0 ? size : -size;
+}
+
+/* Write a direction in which all coordinates change by about their scales. */
+static void set_general_direction(const baum_i_local *at, double *direction)
+{
+  for (int j = 0; j < at->nl; j++) {
+    direction[j] = at->scale[j] * spread(j);
+  }
+}
+
+/* Tell whether the deviation of a value is negligible. Where a motion satisfies its constraints,
+ * phi is zero along the motion, and its rounding errors cannot be estimated from its size. The
+ * deviation is therefore compared with the variation of the function when all coordinates change.
+ */
+static bool is_negligible(const column *c, const baum_i_local *at, const trial *t, int i)
+{
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  set_general_direction(at, direction);
+  const baum_i_ray ray = {
+    .dt = c->ray->dt / c->ray->rate, .dq = direction, .dv = direction, .rate = 1.0};
+  baum_status status = baum_i_difference_once(&baum_i_stencil_first, c->field, &ray, &here,
+                                              baum_i_stencil_first.step, &t->now);
+  double least =
+    (row_tolerance * t->now.variation[i] + t->now.noise[i]) * pow(c->ray->rate, c->stencil->order);
+  return status != BAUM_OK || fabs(given(c, i) - t->value[i]) <= least;
+}
+
 /* Tell whether a value is wrong. A value is wrong only if it deviates for the best step and for at
  * least one other step, because rounding may affect a single step. */
 static bool is_wrong(const column *c, const trial *t, int i)
@@ -162,7 +201,8 @@ static bool is_wrong(const column *c, const trial *t, int i)
 static baum_status verdict(const column *c, const baum_i_local *at, const trial *t)
 {
   for (int i = 0; i < c->field->size; i++) {
-    if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
+    if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i)) &&
+        !(at->point->checks_run && is_negligible(c, at, t, i))) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but finite differences of %s give %.9g",
                          baum_i_user_entry(c->claim->function, c->first + i * c->stride).text,
                          given(c, i), c->claim->source, t->value[i]);
@@ -253,9 +293,35 @@ static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
   }
 }
 
+/* Tell whether a claim (size x nl) agrees with differences along one direction, in which all
+ * coordinates change. */
+static bool agrees_along(const baum_i_claim *claim, const baum_i_field *field,
+                         baum_i_variable variable, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  double *products = baum_i_take(&here, field->size);
+  memset(products, 0, (size_t)field->size * sizeof *products);
+  set_general_direction(at, direction);
+  for (int j = 0; j < at->nl; j++) {
+    for (int i = 0; i < field->size; i++) {
+      products[i] += claim->given[i * at->nl + j] * direction[j];
+    }
+  }
+  bool by_q = variable == BAUM_I_VARIABLE_Q;
+  const baum_i_ray ray = {.dq = by_q ? direction : NULL,
+                          .dv = by_q ? NULL : direction,
+                          .rate = by_q ? 1.0 : 1.0 / fmax(baum_i_local_rate(at), 1.0)};
+  const baum_i_claim along = {claim->function, claim->source, products};
+  return baum_i_compare_ray(&along, &baum_i_stencil_first, field, &ray, &here) == BAUM_OK;
+}
+
 baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
                                    baum_i_variable variable, const baum_i_local *at)
 {
+  if (at->point->checks_run && agrees_along(claim, field, variable, at)) {
+    return BAUM_OK;
+  }
   baum_i_local here = *at;
   double *direction = baum_i_take(&here, at->nl);
   double *row_size = baum_i_take(&here, field->size);
@@ -297,13 +363,6 @@ static baum_status make_place(const baum_mechanism *mechanism, place *p)
   p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));
   p->v = baum_i_alloc((size_t)mechanism->nv, sizeof(double));
   return p->q && p->v ? BAUM_OK : baum_i_fail_memory();
-}
-
-/* Return the k-th quasi-random number with alternating sign and a magnitude between 0.2 and 1. */
-static double spread(int k)
-{
-  double size = 0.6 + 0.4 * baum_i_golden(k);
-  return k % 2 == 0 ? size : -size;
 }
 
 enum { CONFIGURATIONS = 4 };
@@ -405,4 +464,82 @@ baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
   }
   release_place(&p);
   return baum_i_message_settle(status, &kept);
+}
+
+/* ---- a state of a run ---- */
+
+/* Times from a state to the points on one side of it, in units of the time in which the motion
+ * changes. They are less than the longest steps of the differences. */
+static const double BESIDE[] = {0.0123, 0.0077};
+
+static bool is_wrong_at(const baum_i_element *element, baum_i_point *point)
+{
+  return element->definition->check_derivatives(element, point) == BAUM_ERR_ARGUMENT;
+}
+
+/* Tell whether an element is wrong at both points on one side of the state. */
+static bool is_wrong_beside(const baum_i_element *element, baum_i_point *point,
+                            const baum_i_run_state *at, double side)
+{
+  const baum_mechanism *m = point->mechanism;
+  for (int k = 0; k < 2; k++) {
+    double dt = side * BESIDE[k] * at->unit;
+    memcpy(at->beside, at->q, (size_t)m->nq * sizeof *at->beside);
+    baum_i_move(m, dt, at->v, at->beside);
+    baum_i_point_set(point, at->t + dt, at->beside, at->v);
+    if (!is_wrong_at(element, point)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* Confirm that an element is wrong. Sets the point to the state again, and restores the message. */
+static bool is_confirmed(const baum_i_element *element, baum_i_point *point,
+                         const baum_i_run_state *at)
+{
+  const baum_i_kept_message message = baum_i_message_keep();
+  bool is_wrong =
+    is_wrong_beside(element, point, at, -1.0) || is_wrong_beside(element, point, at, 1.0);
+  baum_i_point_set(point, at->t, at->q, at->v);
+  (void)baum_i_message_settle(BAUM_OK, &message);
+  return is_wrong;
+}
+
+static bool has_functions(const baum_i_element *element)
+{
+  const baum_i_definition *d = element->definition;
+  return d->check_derivatives && baum_i_fields_have_function(d, element->def);
+}
+
+bool baum_i_has_checked_functions(const baum_mechanism *mechanism)
+{
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    for (int k = 0; k < baum_i_family_count(baum_i_families[i], mechanism); k++) {
+      if (has_functions(baum_i_families[i]->at(mechanism, k))) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+baum_status baum_i_check_at(baum_i_point *point, const baum_i_run_state *at, int *joint)
+{
+  baum_status status = BAUM_OK;
+  baum_i_point_set(point, at->t, at->q, at->v);
+  point->checks_run = true;
+  for (int i = 0; i < BAUM_I_FAMILIES && status == BAUM_OK; i++) {
+    const baum_i_family *family = baum_i_families[i];
+    for (int k = 0; k < baum_i_family_count(family, point->mechanism) && status == BAUM_OK; k++) {
+      const baum_i_element *element = family->at(point->mechanism, k);
+      if (has_functions(element) && is_wrong_at(element, point) &&
+          is_confirmed(element, point, at)) {
+        *joint = family == &baum_i_joint_family ? k : -1;
+        status = BAUM_ERR_ARGUMENT;
+      }
+    }
+  }
+  point->checks_run = false;
+  return status;
 }

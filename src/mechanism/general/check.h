@@ -47,4 +47,23 @@ baum_status baum_i_compare_entries(const baum_i_user_function *function, const c
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
                                      const baum_i_field *field, const baum_i_local *at);
 
+/* ---- during a run ---- */
+
+/* Tell whether a mechanism has user functions that baum_mechanism_check_derivatives() checks. */
+bool baum_i_has_checked_functions(const baum_mechanism *mechanism);
+
+/* A state of a run, at which functions are checked. */
+typedef struct baum_i_run_state {
+  double t;
+  const double *q;
+  const double *v;
+  double unit;    /* [s] time in which the motion changes */
+  double *beside; /* (nq) memory for a point near this state */
+} baum_i_run_state;
+
+/* Check all user functions of the mechanism at a state. Functions that fail there are not checked.
+ * Sets the point to the state. Returns BAUM_OK, or BAUM_ERR_ARGUMENT after setting the message. In
+ * this case *joint is the number of the joint with the wrong function, or -1 for other elements. */
+baum_status baum_i_check_at(baum_i_point *point, const baum_i_run_state *at, int *joint);
+
 #endif
