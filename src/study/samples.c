@@ -60,7 +60,8 @@ void baum_i_study_clear_samples(baum_i_samples *samples)
 
 /* ---- weights ---- */
 
-/* Computes n_i for all rows, at the first sample of the reference. */
+/* Computes the norms n_i of all rows of J (see the top of this file) at the first sample of the
+ * reference. */
 static baum_status measure_rows(const baum_study *study, double *rows)
 {
   baum_workspace *w = NULL;

@@ -101,8 +101,8 @@ spatial_scene spatial_scene_make(bool spheres)
     check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
   }
 
-/* Phi of a screw jumps by the pitch. The pitch is so large that there is no jump between the points
- * of a finite difference. */
+/* Phi of a screw jumps when it exceeds half the pitch. With this large pitch, Phi stays far below
+ * the jump at all points of a finite difference. */
 static void add_screw(spatial_scene *s, int a, int b)
 {
   static const double axis[3] = {0.3, -1.0, 0.7};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The part that planar joints have in common. Every joint has kernels. These are functions that
- * evaluate one joint over six columns from its two markers.
+/* The part that planar joints have in common. Every joint has kernels. A kernel is a function that
+ * computes the rows of one joint from its two markers. The rows have six columns, three for each
+ * body.
  *
  * This file contains the loops over the joints of a group, and the conversion to packed columns.
  * These loops are inline functions, and the kernels are constants in the file of a joint. The
