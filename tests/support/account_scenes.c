@@ -153,6 +153,9 @@ static void add_springs(maker *make)
   spring.free_length = 0.9;
   keep(make, baum_mechanism_add_planar_spring(make->m, &spring, NULL));
   spring.body_b = make->links[1];
+  spring.stiffness = 0.0;
+  spring.damping = 0.0;
+  spring.free_length = NAN;
   spring.law = spring_law;
   keep(make, baum_mechanism_add_planar_spring(make->m, &spring, NULL));
   baum_planar_torsion_spring_def torsion = baum_planar_torsion_spring_def_default();

@@ -43,8 +43,10 @@ static void add_motor(baum_mechanism *mechanism, baum_joint_id pin, const drive 
   baum_driver_def def = baum_driver_def_default();
   def.name = "motor";
   def.joint = pin;
-  def.value = motor->angle;
-  def.rate = motor->rate;
+  if (!motor->law) {
+    def.value = motor->angle;
+    def.rate = motor->rate;
+  }
   def.law = motor->law;
   def.user = motor->user;
   check(baum_mechanism_add_driver(mechanism, &def, NULL));

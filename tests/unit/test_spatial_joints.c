@@ -227,8 +227,10 @@ static void couple(const spatial_scene *s, int a, baum_joint_coordinate of_a, in
   def.joint_b = baum_mechanism_joint_at(s->mechanism, b);
   def.coordinate_a = of_a;
   def.coordinate_b = of_b;
-  def.ratio = -1.5;
-  def.offset = 0.3;
+  if (!law) {
+    def.ratio = -1.5;
+    def.offset = 0.3;
+  }
   def.law = law;
   check(baum_mechanism_add_coupling(s->mechanism, &def, NULL));
 }
