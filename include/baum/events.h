@@ -21,18 +21,22 @@
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
  *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not
  *  an event, either, because rounding errors of the start may be the cause. Every later zero is an
- *  event. Impacts of a bouncing body may follow each other so fast that a terminal event happens
- *  again shortly after its own record, although the new velocities led away from zero, or so fast
- *  that the method computes the velocities at the next impact with the wrong sign. The run then
- *  fails with BAUM_ERR_STEP, because the body would otherwise fall through its stop. Let such a
- *  body rest once it is slow (docs/cookbook/stop.md). "Shortly" means within 1e-10 T, or within the
- *  tolerance of the event if that is longer. T is 1/r, where r is the rate of the motion, which
- *  baum_simulation_explain() states. For the method IDA, "shortly" means 10 rtol T instead of
- *  1e-10 T, because IDA first moves the state onto the constraints. baum_simulation_set_input() and
- *  baum_simulation_set_driver() trigger no event. If such a call changes the sign of an event
- *  function, the run continues with the new sign. To find the side of zero to which the motion
- *  starts, the run also evaluates event functions for other velocities than those of the state, and
- *  at times up to 2e-5 T after the start, with q moved along v.
+ *  event. "Shortly" means within 1e-10 T, or within the tolerance of the event if that is longer. T
+ *  is 1/r, where r is the rate of the motion, which baum_simulation_explain() states. For the
+ *  method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto
+ *  the constraints. To find the side of zero to which the motion starts, the run also evaluates
+ *  event functions for other velocities than those of the state, and at times up to 2e-5 T after
+ *  the start, with q moved along v.
+ *
+ *  Impacts: the impacts of a bouncing body may follow each other ever faster. In the end, a
+ *  terminal event happens again shortly after it was recorded, although the new velocities led away
+ *  from zero. Or the method computes the velocities at the next impact with the wrong sign. In both
+ *  cases the run fails with BAUM_ERR_STEP, because the body would otherwise fall through its stop.
+ *  Let such a body rest once it is slow (docs/cookbook/stop.md).
+ *
+ *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no
+ *  event. If such a call changes the sign of an event function, the run continues with the new
+ *  sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
  *  begins a new grid of steps there. */
