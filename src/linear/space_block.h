@@ -19,10 +19,11 @@
  * is 0 for the third entry of x and for the first two entries of y. Body 0 is the ground, with W =
  * 0.
  *
- * A matrix of n rows is stored by columns: four numbers of each column (rows 0 to 3), then, if n >
- * 4, two numbers of each column (rows 4 and 5). Unused rows are 0. A vector of n rows has four or
- * eight numbers. Numbers are loaded in groups of the same width in which they were stored, because
- * the processor delays a load that is wider than a recent store to the same memory. */
+ * A matrix of n rows is stored in two parts: first rows 0 to 3 of all columns, four numbers for
+ * each column, and then, if n > 4, rows 4 and 5 of all columns, two numbers for each column. Unused
+ * rows are 0. A vector of n rows has four or eight numbers. Numbers are loaded in groups of the
+ * same width in which they were stored, because the processor delays a load that is wider than a
+ * recent store to the same memory. */
 #ifndef BAUM_I_LINEAR_SPACE_BLOCK_H
 #define BAUM_I_LINEAR_SPACE_BLOCK_H
 

@@ -394,8 +394,8 @@ BAUM_I_INLINE double pushed_spin(const baum_i_space *b, const baum_i_space_side 
   return baum_i_four_sum(all);
 }
 
-/* Returns the largest spin of a thin body that the multipliers of one node cause, relative to the
- * whole spin or to `size`, whichever is larger. */
+/* For each thin body of a node, divides the spin that the multipliers of this node cause by the
+ * whole spin of the body, or by `size` if that is larger. Returns the largest quotient. */
 BAUM_I_INLINE double largest_spin(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                                   double size)
 {

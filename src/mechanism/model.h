@@ -504,7 +504,8 @@ struct baum_i_force_type {
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   /* Tell whether power() returns the power of the whole force. NULL if it never does. */
   bool (*power_is_whole)(const baum_i_force *force);
-  baum_i_power whole_class; /* the class that receives the power of a whole force */
+  /* if power_is_whole() returns true: the class to which power() adds the power */
+  baum_i_power whole_class;
   /* Tell whether the force jumps, or may have lost a revolution, during a step from the
    * configuration `from` to the configuration `to` (nq each). NULL if this never happens. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,

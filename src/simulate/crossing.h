@@ -67,7 +67,8 @@ void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 void baum_i_crossings_end(baum_simulation *run);
 
 /* Recompute the pivots of the last states after other rows have been omitted, so that they can be
- * compared with later pivots. An open interval stays open. crossings must not be NULL. */
+ * compared with later pivots. A crossing that has begun continues. crossings
+ * must not be NULL. */
 void baum_i_crossings_renew(baum_simulation *run);
 
 /* Examine the state that was noted last. This may evaluate the mechanism, but failures of user

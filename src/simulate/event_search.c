@@ -32,8 +32,8 @@
 
 enum { QUARTERS = 4, MOST_TRIES = 300, MOST_LOOKS = 8 };
 
-/* Two times count as equal if they differ by less than ROUNDINGS rounding errors or by less than
- * SAME_TIME / rate. */
+/* Two times count as equal if they differ by less than ROUNDINGS rounding errors, or by less
+ * than SAME_TIME / rate, where rate is the rate of the motion [1/s]. */
 static const double ROUNDINGS = 4.0;
 static const double SAME_TIME = 1e-12;
 

@@ -352,8 +352,8 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
  * restarts. Returns the statuses of baum_i_run_restart(). Does nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
-/* Choose the omitted rows for a given state, and end the present crossing. The caller must restart
- * the method afterwards. */
+/* Choose the omitted rows for a given state. If the run is crossing a singular configuration, this
+ * crossing ends. The caller must restart the method afterwards. */
 void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state);
 
 /* Omit the rows i for which omitted[i] is not 0 (nc entries). Returns the statuses of

@@ -475,7 +475,8 @@ class Study(_calls.Closing):
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
         """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
         stays within this limit also from perturbed starts and over twice the time span. If this is
-        not possible, the field `why` of the result says so. Raises baum.Error if no setting has so small an error."""
+        not possible, the field `why` of the result says so. Raises baum.Error if no setting has so
+        small an error."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)
 
