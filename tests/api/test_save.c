@@ -232,7 +232,8 @@ static void every_method_goes_on_bit_for_bit_in_another_process(void **state)
   assert_true(number > 20);
 }
 
-/* A particle without joints never has a pivot, because no constraints are solved. */
+/* The equations of a particle without joints are not factored, so the run never has a smallest
+ * pivot. */
 static void runs_without_joints_are_saved_before_their_first_step(void **state)
 {
   (void)state;

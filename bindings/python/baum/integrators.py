@@ -211,7 +211,7 @@ def stability_outline(integrator: str | Integrator, radius: Scalar = 1.0) -> Arr
 
 
 def stability_statement(integrator: str | Integrator) -> str:
-    """Describe in words with which gains violations decay. Integrators without a region of
+    """Describe in words which gains make violations decay. Integrators without a region of
     stability have such a text, too."""
     return text(lib.baum_stability_statement(lookup(integrator).address))
 
