@@ -31,9 +31,10 @@ static const double OFF = 1e-6;
 static const double GROWN = 1e3;
 /* A violation is considered to have decayed if it is below this fraction of the initial one. A
  * one-step method has two modes, which change by the factors z1 and z2 in a step. If Phi' = 0 at
- * the start, a mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. Here this is
- * at least 1/100, so that no growing mode is overlooked. A multistep method has further modes,
- * which may be smaller. A run with such a method therefore never ends early as decayed. */
+ * the start, a mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. In these
+ * tests that fraction is at least 1/100, so a run in which a mode grows never counts as decayed. A
+ * multistep method has further modes, which may be smaller. A run with such a method therefore
+ * never ends early as decayed. */
 static const double DECAYED = 1e-3;
 
 /* Size of the grid divided by the size of the predicted stable region. */

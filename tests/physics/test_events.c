@@ -379,8 +379,8 @@ static void reversing_at_an_event_does_not_report_it_again(void **state)
 
 /* ---- dips ---- */
 
-/* The angle falls by `depth` below that of one event, and does not reach that of another event.
- * Both values are near the point of rest, where the pendulum reverses. */
+/* Two events watch the angle. Where the pendulum reverses, the angle is `depth` below the value of
+ * the first event and `depth` above the value of the second. So it passes only the first value. */
 static void check_dips(step_mode mode, double step, double depth)
 {
   static const int directions[] = {-1, 1, -1, 1};
