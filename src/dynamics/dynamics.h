@@ -177,9 +177,9 @@ void baum_i_clear_fixed_rows(baum_workspace *workspace);
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* Set workspace->a and ->lambda to the solution of equation (7) in acceleration.c, which becomes
- * equation (5) if alpha = beta = 0. alpha is negative for motion backward in time. J is set only
- * after baum_i_need_jacobian(). May fail with BAUM_ERR_SINGULAR (the message names a joint) or
- * BAUM_ERR_MEMORY. */
+ * equation (5) if alpha = beta = 0. alpha is negative for motion backward in time. J may remain
+ * unset; baum_i_need_jacobian() sets it afterwards. May fail with BAUM_ERR_SINGULAR (the message
+ * names a joint) or BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
 /* Do the same as baum_i_acceleration(), but exclude fixed bodies. They must have the poses that

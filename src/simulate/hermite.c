@@ -15,13 +15,12 @@
 
 #include <string.h>
 
-/* The factors of one knot: p(t) contains q q_k + v q'_k, and p'(t) contains q_rate q_k + v_rate
- * q'_k. */
+/* The factors of one knot k in the polynomial p and in its derivative. */
 typedef struct factors {
-  double q;
-  double v;
-  double q_rate;
-  double v_rate;
+  double q;      /* factor of q_k in p(t) */
+  double v;      /* factor of q'_k in p(t) */
+  double q_rate; /* factor of q_k in p'(t) */
+  double v_rate; /* factor of q'_k in p'(t) */
 } factors;
 
 static factors find_factors(const baum_i_knot *knots, int count, int k, double t)
