@@ -358,7 +358,7 @@ static baum_status evaluate_extra(const baum_i_rk_adaptive *run, const baum_i_pr
   return BAUM_OK;
 }
 
-/* Compute F_1, F_2, ... of the interpolant. */
+/* Write the coefficients F_1, F_2, ... of the interpolant to run->dense. */
 static void fill_dense(const baum_i_rk_adaptive *run)
 {
   const baum_i_rk *rk = &run->rk;

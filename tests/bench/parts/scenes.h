@@ -17,7 +17,8 @@ typedef enum scene_kind {
   SCENE_THIRD_BY_A_ROD, /* three parallel cranks without a redundant row */
   SCENE_THREE_CRANKS,   /* three parallel cranks with one redundant row */
   SCENE_TWO_CRANKS,
-  SCENE_SPATIAL /* a spatial scene has the number SCENE_SPATIAL plus a model_spatial */
+  /* the kind of a spatial scene is SCENE_SPATIAL + k, where k is a value of model_spatial */
+  SCENE_SPATIAL
 } scene_kind;
 
 typedef struct scene {
