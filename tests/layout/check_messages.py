@@ -110,7 +110,8 @@ class Source:
     def read(self):
         for sink, (code, form) in self.sinks.items():
             for start, end, arguments in self.calls(sink):
-                # the sink is a macro that contains the status and the beginning of the message
+                # If `code` is a text, the sink is a macro. `code` is then the status, and `form` the
+                # beginning of the message.
                 if isinstance(code, str):
                     texts, status, values = self.literals(form + " " + arguments[0]), code, arguments[1:]
                 else:

@@ -2,14 +2,15 @@
 /* A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. Let k be the unit
  * normal of the plane, n the unit axis of the disc, c = k . n, and s = sqrt(1 - c^2). Let R be the
  * radius of the disc, and t the radius of the rim's cross-section (0: a sharp edge, R: a sphere).
- * The contact point is at
+ * Seen from the centre, the contact point is at
  *
- *   rho = -(R - t) u - t k,   u = (k - c n) / s                            from the centre,
+ *   rho = -(R - t) u - t k,   u = (k - c n) / s
  *
- * because u is the direction in the plane of the disc that is nearest to k. The vector p points
- * from the origin of body_b to the centre, and d points from the origin of body_a to the centre. A
- * motion z consists of the velocities V of both origins and of the angular velocities W of both
- * bodies. In the motion z, the material points in contact have the relative velocity
+ * The vector u is the direction in the plane of the disc that is nearest to k, so -u points to the
+ * lowest point of the disc. The vector p points from the origin of body_b to the centre, and d
+ * points from the origin of body_a to the centre. A motion z consists of the velocities V of both
+ * origins and of the angular velocities W of both bodies. In the motion z, the material points in
+ * contact have the relative velocity
  *
  *   U(z) = V_b + W_b x (p + rho) - V_a - W_a x (d + rho)
  *
