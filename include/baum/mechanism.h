@@ -267,11 +267,9 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
- *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006/r
- *  before and after t, and the differences for gamma up to 0.05/r. Here r is the rate that follows
- *  from gravity and the characteristic length, or from the given velocities if these are faster. r
- *  is at most 1 per unit of time. If there is neither gravity nor a given velocity, r is 1. If phi
- *  is not defined before t = 0, give nu and gamma. */
+ *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
+ *  units before and after t, and the differences for gamma up to 0.05 time units. If phi is not
+ *  defined before t = 0, give nu and gamma. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */

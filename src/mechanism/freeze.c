@@ -289,20 +289,6 @@ static void place_bodies(baum_mechanism *mechanism)
   mark_spatial_elements(mechanism);
 }
 
-/* Estimate how fast a slow mechanism moves in the unit of time, from gravity and from the given
- * velocities. If both are 0, or faster than 1/s, the rate is 1/s. A rate below SLOWEST is probably
- * rounding. */
-static double find_time_rate(const baum_mechanism *m)
-{
-  static const double SLOWEST = 1e-7;
-  const double *g = m->gravity;
-  double rate = sqrt(hypot(hypot(g[0], g[1]), g[2]) / m->length);
-  for (int i = 0; i < m->nv; i++) {
-    rate = fmax(rate, fabs(m->design_v[i]) / m->scale[i]); /* ignores NaN */
-  }
-  return rate > 0.0 ? fmin(fmax(rate, SLOWEST), 1.0) : 1.0;
-}
-
 static baum_status lower_elements(baum_mechanism *m)
 {
   for (int i = 0; i < m->joint_count; i++) {
@@ -332,7 +318,6 @@ static baum_status build(baum_mechanism *mechanism)
   BAUM_I_TRY(make_arrays(mechanism));
   BAUM_I_TRY(mark_velocity_rows(mechanism));
   place_bodies(mechanism);
-  mechanism->time_rate = find_time_rate(mechanism);
   BAUM_I_TRY(lower_elements(mechanism));
   baum_i_find_fixed_bodies(mechanism);
   return BAUM_OK;

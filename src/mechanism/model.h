@@ -543,10 +543,8 @@ struct baum_mechanism {
   int scratch_size;
   int parameter_count;
   bool constant_mass;
-  bool flat;     /* true if no body has a manifold; then nq = nv and q' = v */
-  double length; /* characteristic length */
-  /* [1/s] at most 1; functions of time are differentiated over a fraction of 1/time_rate */
-  double time_rate;
+  bool flat;                 /* true if no body has a manifold; then nq = nv and q' = v */
+  double length;             /* characteristic length */
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* true if every body has the three coordinates of a planar body */
   bool spatial;              /* true if the mechanism has a spatial body, joint or force */

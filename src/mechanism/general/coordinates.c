@@ -189,7 +189,7 @@ static baum_status kinetic_rate(const baum_i_body *body, const baum_i_local *at,
     return BAUM_OK;
   }
   baum_i_field field = {.evaluate = kinetic_field, .context = body, .size = 1};
-  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(rate, at->point->mechanism->time_rate)};
+  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(rate, 1.0)};
   return baum_i_difference_first(&field, &ray, at, out);
 }
 

@@ -92,7 +92,7 @@ baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, i
     ray.dq = direction;
   } else {
     ray.dv = direction;
-    ray.rate /= fmax(baum_i_local_rate(at), at->point->mechanism->time_rate);
+    ray.rate /= fmax(baum_i_local_rate(at), 1.0);
   }
   return ray;
 }

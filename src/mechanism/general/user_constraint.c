@@ -171,6 +171,8 @@ static baum_status jacobian_at(const baum_i_joint *joint, const baum_i_local *at
   return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, out);
 }
 
+static const baum_i_ray time_ray = {.dt = 1.0, .rate = 1.0};
+
 static baum_status nu_at(const void *constraint, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = constraint;
@@ -182,8 +184,7 @@ static baum_status nu_at(const void *constraint, const baum_i_local *at, double 
     return BAUM_OK;
   }
   baum_i_field field = field_of(minus_phi_field, joint);
-  const baum_i_ray ray = {.dt = 1.0, .rate = at->point->mechanism->time_rate};
-  return baum_i_difference_first(&field, &ray, at, out);
+  return baum_i_difference_first(&field, &time_ray, at, out);
 }
 
 /* Find whether Phi, or nu - J v if there is no Phi, changes with t at constant q. The function
@@ -198,7 +199,7 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   *moves = false;
   BAUM_I_TRY(value_at(joint, &here, now));
   for (int side = -1; side <= 1 && !*moves; side += 2) {
-    here.t = at->t + side * 0x1p-9 / at->point->mechanism->time_rate;
+    here.t = at->t + side * 0x1p-9;
     BAUM_I_TRY(value_at(joint, &here, then));
     *moves = memcmp(now, then, bytes) != 0;
   }
@@ -212,15 +213,13 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
-  /* If the rate is at least time_rate, `moves` does not change the rate below. Then `moves` is
-   * needed only if the user gives J without nu. In this case gamma_at() uses it to select the form
-   * of gamma. */
-  double least = at->point->mechanism->time_rate;
-  bool matters = ray->rate < least || (def->jacobian && !def->nu);
+  /* If the rate is at least 1, `moves` does not change the rate below. Then `moves` is needed only
+   * if the user gives J without nu. In this case gamma_at() uses it to select the form of gamma. */
+  bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
   BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
   if (*moves) {
-    ray->rate = fmax(ray->rate, least);
+    ray->rate = fmax(ray->rate, 1.0);
   } else {
     ray->dt = 0.0;
   }
@@ -445,8 +444,7 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   baum_i_user_function f = function(joint, "nu", 0);
   baum_i_field field = field_of(minus_phi_field, joint);
   baum_i_claim claim = {&f, "phi in t", given};
-  const baum_i_ray ray = {.dt = 1.0, .rate = at->point->mechanism->time_rate};
-  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &here);
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
 /* Check gamma, if possible by the second form that the top of this file describes. jacobian and nu
