@@ -80,7 +80,8 @@ typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
   /* The members before `method` are plain numbers. They are part of a saved run. */
-  int64_t unseen; /* number of steps whose local errors are unknown */
+  int64_t steps;  /* number of steps since the last start */
+  int64_t unseen; /* number of these steps whose local errors are unknown */
   int64_t begun;  /* number of evaluations of the run when the companion started */
   double sum;     /* sum of local errors */
   double apart;   /* [s] time at which run and companion began to differ, or NaN while they agree */
@@ -317,6 +318,7 @@ void baum_i_companion_begin(baum_simulation *run)
   if (c) {
     keep_present_twice(run);
     c->sum = 0.0;
+    c->steps = 0;
     c->unseen = 0;
     c->doing = WAITS;
     run->counters.error_estimate = baum_i_run_has_fixed_step(run) ? 0.0 : (double)NAN;
@@ -334,7 +336,7 @@ static bool may_matter(baum_simulation *run)
     return run->counters.near_singular_intervals > 0;
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;
-  int64_t steps = run->counters.steps;
+  int64_t steps = c->steps++;
   if (c->unseen > UNSEEN && 4 * c->unseen > 3 * steps) {
     /* The error is unknown, because inputs change every few steps. */
     run->counters.error_estimate = (double)NAN;

@@ -557,11 +557,13 @@ baum_status baum_i_events_pass_break(baum_simulation *run)
   baum_i_run_copy(run, &run->state, &run->ahead);
   baum_status status = search_until(run, run->state.t, true);
   /* An event that has just been recorded may seem to happen again; see baum_i_events_go_on(). */
+  bool any = false;
   for (int k = 0; k < events->count; k++) {
-    if (!events->marks[k].fresh && baum_i_event_was_recorded(run, k)) {
-      events->marks[k].fresh = 1;
-      events->begin = run->state.t;
-    }
+    any = any || (!events->marks[k].fresh && baum_i_event_was_recorded(run, k));
   }
+  for (int k = 0; k < events->count && any; k++) {
+    events->marks[k].fresh = baum_i_event_was_recorded(run, k);
+  }
+  events->begin = any ? run->state.t : events->begin;
   return status;
 }

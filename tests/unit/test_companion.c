@@ -355,6 +355,15 @@ static void errors_are_known_if_inputs_change_every_six_steps(void **state)
       check(baum_simulation_step(run, steps));
     }
     assert_int_equal(isnan(counters_of(run).error_estimate), steps == 5);
+    /* steps before a new start do not count */
+    const double q[2] = {0.0, 0.0};
+    check(baum_simulation_step(run, 100000));
+    check(baum_simulation_set_state(run, 0.0, q, q));
+    for (int k = 0; k < 100; k++) {
+      check(baum_simulation_set_input(run, load.input, sin(k)));
+      check(baum_simulation_step(run, steps));
+    }
+    assert_int_equal(isnan(counters_of(run).error_estimate), steps == 5);
     baum_simulation_destroy(run);
   }
   baum_mechanism_destroy(m);

@@ -26,7 +26,7 @@ static const struct {
   uint64_t list;
 } VERSIONS[] = {{9, 0x448b4b059414f4fd},  {10, 0x448b4b059414f4fd}, {11, 0x492d9d0abb55ace3},
                 {12, 0x492d9d0abb55ace3}, {13, 0x6634a5d176aadf59}, {14, 0x6634a5d176aadf59},
-                {15, 0xcbb68401ab8e31fa}};
+                {15, 0x14f2772d89e95364}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 
