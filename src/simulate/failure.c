@@ -18,6 +18,9 @@
 
 /* The message mentions a violation only if it is larger than this scaled displacement. */
 static const double VIOLATED = 1e-3;
+/* The message mentions a singular configuration only if the motion passed it less than this time
+ * ago, in units of 1/rate. */
+static const double RECENT = 10.0;
 
 static const char *advice_for(baum_status status)
 {
@@ -80,21 +83,22 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
 }
 
 /* Name the singular configuration that the motion is near, or after which it may have left its
- * branch. */
-static void append_crossing(const baum_simulation *run, char *text, size_t size)
+ * branch not long ago. Only the first crossings of a run are stored. */
+static void append_crossing(const baum_simulation *run, double now, char *text, size_t size)
 {
   const baum_i_crossings *crossings = run->crossings;
-  int64_t count = run->counters.near_singular_intervals;
-  if (!crossings || (count == 0 && !crossings->open)) {
+  int64_t last = run->counters.near_singular_intervals - 1;
+  if (!crossings || (!crossings->open && (last < 0 || last >= BAUM_I_NEAR_SINGULAR_KEPT))) {
     return;
   }
-  int64_t last = count < BAUM_I_NEAR_SINGULAR_KEPT ? count - 1 : BAUM_I_NEAR_SINGULAR_KEPT - 1;
-  if (crossings->open || crossings->kept[last].branch != BAUM_BRANCH_CONTINUED) {
+  double t = crossings->open ? crossings->lowest.t : crossings->kept[last].t;
+  bool left = crossings->open || crossings->kept[last].branch != BAUM_BRANCH_CONTINUED;
+  if (left && fabs(now - t) * run->problem.rate < RECENT) {
     baum_i_append(
       text, size,
       ", and the mechanism may lock up near t = %.9g s, where it is close to a singular "
       "configuration",
-      crossings->open ? crossings->lowest.t : crossings->kept[last].t);
+      t);
   }
 }
 
@@ -126,7 +130,7 @@ static void append_place(baum_simulation *run, const baum_i_state *at, char *tex
   } else {
     append_history(run, text, size);
   }
-  append_crossing(run, text, size);
+  append_crossing(run, at->t, text, size);
   w->evaluations = evaluations;
 }
 
