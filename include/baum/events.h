@@ -29,10 +29,10 @@
  *  the start, with q moved along v.
  *
  *  Impacts: the impacts of a bouncing body may follow each other ever faster. In the end, a
- *  terminal event happens again shortly after it was recorded, although the new velocities led away
- *  from zero. Or the method computes the velocities at the next impact with the wrong sign. In both
- *  cases the run fails with BAUM_ERR_STEP, because the body would otherwise fall through its stop.
- *  Let such a body rest once it is slow (docs/cookbook/stop.md).
+ *  terminal event happens again shortly after it was recorded, although the new velocities moved
+ *  its value away from zero. Or the method computes the velocities at the next impact with the
+ *  wrong sign. In both cases the run fails with BAUM_ERR_STEP, because the body would otherwise
+ *  fall through its stop. Let such a body rest once it is slow (docs/cookbook/stop.md).
  *
  *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no
  *  event. If such a call changes the sign of an event function, the run continues with the new

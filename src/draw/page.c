@@ -19,7 +19,7 @@
 #include "mechanism/identify.h"
 #include "simulate/run.h"
 
-enum { FRAMES = 600, EXTREMES = 150, NO_NUMBER = 65535 };
+enum { FRAMES = 600, MARKED_COLUMNS = 150, NO_NUMBER = 65535 };
 /* Placeholders in the template. The data of the page replace DATA, and the script that draws solids
  * replaces SOLIDS. */
 static const char DATA[] = "\"DATA\"", SOLIDS[] = "// SOLIDS\n";
@@ -235,12 +235,12 @@ static void put_plots(table *t, baum_i_buffer *out)
 
 /* ---- frames ---- */
 
-/* Marks the samples in which the first EXTREMES plotted columns have their smallest and their
+/* Marks the samples in which the first MARKED_COLUMNS plotted columns have their smallest and their
  * largest values. Returns the number of these columns. */
 static int mark_extremes(const table *t, bool *kept)
 {
   int marked = 0;
-  for (int k = 0; k < t->column_count && marked < EXTREMES; k++) {
+  for (int k = 0; k < t->column_count && marked < MARKED_COLUMNS; k++) {
     const column *c = &t->columns[k];
     int64_t low = 0, high = 0;
     for (int64_t i = 1; c->plotted && i < t->page->count; i++) {

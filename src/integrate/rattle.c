@@ -200,19 +200,6 @@ static void close_run(void *self)
   baum_i_free(run->rotations);
 }
 
-static bool has_function(const baum_i_element *element)
-{
-  bool found = false;
-  for (const baum_i_def_field *f = element->definition->fields; f->name; f++) {
-    void (*function)(void) = NULL;
-    if (f->kind >= BAUM_I_FIELD_FUNCTION && f->kind < BAUM_I_FIELD_USER) {
-      memcpy(&function, baum_i_field_at(f, element->def), sizeof function);
-    }
-    found = found || function;
-  }
-  return found;
-}
-
 static baum_status fail_velocities(const baum_i_element *element)
 {
   return baum_i_fail(
@@ -221,8 +208,9 @@ static baum_status fail_velocities(const baum_i_element *element)
     "only, but %s depends on velocities%s; take rk4 or rk8, or generalized_alpha if "
     "the force is stiff",
     baum_i_label(element).text,
-    has_function(element) ? ", or does not set depends_on_velocity = false"
-                          : ", because its damping is not 0");
+    baum_i_fields_have_function(element->definition, element->def)
+      ? ", or does not set depends_on_velocity = false"
+      : ", because its damping is not 0");
 }
 
 static baum_status check_body(const baum_i_body *body)

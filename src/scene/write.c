@@ -336,7 +336,7 @@ static baum_status put_family(writer *w, const baum_i_family *family)
 
 /* ---- the mechanism ---- */
 
-static baum_status put_inputs(writer *w)
+static void put_inputs(writer *w)
 {
   const baum_mechanism *m = w->mechanism;
   baum_i_put(w->out, ",\n  \"inputs\": [");
@@ -348,10 +348,9 @@ static baum_status put_inputs(writer *w)
     baum_i_put(w->out, "}");
   }
   baum_i_put(w->out, m->input_count > 0 ? "\n  ]" : "]");
-  return BAUM_OK;
 }
 
-static baum_status put_settings(writer *w)
+static void put_settings(writer *w)
 {
   const baum_mechanism *m = w->mechanism;
   baum_i_putf(w->out, "{\n  \"" BAUM_I_SCENE_KEY "\": %d,\n  \"gravity\": ", BAUM_I_SCENE_VERSION);
@@ -368,12 +367,14 @@ static baum_status put_settings(writer *w)
     baum_i_put(w->out, ",\n  \"ground_outlines\": ");
     put_outlines(w, m->bodies[0]);
   }
-  return m->input_count > 0 ? put_inputs(w) : BAUM_OK;
+  if (m->input_count > 0) {
+    put_inputs(w);
+  }
 }
 
 static baum_status put_mechanism(writer *w)
 {
-  BAUM_I_TRY(put_settings(w));
+  put_settings(w);
   for (int i = 0; i < BAUM_I_FAMILIES; i++) {
     BAUM_I_TRY(put_family(w, baum_i_families[i]));
   }

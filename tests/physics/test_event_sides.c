@@ -65,8 +65,8 @@ static baum_event_record record_of(const flight *f, int64_t k)
 }
 
 /* Adds an event function. Its user data may be NULL. */
-static void watch(const flight *f, baum_force_fn *function, int direction, bool terminal,
-                  double tolerance, void *user)
+static void add_function_event(const flight *f, baum_force_fn *function, int direction,
+                               bool terminal, double tolerance, void *user)
 {
   baum_event_def def = baum_event_def_default();
   def.function = function;
@@ -111,7 +111,7 @@ static int bounce(step_mode mode, double step, double floor, double rest, double
 {
   enum { MOST = 5000 };
   flight f = flight_make(mode, step, GRAVITY, floor + 1.0, 0.0, 0.0);
-  watch(&f, above, -1, true, tolerance, &floor);
+  add_function_event(&f, above, -1, true, tolerance, &floor);
   int count = 0;
   baum_status status = BAUM_STOP_EVENT;
   for (; count < MOST; count++) {
@@ -188,7 +188,7 @@ static void motion_backward_from_a_start_at_zero_is_no_event(void **state)
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
     flight f = flight_make(mode, STEP, GRAVITY, 0.0, 0.0, 1.0);
-    watch(&f, above, 0, true, (double)NAN, &floor);
+    add_function_event(&f, above, 0, true, (double)NAN, &floor);
     assert_int_equal(step_mode_advance(mode, f.run, -0.1), BAUM_OK);
     const double q[2] = {0.0, 0.0};
     const double v[2] = {0.0, 1.0};
@@ -215,7 +215,7 @@ static void an_event_function_may_divide_by_a_velocity(void **state)
 {
   (void)state;
   flight f = flight_make(accurate(), STEP, GRAVITY, 0.0, 1.0, 2.0);
-  watch(&f, slope, 0, true, (double)NAN, NULL);
+  add_function_event(&f, slope, 0, true, (double)NAN, NULL);
   assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_STOP_EVENT);
   ASSERT_NEAR(baum_simulation_time(f.run), 3.0 / GRAVITY, 0.0, 1e-12);
   flight_end(f);
@@ -241,7 +241,7 @@ static void a_function_that_stays_zero_is_reported_once_at_its_first_zero(void *
   for (int terminal = 0; terminal < 2; terminal++) {
     for (int fixed = 0; fixed < 2; fixed++) {
       flight f = flight_make((step_mode){baum_rk8(), fixed}, STEP, GRAVITY, 1.0, 0.0, 0.0);
-      watch(&f, gap, 0, terminal, (double)NAN, NULL);
+      add_function_event(&f, gap, 0, terminal, (double)NAN, NULL);
       baum_status want = terminal ? BAUM_STOP_EVENT : BAUM_OK;
       assert_int_equal(baum_simulation_advance_to(f.run, 1.0), want);
       assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_OK);
@@ -282,8 +282,8 @@ static void an_unwanted_zero_before_a_stop_hides_no_later_event(void **state)
   (void)state;
   double at = 0.02;
   flight f = flight_make((step_mode){baum_rk4(), true}, 0.4, 0.0, 0.0, 1.0, 0.0);
-  watch(&f, beyond, 0, true, (double)NAN, &at);
-  watch(&f, valley, 1, false, (double)NAN, NULL);
+  add_function_event(&f, beyond, 0, true, (double)NAN, &at);
+  add_function_event(&f, valley, 1, false, (double)NAN, NULL);
   assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_STOP_EVENT);
   assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_OK);
   assert_int_equal(baum_simulation_event_count(f.run), 2);
@@ -300,8 +300,8 @@ static void the_tolerance_of_one_event_does_not_delay_another(void **state)
   for (int i = 0; i < 3; i++) {
     double other = tolerant_at[i];
     flight f = flight_make(accurate(), STEP, 0.0, 0.0, 1.0, 0.0);
-    watch(&f, beyond, 0, true, (double)NAN, &at);
-    watch(&f, beyond, 0, false, 1e-2, &other);
+    add_function_event(&f, beyond, 0, true, (double)NAN, &at);
+    add_function_event(&f, beyond, 0, false, 1e-2, &other);
     assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_STOP_EVENT);
     ASSERT_NEAR(baum_simulation_time(f.run), at, 0.0, 1e-12);
     if (other <= at) { /* it has been recorded at the stop */
@@ -337,8 +337,8 @@ static void events_of_a_failed_search_are_forgotten(void **state)
   double at = 0.31;
   bool fails = true;
   flight f = flight_make((step_mode){baum_rk4(), true}, 0.4, 0.0, 0.0, 1.0, 0.0);
-  watch(&f, beyond, 0, true, (double)NAN, &at);
-  watch(&f, failing, 0, true, (double)NAN, &fails);
+  add_function_event(&f, beyond, 0, true, (double)NAN, &at);
+  add_function_event(&f, failing, 0, true, (double)NAN, &fails);
   assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_ERR_CALLBACK);
   fails = false;
   const double q[2] = {0.34, 0.0};
@@ -374,7 +374,7 @@ static void a_scheduled_input_that_jumps_through_zero_is_an_event(void **state)
     for (int terminal = 0; terminal < 2; terminal++) {
       step_mode mode = step_mode_at(k);
       flight f = flight_make(mode, STEP, GRAVITY, 0.0, 1.0, 0.0);
-      watch(&f, pushed, 0, terminal, (double)NAN, NULL);
+      add_function_event(&f, pushed, 0, terminal, (double)NAN, NULL);
       check(baum_simulation_schedule_input(f.run, f.push, times, values, 2));
       baum_status stop = terminal ? BAUM_STOP_EVENT : BAUM_OK;
       for (int i = 0; i < 4; i++) { /* forward over both times, and backward */
@@ -416,7 +416,7 @@ static void a_zero_between_the_two_sides_of_a_break_is_an_event(void **state)
     for (int i = 0; i < 2; i++) {
       step_mode mode = step_mode_at(k);
       flight f = flight_make(mode, STEP, GRAVITY, 0.0, 1.0, 0.0);
-      watch(&f, after, 0, true, (double)NAN, &zeros[i]);
+      add_function_event(&f, after, 0, true, (double)NAN, &zeros[i]);
       check(baum_simulation_schedule_input(f.run, f.push, &b, &value, 1));
       assert_int_equal(step_mode_advance(mode, f.run, b), BAUM_STOP_EVENT);
       assert_true(baum_simulation_time(f.run) == b);
@@ -455,8 +455,8 @@ static void a_function_may_jump_through_zero_at_a_declared_break(void **state)
     flight_end(f);
     baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
     f = (flight){.mechanism = m, .run = create_run(m, &o)};
-    watch(&f, before, 0, false, (double)NAN, &b);
-    watch(&f, beyond, 0, false, 0.01, &soon);
+    add_function_event(&f, before, 0, false, (double)NAN, &b);
+    add_function_event(&f, beyond, 0, false, 0.01, &soon);
     for (int i = 0; i < 2; i++) {
       assert_int_equal(step_mode_advance(mode, f.run, i == 0 ? 1.0 : 0.0), BAUM_OK);
       assert_int_equal(baum_simulation_event_count(f.run), 2 * (i + 1));

@@ -34,7 +34,8 @@ static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double dir
   return load.input;
 }
 
-static disc make(bool driven)
+/* `torque` is the initial value of the first torque. */
+static disc make_with(bool driven, double torque)
 {
   disc d = {.mechanism = create_mechanism()};
   assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
@@ -43,7 +44,7 @@ static disc make(bool driven)
   baum_body_id wheel;
   assert_int_equal(baum_mechanism_add_planar_body(d.mechanism, &body, &wheel), BAUM_OK);
   d.pin = add_planar_pin(d.mechanism, NULL, BAUM_GROUND, wheel, 0.0, 0.0);
-  d.torque = add_torque(d.mechanism, wheel, 1.0, TORQUE[0]);
+  d.torque = add_torque(d.mechanism, wheel, 1.0, torque);
   d.other = add_torque(d.mechanism, wheel, -1.0, 0.0);
   if (driven) {
     baum_driver_def motor = baum_driver_def_default();
@@ -53,6 +54,11 @@ static disc make(bool driven)
   }
   assert_int_equal(baum_mechanism_freeze(d.mechanism), BAUM_OK);
   return d;
+}
+
+static disc make(bool driven)
+{
+  return make_with(driven, TORQUE[0]);
 }
 
 static void schedule(baum_simulation *run, const disc *d)
@@ -131,14 +137,7 @@ static void jumps_before_the_start_are_crossed_backward(void **state)
   const double values[2] = {2.0, -1.0};
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
-    disc d = {.mechanism = create_mechanism()};
-    assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
-    baum_planar_body_def body = baum_planar_body_def_default();
-    body.inertia = 1.0;
-    baum_body_id wheel;
-    assert_int_equal(baum_mechanism_add_planar_body(d.mechanism, &body, &wheel), BAUM_OK);
-    d.torque = add_torque(d.mechanism, wheel, 1.0, 0.0);
-    assert_int_equal(baum_mechanism_freeze(d.mechanism), BAUM_OK);
+    disc d = make_with(false, 0.0);
     baum_simulation *run = open_mode(&d, mode, false);
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, times, values, 2), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 0.3), BAUM_OK);
