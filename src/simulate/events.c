@@ -216,14 +216,11 @@ static baum_status vary_velocities(baum_simulation *run, int number, const baum_
   return BAUM_OK;
 }
 
-/* For event functions, the rate is a difference of second order along v. The difference is so wide
- * that the rounding of q does not matter. */
-baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum_i_state *state)
+/* Difference an event function along v, to second order. The difference is so wide that the rounding
+ * of q does not matter. */
+static baum_status difference(baum_simulation *run, int number, const baum_i_state *state)
 {
   baum_i_event *event = &run->events->list[number];
-  if (event->joint >= 0) {
-    return BAUM_OK;
-  }
   double speed = baum_i_scaled_size(run->workspace->mechanism, state->v);
   double h = run->problem.direction *
              (APART / fmax(run->problem.rate, speed) + DBL_EPSILON / APART * fabs(state->t));
@@ -235,8 +232,22 @@ baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum
   BAUM_I_TRY(look_ahead(run, number, state, 2.0 * h));
   double second = event->next - value;
   event->rate = depends_on_v ? 0.0 : (4.0 * first - second) / (2.0 * h);
-  event->next = value;
   return BAUM_OK;
+}
+
+/* The value was finite at the present state. If it is not finite near this state, the rate counts
+ * as unknown, because the run may never get there. */
+baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum_i_state *state)
+{
+  baum_i_event *event = &run->events->list[number];
+  if (event->joint >= 0) {
+    return BAUM_OK;
+  }
+  double value = event->next;
+  event->rate = 0.0;
+  baum_status status = difference(run, number, state);
+  event->next = value;
+  return status == BAUM_ERR_NOT_FINITE ? BAUM_OK : status;
 }
 
 baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_state *state)

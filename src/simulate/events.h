@@ -29,7 +29,7 @@ typedef struct baum_i_event {
   int joint;          /* the joint whose coordinate is the value of the event, or -1 */
   double next;        /* value in the state that was evaluated last */
   /* [1/s] rate of the value in the state for which it was last found; 0 if it is unknown, because
-   * an event function depends on v */
+   * an event function depends on v or is not finite nearby */
   double rate;
   /* [s] time at which the value passes zero in the present interval, or NaN if it does not. */
   double found;

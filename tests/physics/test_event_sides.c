@@ -221,6 +221,29 @@ static void an_event_function_may_divide_by_a_velocity(void **state)
   flight_end(f);
 }
 
+/* The square root of the distance from the height 0.1 nm, minus 1. It is not a number above it. */
+static int root(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = sqrt(1e-10 - q[1]) - 1.0;
+  return 0;
+}
+
+/* The particle rises by 0.05 nm. The velocity at the start leads higher. */
+static void an_event_function_may_be_undefined_near_the_start(void **state)
+{
+  (void)state;
+  flight f = flight_make(accurate(), STEP, GRAVITY, 0.0, 0.0, sqrt(GRAVITY * 1e-10));
+  add_function_event(&f, root, 0, true, (double)NAN, NULL);
+  assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_STOP_EVENT);
+  ASSERT_NEAR(baum_simulation_q(f.run)[1], -1.0, 0.0, 1e-9);
+  flight_end(f);
+}
+
 /* ---- functions that stay zero ---- */
 
 /* The height, or 0 below the floor. */
@@ -476,6 +499,7 @@ int main(void)
     cmocka_unit_test(no_method_lets_a_particle_fall_through_the_floor),
     cmocka_unit_test(motion_backward_from_a_start_at_zero_is_no_event),
     cmocka_unit_test(an_event_function_may_divide_by_a_velocity),
+    cmocka_unit_test(an_event_function_may_be_undefined_near_the_start),
     cmocka_unit_test(a_function_that_stays_zero_is_reported_once_at_its_first_zero),
     cmocka_unit_test(an_unwanted_zero_before_a_stop_hides_no_later_event),
     cmocka_unit_test(the_tolerance_of_one_event_does_not_delay_another),
