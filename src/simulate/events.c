@@ -216,8 +216,8 @@ static baum_status vary_velocities(baum_simulation *run, int number, const baum_
   return BAUM_OK;
 }
 
-/* Difference an event function along v, to second order. The difference is so wide that the rounding
- * of q does not matter. */
+/* Difference an event function along v, to second order. The difference is so wide that the
+ * rounding of q does not matter. */
 static baum_status difference(baum_simulation *run, int number, const baum_i_state *state)
 {
   baum_i_event *event = &run->events->list[number];

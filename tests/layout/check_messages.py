@@ -22,15 +22,30 @@ from pathlib import Path
 SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
 MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+# What the end of a C expression stands for in a message. Other texts are "...".
+PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "joint_label": "JOINT", "row_label": "ROW", "name": "NAME", "names": "NAMES",
+                "integrator": "INTEGRATOR", "integrator->name": "INTEGRATOR", "method->name": "INTEGRATOR",
+                "pair->name": "INTEGRATOR", "field": "FIELD", "key": "KEY", "unit": "UNIT", "unit_of": "UNIT", "kind": "KIND",
+                "path": "PATH", "family": "FAMILY", "user_entry": "ENTRY", "coordinate_name": "COORDINATE"}
 SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
 This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
-sources. `#` stands for a number, and `...` for a name or another text. *As failed* means that the text is added to the message
-of another failure, and that the status of this failure remains. Each warning links to its [entry](cookbook/warnings.md).
+sources. `#` stands for a number, and words in capital letters for texts: `CALL` for the name of the function that was called,
+`ELEMENT` for the kind, number and name of an element, and so on. `...` stands for any other text. *As failed* means that the
+text is added to the message of another failure, and that the status of this failure remains. Each warning links to its
+[entry](cookbook/warnings.md).
 [theory/errors.md](theory/errors.md) describes the warnings that put a result in doubt, and
 [status.h](../include/baum/status.h) the statuses. `sh tests/run.sh coverage` lists the messages that no test triggers.
 """
+
+
+def placeholder(expression):
+    """Return what stands for a text in the message, from the C expression of the text."""
+    end = re.search(r"((?:\w+->)?)(?:baum_i_)?(\w+)(?:\(.*\))?(?:\.text)?$", expression, flags=re.S)
+    if not end or "?" in expression:
+        return "..."
+    return PLACEHOLDERS.get(end[1] + end[2]) or PLACEHOLDERS.get(end[2], "...")
 
 
 def without_comments(text):
@@ -93,11 +108,12 @@ class Source:
 
     def expanded(self, template, values):
         """Return the variants of a format. If the texts that replace a %s are known and consist of
-        several words, each of these texts gives a variant."""
+        several words, each of these texts gives a variant. Otherwise a placeholder replaces it."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
-            if spec[0].endswith("s") and any(" " in t for t in texts):
+            if spec[0].endswith("s"):
+                texts = texts if any(" " in t for t in texts) else [placeholder(value)]
                 mark = f"\0{spec.start()}\0"
                 done = [d.replace(mark, t) for d in self.marked(done, template, spec, mark) for t in texts]
         return done
@@ -146,6 +162,7 @@ class Source:
 def readable(text):
     text = text.replace('\\"', '"').replace("\\n", " ")
     text = SPEC.sub(lambda m: {"s": "...", "%": "%"}.get(m[0][-1], "#"), text)
+    text = re.sub(r"\.{4,}", "...", text)
     return " ".join(text.replace("|", "\\|").split())
 
 
