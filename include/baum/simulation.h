@@ -274,7 +274,9 @@ typedef struct baum_simulation_options {
   /** Estimate the error of the motion by a second integration, from the start on, and warn if the
    *  error is large; see counters.error_estimate. If the run has a fixed step, the second
    *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
-   *  same method at 0.03 rtol. The cost of the run at least doubles. Without this option, a
+   *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
+   *  If the second integration fails, or takes more than ten times as many evaluations as the run,
+   *  it ends with BAUM_WARNING_ERROR_UNKNOWN. Kinematics has no such errors. Without this option, a
    *  fixed-step run starts a second integration only if the sum of its local errors becomes large
    *  enough to matter. Default: false. */
   bool error_check;
@@ -734,8 +736,8 @@ typedef struct baum_counters {
    *  option error_check it shows only whether the error is large: values up to 0.01 may be errors
    *  of the estimate itself. With a fixed step, it is 0 as long as the local errors are negligible.
    *  It is NaN, which means unknown, if inputs change every few steps, or if the estimate failed or
-   *  would cost too much. With variable steps it is known only with the option error_check and rtol
-   *  >= 2e-14, or after a singularity crossing at a loose tolerance; otherwise it is NaN. */
+   *  would cost too much. With variable steps it is known only with the option error_check, or
+   *  after a singularity crossing at a loose tolerance; otherwise it is NaN. */
   double error_estimate;
 } baum_counters;
 
@@ -857,6 +859,7 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
+  BAUM_WARNING_ERROR_UNKNOWN = 9,       /**< The option error_check could not continue. */
   BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */

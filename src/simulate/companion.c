@@ -56,10 +56,6 @@ static const double TOLERANCE_OF_CHECK = 1e-8; /* the same with error_check */
  * without error_check (TIGHTER) and with it (TIGHTER_OF_CHECK). */
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
-/* Largest tolerance of a companion with error_check, relative to the tolerance of the run. With a
- * larger tolerance, the difference between run and companion would not consist mainly of the error
- * of the run. */
-static const double LARGEST_PART_OF_CHECK = 0.5;
 static const double LEAST_RTOL = 1e-14; /* with smaller tolerances, rounding errors dominate */
 /* Largest number of evaluations of the companion for each evaluation of the run. MOST_COST applies
  * without error_check. The user has then not requested the companion, so it must not slow the run
@@ -122,10 +118,6 @@ static double rtol_of_check(const baum_simulation *run)
 
 bool baum_i_companion_is_wanted(const baum_simulation *run)
 {
-  if (run->options.error_check && !baum_i_run_has_fixed_step(run) &&
-      rtol_of_check(run) > LARGEST_PART_OF_CHECK * run->problem.rtol) {
-    return false;
-  }
   bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
   bool wanted = run->options.error_check || baum_i_run_has_fixed_step(run) || loose;
   return wanted && !run->integrator->without_freedom;
@@ -254,6 +246,19 @@ static baum_status go_to(baum_simulation *run, double t)
   return interpolate_at(run, t);
 }
 
+/* Without error_check, nobody waits for the estimate. */
+static void warn_of_end(baum_simulation *run, double t)
+{
+  if (run->options.error_check) {
+    baum_i_run_warn(
+      run, BAUM_WARNING_ERROR_UNKNOWN, t, BAUM_I_NO_JOINT,
+      "t = %.9g s: error_check ended because the second integration %s; the error of "
+      "the motion is unknown; compare with a run that has %s",
+      t, is_too_costly(run) ? "takes more than ten times as many evaluations as the run" : "failed",
+      baum_i_run_has_fixed_step(run) ? "half the step" : "a tenth of rtol");
+  }
+}
+
 /* Follow the run to a state, and compare the companion with this state. If the companion fails, the
  * run continues without it. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
@@ -268,6 +273,7 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
   } else {
     c->doing = ENDED;
     run->counters.error_estimate = (double)NAN;
+    warn_of_end(run, state->t);
   }
   return reached;
 }

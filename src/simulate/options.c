@@ -245,6 +245,25 @@ static baum_status check_multipliers(const baum_simulation_options *o)
                      o->tolerance_lambda, baum_formulation_name(o->formulation));
 }
 
+/* The second integration of error_check needs a smaller tolerance than the run, but at least 1e-14,
+ * below which rounding errors dominate. */
+static const double LEAST_RTOL_WITH_CHECK = 2e-14;
+
+static baum_status check_error_check(const baum_simulation_options *o)
+{
+  if (!o->error_check) {
+    return BAUM_OK;
+  }
+  if (o->integrator->without_freedom) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: error_check is set, but %s does not integrate",
+                       o->integrator->name);
+  }
+  return o->rtol < LEAST_RTOL_WITH_CHECK
+           ? refuse("rtol", "", o->rtol, "must be at least 2e-14 with error_check")
+           : BAUM_OK;
+}
+
 static baum_status check_built_in(const baum_integrator *integrator)
 {
   return integrator->step || integrator->advance
@@ -270,5 +289,6 @@ baum_status baum_i_options_check(baum_simulation_options *options)
   BAUM_I_TRY(check_multipliers(options));
   BAUM_I_TRY(check_gains(options));
   BAUM_I_TRY(check_row_gains(options));
+  BAUM_I_TRY(check_error_check(options));
   return check_built_in(options->integrator);
 }

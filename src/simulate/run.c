@@ -85,6 +85,7 @@ const char *baum_warning_name(baum_warning_code code)
     {BAUM_WARNING_ENERGY_ACCOUNT, "energy_account"},
     {BAUM_WARNING_ILL_CONDITIONED, "ill_conditioned"},
     {BAUM_WARNING_SINGULARITY_CROSSED, "singularity_crossed"},
+    {BAUM_WARNING_ERROR_UNKNOWN, "error_unknown"},
     {BAUM_WARNING_BRANCH, "branch"},
     {BAUM_WARNING_VIOLATION, "violation"},
     {BAUM_WARNING_CONTRADICTION, "contradiction"},

@@ -183,9 +183,8 @@ static void estimates_include_samples_inside_steps(void **state)
   model_destroy(&m);
 }
 
-/* A companion needs a smaller tolerance than its run. At the smallest tolerances this is not
- * possible. */
-static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
+/* A companion needs a smaller tolerance than its run, and a method that integrates. */
+static void an_estimate_that_is_impossible_is_refused(void **state)
 {
   (void)state;
   baum_simulation_options o = baum_simulation_options_default();
@@ -194,8 +193,18 @@ static void estimates_at_the_smallest_tolerances_are_unknown(void **state)
   o.error_check = true;
   o.rtol = 1e-13;
   assert_true(run_pendulum(o, &error).error_estimate > 1e-14);
+  model m;
+  baum_simulation *run = NULL;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
   o.rtol = 1e-14;
-  assert_true(isnan(run_pendulum(o, &error).error_estimate));
+  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "must be at least 2e-14 with error_check"));
+  o.integrator = baum_kinematics();
+  o.rtol = (double)NAN;
+  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "error_check is set, but kinematics does not integrate"));
+  assert_null(run);
+  model_destroy(&m);
 }
 
 /* The run reverses the direction of time inside a step. The run and its companion restart at this
@@ -393,13 +402,22 @@ static void stiff_runs_abandon_their_companion(void **state)
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_generalized_alpha();
   o.step = 1e-3;
-  o.error_check = true;
-  baum_simulation *run = create_run(m, &o);
-  assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
-  baum_counters c = counters_of(run);
-  assert_true(isnan(c.error_estimate));
-  assert_int_equal(c.doubts, 0);
-  baum_simulation_destroy(run);
+  for (int requested = 0; requested < 2; requested++) {
+    o.error_check = requested;
+    baum_simulation *run = create_run(m, &o);
+    check(baum_simulation_advance_to(run, 1.0));
+    baum_counters c = counters_of(run);
+    assert_true(isnan(c.error_estimate));
+    assert_int_equal(c.warnings, requested);
+    if (requested) {
+      baum_warning warning;
+      check(baum_simulation_warning(run, 0, &warning, sizeof warning));
+      assert_int_equal(warning.code, BAUM_WARNING_ERROR_UNKNOWN);
+      assert_int_equal(warning.count, 1);
+      assert_non_null(strstr(warning.text, "ten times as many evaluations"));
+    }
+    baum_simulation_destroy(run);
+  }
   baum_mechanism_destroy(m);
 }
 
@@ -409,10 +427,10 @@ static void warning_codes_have_names(void **state)
 {
   (void)state;
   assert_string_equal(baum_warning_name(BAUM_WARNING_REDUNDANT_ROWS), "redundant_rows");
-  for (int k = BAUM_WARNING_REDUNDANT_ROWS; k <= BAUM_WARNING_SINGULARITY_CROSSED; k++) {
+  for (int k = BAUM_WARNING_REDUNDANT_ROWS; k <= BAUM_WARNING_ERROR_UNKNOWN; k++) {
     assert_non_null(baum_warning_name((baum_warning_code)k));
   }
-  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_BUSHING; k++) {
+  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_WRONG_DERIVATIVE; k++) {
     assert_non_null(baum_warning_name((baum_warning_code)k));
   }
   assert_null(baum_warning_name((baum_warning_code)0));
@@ -428,7 +446,7 @@ int main(void)
     cmocka_unit_test(accurate_runs_have_no_companion),
     cmocka_unit_test(runs_with_variable_steps_are_checked_on_request),
     cmocka_unit_test(estimates_include_samples_inside_steps),
-    cmocka_unit_test(estimates_at_the_smallest_tolerances_are_unknown),
+    cmocka_unit_test(an_estimate_that_is_impossible_is_refused),
     cmocka_unit_test(estimates_continue_after_a_restart_inside_a_step),
     cmocka_unit_test(runs_that_miss_a_short_event_warn),
     cmocka_unit_test(jumps_of_driver_velocities_are_not_counted_as_errors),

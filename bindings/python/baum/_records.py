@@ -153,8 +153,8 @@ class Counters(NamedTuple):
         up to 0.01 may be errors of the estimate itself. With a fixed step, it is 0 as long as
         the local errors are negligible. It is NaN, which means unknown, if inputs change every
         few steps, or if the estimate failed or would cost too much. With variable steps it is
-        known only with the option error_check and rtol >= 2e-14, or after a singularity
-        crossing at a loose tolerance; otherwise it is NaN.
+        known only with the option error_check, or after a singularity crossing at a loose
+        tolerance; otherwise it is NaN.
     """
 
     steps: int

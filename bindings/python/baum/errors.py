@@ -158,6 +158,12 @@ class SingularityCrossedWarning(Warning):
     code = 8
 
 
+class ErrorUnknownWarning(Warning):
+    """The option error_check could not continue, so the error of the motion is unknown."""
+
+    code = 9
+
+
 class BranchWarning(DoubtWarning):
     """The motion may have left its branch at a singular configuration."""
 

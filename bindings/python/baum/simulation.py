@@ -236,7 +236,8 @@ class Simulation(_calls.Closing):
     energy_account: True computes the work of all forces during the run. The property and the
         channel `energy_account` report this work.
     error_check: True estimates the error of the motion by a second integration
-        (counters.error_estimate), and warns if the error is large. Without this option, a run with
+        (counters.error_estimate), and warns if the error is large or if this estimate ends. rtol
+        must be at least 2e-14. Without this option, a run with
         fixed steps makes this second integration only if the sum of its local errors becomes large
         enough to matter.
     progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
