@@ -34,7 +34,8 @@ ln -s "$PWD/include" "$PWD/examples" "$PWD/LICENSE" "$source"
 
 heading "C reference"
 {
-  cat docs/Doxyfile # without GENERATE_HTML, doxygen 1.9.4 reports every parameter as undocumented
+  # With GENERATE_HTML = NO, doxygen 1.9.4 would report every parameter as undocumented.
+  cat docs/Doxyfile
   echo "OUTPUT_DIRECTORY = build/site-doxygen"
   echo "GENERATE_XML = YES"
   echo "XML_PROGRAMLISTING = NO"

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 from baum import drawings
 
 SHOWN = 400  # more samples than this do not make a run better for a page
-KEPT = 4 # the first runs of the program, at most this many, are considered
+KEPT = 4  # only the first KEPT runs of the program are considered
 
 
 def remember(cls, name, found, choose):

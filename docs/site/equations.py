@@ -15,7 +15,7 @@ RAISED = re.compile(r"(?<=[\w)\]|'])\^(-?(?:[A-Z]|\d+(?:[/.]\d+)?)|[a-z]+|\*|\([
 LOWERED = re.compile(r"(?<!\w)([A-Za-z\u0370-\u03ff]|(?<=\)))_([a-zA-Z0-9]{1,3})(?!\w)")
 PAGE = re.compile(r"(?<![\w/-])(?:\.\./)*((?:[\w-]+/)*[\w-]+)\.md(?!\w)")
 SUPERSCRIPTS = str.maketrans("0123456789-T", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵀ")
-# These pages quote messages of the library.
+# These pages quote messages of the library, so their text is not typeset.
 QUOTING = {"docs/messages", "docs/cookbook/warnings"}
 
 

@@ -289,8 +289,8 @@ class Gallery:
                 sys.exit(f"gallery: two pages have the title {title}")
         text = "# Gallery\n\nEvery page about a mechanism shows its motion, measured quantities, the program that "
         text += "computed them, and a check against a known value. The programs run when this site is built; the "
-        text += "build fails if a check fails. They are in `examples/`, where the tests of the project run them, or "
-        text += "use mechanisms of the library `baum_catalog` "
+        text += "build fails if a check fails. Each program is in `examples/`, where the tests of the project run it, "
+        text += "or it uses a mechanism of the library `baum_catalog` "
         text += "([Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
         for section, (heading, about) in SECTIONS.items():
             text += f"## {heading}\n\n{about}{self.cards_of(section)}"

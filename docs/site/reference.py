@@ -28,7 +28,7 @@ MODULES = ["inertia", "catalog", "typing"]
 
 
 def about(header):
-    """Return the part of the comment of a header that ends with its first full stop."""
+    """Return the comment at the beginning of a header, up to the first full stop."""
     text = (ROOT / "include" / "baum" / f"{header}.h").read_text(encoding="utf-8")
     found = re.search(r"@file\s*\n \*\s+(.*?)(?:\n \*\s*\n|\*/)", text, flags=re.S)
     first = re.sub(r"\s*\n \*\s*", " ", found[1]).strip() if found else ""
