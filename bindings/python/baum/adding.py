@@ -158,7 +158,7 @@ class Adding:
         the arguments below. Derivatives with respect to q are then derivatives along displacements,
         so they have `size` columns, not `position_count`.
 
-        position_count: number of positions.
+        position_count: number of positions, which is then the length of q.
         rate(q, v): the time derivative of q, N(q) v.
         move(h, v, q): the position that is reached from q after the time h with the constant
             velocity v.
@@ -569,8 +569,8 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle grows
-        continuously over several revolutions.
+        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle is
+        continuous over several revolutions.
 
         stiffness: [N m/rad].
         damping: [N m s/rad].

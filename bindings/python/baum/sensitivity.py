@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
 UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
 LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
-ROUNDING = 1e4 * float(np.finfo(float).eps)  # rounding error relative to the result
+ROUNDING = 1e4 * float(np.finfo(float).eps)  # assumed rounding error of a result, relative to it
 
 
 class Sensitivities(Named):

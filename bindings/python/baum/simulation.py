@@ -503,9 +503,9 @@ class Simulation(_calls.Closing):
         on.
 
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
-        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. An
-        event function that passes zero twice within a quarter of a step may be missed; the option
-        max_step, or a smaller step, helps.
+        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. If
+        the function passes zero twice within a quarter of a step, the run may miss both events. To
+        avoid this, set the option max_step, or take a smaller step.
 
         direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next

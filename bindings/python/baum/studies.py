@@ -59,8 +59,8 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(). If they are named `best`, write
-    m.simulate(t, **best).
+    """Options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation `best`,
+    write m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
     """
