@@ -57,7 +57,8 @@ def one_period() -> tuple[Array, Array]:
 
 
 def feedback_gains() -> Array:
-    """Place the poles of the closed loop by Ackermann's formula."""
+    """Return the gains with which the closed loop has the decay rates DECAY (Ackermann's
+    formula)."""
     a, b = one_period()
     reach = np.stack([np.linalg.matrix_power(a, k) @ b for k in range(4)], axis=1)
     factors = [a - np.exp(-decay * PERIOD) * np.eye(4) for decay in DECAY]

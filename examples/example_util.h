@@ -32,7 +32,7 @@ typedef struct example_column {
   const char *key;
   const char *title;
   char format; /* 's' text, 'd' integer, 'f' fixed point, 'e' exponent */
-  int digits;  /* digits after the point; of a text: minimum width */
+  int digits;  /* digits after the point; for a text: minimum width */
 } example_column;
 
 static struct {
@@ -158,7 +158,7 @@ static inline void example_table(const char *name, const example_column *columns
   }
 }
 
-/* Writes the separator before the next cell in the files. */
+/* Writes the separator before the next cell. @return the column of this cell */
 static inline const example_column *example_next_cell(void)
 {
   const example_column *column = &example.columns[example.column];

@@ -3,8 +3,8 @@
  * slider-crank without a driver, whose crank is released at 150 rad/s. Each pair of integrator and
  * formulation simulates it for 0.2 s. The error is the largest difference of the positions from the
  * samples of a reference, with angles in radians and lengths divided by the characteristic length.
- * The violation in the table is the largest one of all rows. Rows are in metres, but the row of the
- * guide's angle is in radians. */
+ * The violation in the table is the largest one of all constraint rows. These rows are in metres,
+ * except the row of the guide's angle, which is in radians. */
 #include "slider_crank_reference.h"
 
 enum { SETTINGS = 3, SHOWN = 1 }; /* setting 0: coarse, 1: shown in the table, 2: fine */

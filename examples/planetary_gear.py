@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A planetary gear with two inputs: one motor drives the sun, and another motor drives the ring.
-The output is the arm that carries three planets. At first the ring is at rest. Then it rotates
-backwards, until the arm stands still. The angular velocities are compared with Willis' equation,
-and the torques with the equilibrium of the planets."""
+The output is the arm that carries three planets. At first the ring is at rest. Then it accelerates
+backwards until the arm stands still. The angular velocities are compared with Willis' equation, and
+the torques with the equilibrium of the planets."""
 
 import sys
 import warnings

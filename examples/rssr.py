@@ -54,8 +54,8 @@ def axes_along(x: Array) -> Array:
 
 
 def mechanism(with_coupler: bool) -> baum.Mechanism:
-    """Build the mechanism. At the start the crank points along x. Each joint is given by its point
-    in ground axes."""
+    """Build the mechanism, with the coupler or with a massless rod. At the start the crank points
+    along x."""
     start = np.zeros(1)
     a, b = crank_end(start)[0], rocker_end(rocker_angle(start))[0]
     m = baum.Mechanism(up="z")

@@ -3,8 +3,9 @@
 driven at constant speed. The integrator is explicit Euler, with eight sets of Baumgarte's gains.
 
 Lengths, masses and inertias are those of Flores, Leine, Glocker, Multibody System Dynamics 23
-(2010) 165, Table 1. The eccentricity and the other numbers are chosen here, because the paper does
-not give them. The motion is known in closed form, so the table also shows the error of each run.
+(2010) 165, Table 1. The eccentricity and the other numbers are chosen here, because Flores et al.
+2008 does not give them. The motion is known in closed form, so the table also shows the error of
+each run.
 """
 
 import sys
@@ -68,7 +69,7 @@ def slider_at(t: Array) -> Array:
 
 def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.Run, Row]:
     """Simulate with one set of gains. Return the run and its row of the table. Phi_3 is the first
-    row of pin B."""
+    constraint row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -78,7 +79,7 @@ def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.R
 
 
 def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> None:
-    """Check the statements of the paper about its eight sets of gains."""
+    """Check what Flores et al. 2008 says about these eight sets of gains."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)

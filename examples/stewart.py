@@ -15,7 +15,7 @@ from baum.typing import Array
 from support.report import Report
 
 FEET = np.radians([-15, 15, 105, 135, 225, 255])  # directions of the feet of the legs on the ground
-BALLS = np.radians([-45, 45, 75, 165, 195, 285])  # directions of their ball joints on the platform
+BALLS = np.radians([-45, 45, 75, 165, 195, 285])  # directions of the ball joints on the platform
 FOOT_RADIUS, BALL_RADIUS, HEIGHT = 1.0, 0.6, 1.0  # [m]
 CIRCLE, TILT, PERIOD = 0.15, 0.12, 2.0  # [m] radius, [rad] tilt, [s] period of the motion
 COMMANDS = 200  # number of prescribed values of each length in a period
@@ -113,7 +113,8 @@ def mechanism(times: Array, commands: Array) -> baum.Mechanism:
 
 
 def forward(m: baum.Mechanism, t: float, guess: Array) -> Array:
-    """Return the pose of the platform (7) for the lengths that the legs have at time t."""
+    """Return the pose of the platform (7) for the lengths that the legs have at time t. Assembly
+    starts from the design configuration, moved by the displacement `guess`."""
     workspace = baum.Workspace(m)
     q, v = workspace.design()
     nothing = np.full(len(v), np.nan)  # assembly computes these velocities

@@ -114,14 +114,14 @@ def main() -> int:
 
     print(f"camber from {camber.min():.2f} to {camber.max():.2f} deg")
     print(f"chassis moved by {np.ptp(heights) * 1e3:.0f} mm, plate by {BUMP * 1e3:.0f} mm")
-    # Apart from gravity, only the plate exerts a vertical force on the bodies. This force is
-    # therefore the sum of m (a + g) over all bodies.
+    # Apart from gravity, the only vertical force on the bodies is that of the driver "road" on the
+    # plate. This force is therefore the sum of mass (acceleration + g) over all bodies.
     force = sum(mass * (run[f"{name}.acceleration"][:, 1] + 9.81) for name, mass in MASSES.items())
     report.expect(
         "force of the road, off by [N]", abs(run["road.effort"][:, 0] - force).max(), 1e-8
     )
-    # At rest the tyre carries the weight of all bodies above the plate. An error of 1e-9 m changes
-    # its force by 2e-4 N.
+    # At rest the tyre carries the weight of all bodies above the plate. An error of 1e-9 m in the
+    # length of the tyre spring changes its force by 2e-4 N.
     rest = m.simulate([20], "rk8", rtol=1e-8)
     across, up = (rest["wheel.pose"] - rest["plate.pose"])[0, :2]
     tyre = TYRE * ((RADIUS + 0.02) / np.hypot(across, up) - 1) * up

@@ -102,7 +102,7 @@ class Attributes(unittest.TestCase):
     def test_elements_name_what_changes_their_definitions(self):
         m = rod_pendulum()
         self.refuses(m["bob"], "mass", r"set\(mass=\.\.\.\) changes the definition before freezing, "
-                     r"and Mechanism.copy\(\) in a copy: m.copy\(bob=dict\(mass=\.\.\.\)\)$")
+                     r"and m.copy\(bob=dict\(mass=\.\.\.\)\) changes it in a copy of the mechanism$")
         self.refuses(m["bob"], "masss", "there are: mass, .*; did you mean 'mass'")
         self.refuses(m["bob"], "Outline", "did you mean 'outline'")
         self.refuses(m["bob"], "name", 'body "bob" has no attribute \'name\' that can be set')

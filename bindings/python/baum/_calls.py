@@ -183,7 +183,7 @@ def interruptible(function: Call, *arguments: Any, cancel: Callable[[], None] | 
 
 
 def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
-    """Discard a call that has not begun. Ask any other call to stop, and wait until it has
+    """If the call has not begun, discard it. Otherwise ask it to stop, and wait until it has
     stopped."""
     try:
         if task.claim():
@@ -203,7 +203,7 @@ def _come_back(task: _Task, cancel: Callable[[], None] | None) -> None:
 
 
 class _Glance:
-    """A short use of an object by another thread. Calls wait for the end of this use."""
+    """A short use of an object by Handle.glance(). Calls wait for the end of this use."""
 
     def __init__(self) -> None:
         self.done = threading.Event()
@@ -249,7 +249,7 @@ class Handle:
         make()."""
         # dict.setdefault() marks the object as used, and is atomic. If Ctrl-C interrupts this code,
         # the mark tells whether this call owns the object, and can be removed safely. A lock would
-        # not tell this if Ctrl-C came while it was being acquired.
+        # not tell this if Ctrl-C came while the lock was being acquired.
         me = object()
         try:
             while self._users.setdefault("now", me) is not me:
@@ -272,8 +272,8 @@ class Handle:
                 del self._users["now"]
 
     def glance(self, function: Callable[[int], None]) -> None:
-        """Let another thread read the object. Do nothing if a call is using the object or the
-        object is destroyed."""
+        """Call a short function with the address of the object, from any thread. Do nothing if a
+        call is using the object, or if the object is destroyed."""
         me = _Glance()
         try:
             if self._users.setdefault("now", me) is me and self._address is not None:
@@ -284,7 +284,7 @@ class Handle:
             me.done.set()
 
     def _give_way(self) -> None:
-        """Wait while another thread reads the object by glance(). If another call is using the
+        """Wait while another thread uses the object by glance(). If another call is using the
         object, raise baum.Error."""
         other = self._users.get("now")
         if isinstance(other, _Glance):

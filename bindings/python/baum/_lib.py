@@ -69,7 +69,7 @@ def _open() -> tuple[ctypes.CDLL, str]:
 
 
 def _check_version(library: Any, path: str) -> str:
-    """Refuse a library with another interface: before 1.0, major and minor version must agree."""
+    """Refuse a library whose major or minor version differs from that of this package."""
     try:
         library.baum_version.restype = ctypes.c_char_p
         version: str = library.baum_version().decode()

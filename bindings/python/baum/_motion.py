@@ -29,8 +29,8 @@ ROOM = 1 << 18  # [byte] initial size of the buffer, enough for most pages
 
 
 class Motion(NamedTuple):
-    """The samples of a motion, and what is shown with them. `shown` lists the channels whose
-    columns `rows` (n x columns) contains: q, and the reactions that are drawn as arrows."""
+    """The samples of a motion, and what is shown with them. `rows` (n x columns) contains the
+    columns of the channels in `shown`: q, and the reactions that are drawn as arrows."""
 
     mechanism: Mechanism
     t: Array
@@ -180,8 +180,9 @@ def of_arrays(
 
 def refined(motion: Motion, run: Run, times: Array) -> tuple[Motion, list[int]]:
     """Add samples at these times to the motion of a run. Return the motion, with its times in
-    rising order, and the indices of the added samples. Positions of added samples are interpolated
-    by cubic polynomials with the recorded velocities, and reactions are interpolated linearly."""
+    rising order, and the indices of the samples at these times. Positions of added samples are
+    interpolated by cubic polynomials that have the recorded velocities at the neighbouring samples.
+    Reactions are interpolated linearly."""
     order = slice(None, None, -1 if run.t[-1] < run.t[0] else 1)
     t, rows, v = motion.t[order], motion.rows[order], run.v[order]
     added = np.setdiff1d(times, t)

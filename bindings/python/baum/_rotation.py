@@ -11,7 +11,8 @@ import numpy as np
 from ._values import vector
 from .typing import Array
 
-# Largest deviation of a matrix from a rotation. Numbers that were typed by hand are often rounded.
+# Largest deviation from a rotation that a matrix may have. Numbers that were typed by hand are
+# often rounded.
 ROUNDING = 1e-6
 
 

@@ -131,8 +131,8 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     def _asked(self) -> str | None:
         """Return the part of the address after the secret token. Three checks make sure that only
         our own page receives an answer: the header Host must name this server, the header Origin
-        must be ours if it is present, and the address must contain the token. If a check fails,
-        answer with an error and return None."""
+        must also name it unless the header is missing, and the address must contain the token. If a
+        check fails, answer with an error and return None."""
         hosts = self._server.hosts
         origins = ["", *(f"http://{host}" for host in hosts)]
         if self.headers.get("Host") not in hosts or self.headers.get("Origin", "") not in origins:

@@ -123,7 +123,7 @@ class _Pen:
             return
         if (
             command == "M" or self._closed
-        ):  # begin a subpath; without M, begin it where the last one began
+        ):  # begin a subpath; without M, it begins where the preceding subpath began
             self._start = points[0] if command == "M" else self._start
             self._here, self._closed = self._start, False
             self._before = self.count

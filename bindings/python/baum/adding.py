@@ -154,11 +154,11 @@ class Adding:
             False.
         user: the last argument of compiled functions, an address or an object of ctypes.
 
-        If the positions are not a vector, for example if they are a unit quaternion, also give the
-        arguments below. Derivatives with respect to q are then derivatives along displacements, so
-        they have `size` columns, not `position_count`.
+        If the positions do not form a vector, for example if they are a unit quaternion, also give
+        the arguments below. Derivatives with respect to q are then derivatives along displacements,
+        so they have `size` columns, not `position_count`.
 
-        position_count: number of positions.
+        position_count: number of positions, which is then the length of q.
         rate(q, v): the time derivative of q, N(q) v.
         move(h, v, q): the position that is reached from q after the time h with the constant
             velocity v.
@@ -373,8 +373,8 @@ class Adding:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Let a point of body_a move only along a blade that is fixed in body_a. Examples are a
-        skate, and a wheel in a plane that is seen from above.
+        """Let a point of body_a move only in the direction of a blade that is fixed in body_a.
+        Examples are a skate, and a wheel in a plane that is seen from above.
 
         The joint has one row at velocity level [m/s]: the velocity of the point across the blade is
         zero. Give either `point` or point_a.
@@ -440,7 +440,8 @@ class Adding:
         law(t): the value, its first and its second derivative at the time t [s]. The law replaces
             value, rate and acceleration, which must then be 0.
         user: the last argument of a compiled function.
-        coordinate: which coordinate of the joint; "first" is the first one in the list below.
+        coordinate: which coordinate of the joint. The list below gives the names for each type of
+            joint, and "first" stands for the first of these names.
 
         - Revolute joints have "angle".
         - Translational joints, pins in a slot, prismatic joints and points on a line have
@@ -568,8 +569,8 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle grows
-        continuously over several revolutions.
+        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle is
+        continuous over several revolutions.
 
         stiffness: [N m/rad].
         damping: [N m s/rad].

@@ -507,8 +507,8 @@ class AddingInSpace:
             configuration.
         law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
             law replaces stiffness, damping, free_length and transition, which must then have their
-            defaults. It must return zeros where the cable is slack. The cable then has no potential
-            energy.
+            defaults. The law must return zeros where the cable is slack. The cable then has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.
@@ -563,7 +563,9 @@ class AddingInSpace:
         """Add an elastic connection of two bodies in space, with stiffness and damping in all six
         directions.
 
-        Points and axes are given as for joints; axis is the z axis of the bushing.
+        Points and axes are given as for joints. axis is the z axis of the bushing, and x_axis is
+        its x axis, given as in spatial_planar().
+
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing
             on body_a. The last three rows belong to the rotation vector of body_b relative to

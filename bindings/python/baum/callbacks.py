@@ -245,8 +245,8 @@ def _shell_normalize(function: Function, write: Write, nq: int, nv: int) -> Shel
 
 
 def _answer_nan(error: BaseException, out: int, count: int) -> None:
-    """Report an exception of a function that returns no status. Its result becomes NaN, which stops
-    the present call of the library."""
+    """Report an exception of a function that returns no status. The result of the function becomes
+    NaN, which stops the present call of the library."""
     _calls.raise_later(error)
     numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
     for k in range(count):

@@ -129,8 +129,8 @@ def check_turned(
     element: Element, used_angles: Collection[Element], changes: Mapping[str, Mapping[str, Any]]
 ) -> None:
     """Refuse changes that rotate the bodies of an element relative to each other, if the element
-    takes their relative orientation from the design configuration. The elements of DESIGNED do so,
-    and joints whose angle a driver, a coupling or a spring uses."""
+    takes their relative orientation from the design configuration. The kinds of elements in
+    DESIGNED do so, and also spatial joints whose angle a driver, a coupling or a spring uses."""
     kind = element.kind.name if element.kind else ""
     is_spatial = element.kind is not None and element.kind.is_spatial
     has_used_angle = is_spatial and element in used_angles

@@ -80,8 +80,8 @@ class Element(Strict):
         if fields:
             known = f"{name if name in fields else 'field'}=..."
             what += (
-                f"; set({known}) changes the definition before freezing, and Mechanism.copy() in a "
-                f"copy: m.copy({self.name}=dict({known}))"
+                f"; set({known}) changes the definition before freezing, and "
+                f"m.copy({self.name}=dict({known})) changes it in a copy of the mechanism"
             )
         others = [*fields, *properties(type(self))]
         return what if name in fields else f"{what}; {there_are(others, name)}"
@@ -177,7 +177,8 @@ class Body(Element):
         You can set this property for every body except user coordinates, and also for ground. Its
         value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
         of a polygon, an SVG path as a string (with y upward), a list of these, or None. The
-        mechanism may be frozen or not. Do not set it while another thread draws the mechanism.
+        mechanism may be frozen or not. Do not set the outline while another thread draws the
+        mechanism.
         """
         return outlines.read(self)
 

@@ -2,8 +2,9 @@
 """Rules that choose Baumgarte's gains alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi =
 0.
 
-Each function returns a rule, which you pass to a run as the option `gains`. It raises TypeError for
-values that are not numbers. The run raises baum.Error for values that are out of range.
+Each function returns a rule, which you pass to a run as the option `gains`. The functions raise
+TypeError for values that are not numbers. The run raises baum.Error for values that are out of
+range.
 """
 
 from __future__ import annotations

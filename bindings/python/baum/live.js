@@ -27,7 +27,7 @@ function append(row) {
   [first, last] = [times[0], times[k]];
   span = last - first || 1;
 }
-// The view is fitted again when a shape leaves it or the window changes, until the user moves or zooms.
+// The view is fitted again when a shape leaves it or the window changes, until the user moves or zooms the view.
 const isOutside = ([x, y]) => x < 0 || x > wide || y < 0 || y > high;
 function follow() {
   touched = touched || view.scale !== scale || view.shift.some(x => x !== 0);

@@ -91,7 +91,7 @@ class Live:
         return bool(self.function(t))
 
     def is_silent(self, seconds: float) -> bool:
-        """Whether the library does not use call() within this time [s]."""
+        """Whether the library will not run call() before this time [s] has passed."""
         return self.function is None and not self.servers and self._interval_now > seconds
 
     def begin(self, address: int) -> None:
@@ -139,7 +139,7 @@ class Live:
 
     def set_interval(self, address: int) -> None:
         """Set how often the library calls the progress function: at every step while the run is
-        paused, otherwise once for each frame."""
+        paused, once for each frame if a view is open, otherwise at the interval of the user."""
         wanted = self._interval
         if self.servers:
             wanted = 0.0 if self.paused else min(FRAME, wanted)
@@ -214,8 +214,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages continue to show the last frame. If the run is paused and this
-        was its last view, the run continues."""
+        """End the view. Its pages continue to show the last frame. If the run is paused and has no
+        other view, the run continues."""
         self._server.end()
         self._server.thread.join(5)
 

@@ -401,7 +401,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
             if element.family in ("joint", "force") and not new_place:
                 design_space.check_turned(element, angles, changes)
                 taken = design.taken(element, moved)
-                if getattr(self.read(element), "law", None):  # it replaces these numbers
+                if getattr(self.read(element), "law", None):  # the law replaces these numbers
                     taken = {key: x for key, x in taken.items() if not REPLACED.fullmatch(key)}
                 yield element.name, taken
 

@@ -270,8 +270,8 @@ class Run(Strict):
         return [*self, *(f"{name}.{end}" for name in bodies for end in ("pose", "velocity"))]
 
     def _of_body(self, name: object) -> tuple[str, slice, Place] | None:
-        """Find the pose or the velocity of a body: return "q" or "v", its slice, and the
-        place of the body. Return None for other names."""
+        """Find the pose or the velocity of a body: return "q" or "v", the slice of the body in q or
+        v, and the Place of the body. Return None for other names."""
         body, _, what = str(name).rpartition(".")
         place = self._place_of(body) if what in ("pose", "velocity") else None
         if place is None:
@@ -437,11 +437,11 @@ class Run(Strict):
         forces: reactions to draw, as in page().
         size: width and height [px]; 96 pixels are one inch.
 
-        Between two samples, positions are interpolated by cubic polynomials with the recorded
-        velocities, and reactions are interpolated linearly. The frame of the picture is large
-        enough for the whole motion, so that pictures at several times have the same scale;
-        m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a time outside
-        of the run, and for a run without its mechanism.
+        Between two samples, positions are interpolated by cubic polynomials that have the recorded
+        velocities at both samples, and reactions are interpolated linearly. The frame of the
+        picture is large enough for the whole motion, so that pictures at several times have the
+        same scale; m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a
+        time outside of the run, and for a run without its mechanism.
         """
         motion = _motion.of_run(self, self._recorded(), traces, forces)
         time = number(t, "t")

@@ -218,8 +218,8 @@ def _differences(a: Mapping[str, Any], b: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _hook_fields(element: Any) -> Iterator[tuple[str, str]]:
-    """Return the fields of an element in a scene that contain names of functions, and these
-    names."""
+    """Find the fields that contain the name of a function or of a `user` object. Return each such
+    field with this name. `element` is a part of a scene."""
     kind = KINDS.get(str(element.get("kind"))) if isinstance(element, dict) else None
     for name, of, *_ in kind.struct._fields_ if kind else ():
         if (of in callbacks.SHELLS or name == "user") and isinstance(element.get(name), str):
@@ -227,8 +227,8 @@ def _hook_fields(element: Any) -> Iterator[tuple[str, str]]:
 
 
 def _placeholders(scene: Any) -> list[_abi.baum_hook]:
-    """Make a hook for every name in a scene, so that the library can read the scene. The functions
-    of these hooks are replaced before they are called."""
+    """Make a hook for every name of a function in a scene, so that the library can read the scene.
+    The functions of these hooks are replaced before they are called."""
     hooks = []
     place: Any = ctypes.cast(lib.baum_version, ctypes.c_void_p).value
     lists = [scene.get(key) for key in LISTS] if isinstance(scene, dict) else []

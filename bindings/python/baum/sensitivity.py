@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 CHANGES = np.array([1.0, -1.0, 0.5, -0.5])
 UNCERTAIN = 1e-4  # largest allowed error of a derivative, relative to the largest derivative
 LEAST_STEP = 1e-8  # smallest step of a number, relative to the number
-ROUNDING = 1e4 * float(np.finfo(float).eps)  # rounding error relative to the result
+ROUNDING = 1e4 * float(np.finfo(float).eps)  # assumed rounding error of a result, relative to it
 
 
 class Sensitivities(Named):
@@ -87,9 +87,9 @@ def sensitivities(
     second call with half the step. Results of methods with variable steps do not depend smoothly on
     parameters. Warns with UncertainSensitivityWarning if the two difference quotients of a
     derivative differ by more than 1e-4 of the largest derivative, unless rounding explains this.
-    For channels, "largest" refers to all samples of a column. Each kind of warning that runs have
-    caused is issued once. Raises baum.Error if a run fails. Raises ValueError for a step that is
-    not > 0, or that is below 1e-8 times the number.
+    For a channel, the largest derivative is taken over all samples of a column. Each kind of
+    warning that runs have caused is issued once. Raises baum.Error if a run fails. Raises
+    ValueError for a step that is not > 0, or that is below 1e-8 times the number.
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")
@@ -147,13 +147,13 @@ def _warn(made: Sensitivities, values: Array, runs: Sweep, is_channel: bool) -> 
         rounding = (
             ROUNDING * np.nanmax(np.abs(runs[name]), initial=0.0) / (values[:, 0] - values[:, 1])
         )
-        # a comparison with NaN is false, so a derivative that is not a number is uncertain
+        # A comparison with NaN is false, so a derivative that is NaN counts as uncertain.
         doubtful = ~((error <= UNCERTAIN * largest) | (error <= rounding))
         for k in np.flatnonzero(doubtful.reshape(-1, len(values)).any(axis=0))[:1]:
             warnings.warn(
                 f"the derivative of {name} with respect to {made.parameters[k]} is uncertain: two "
-                "steps give different values. Take a method with a fixed step, such as "
-                '"rk8" with step, or another step of the parameter.',
+                "difference steps of this parameter give different values. Take a method with a "
+                'fixed step, such as "rk8" with step, or another difference step (argument steps).',
                 errors.UncertainSensitivityWarning,
                 stacklevel=3,
             )

@@ -210,9 +210,9 @@ class Simulation(_calls.Closing):
         (their scales).
     atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. By
         default there is none.
-    max_step: longest variable step [s], by default unlimited. Set it if a force is zero at first
-        and begins to act later, because long steps could miss its beginning, or if an event
-        function may pass zero twice within a quarter of a step.
+    max_step: longest variable step [s], by default unlimited. Set max_step if a force is zero at
+        first and begins to act later: a long step could miss this beginning. Also set it if an
+        event function may pass zero twice within a quarter of a step.
     formulation: "default" is the first formulation that the integrator offers. Others are
         "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
@@ -504,9 +504,9 @@ class Simulation(_calls.Closing):
         on.
 
         The event happens when the coordinate of `joint` passes `value` [rad] or [m], or when
-        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. An
-        event function that passes zero twice within a quarter of a step may be missed; the option
-        max_step, or a smaller step, helps.
+        function(t, q, v) passes zero. The function receives q and v of the whole mechanism. If
+        the function passes zero twice within a quarter of a step, the run may miss both events. To
+        avoid this, set the option max_step, or take a smaller step.
 
         direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
@@ -550,8 +550,8 @@ class Simulation(_calls.Closing):
     def save(self) -> bytes:
         """Return the state of the run as bytes, for restore() in this process or another one.
 
-        The past steps that an integrator remembers are not saved. Saving discards them, just as
-        restoring does, so that both runs continue identically, bit for bit.
+        The past steps that an integrator remembers are not saved. Both save() and restore() discard
+        them, so that the saved run and the restored run continue identically, bit for bit.
         """
         size = ctypes.c_size_t()
         self._call(lib.baum_simulation_save, None, 0, ctypes.byref(size))

@@ -59,8 +59,8 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(). If they are named `best`, write
-    m.simulate(t, **best).
+    """Options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation `best`,
+    write m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
     """
@@ -318,8 +318,8 @@ class Study(_calls.Closing):
         constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
             to 4.
         coarsest: longest step of methods of the orders 3 to 5 [s]. The longest steps of methods of
-            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default all of them follow
-            from the speed of the motion.
+            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default all these steps
+            follow from the speed of the motion.
         finest: smallest rtol [-], by default 1e-13, or 1e-11 if derivatives are computed by
             differences.
         quick: True adds the quick grid, with at most 5 settings of each integrator.

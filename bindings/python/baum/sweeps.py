@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from .mechanism import Mechanism
 
-CHUNKS = 64  # a sweep is divided into at most this many parts per worker
+CHUNKS = 64  # a long sweep is divided into 64 to 128 parts for each worker
 Reduce = Callable[[Run], Any]
 
 

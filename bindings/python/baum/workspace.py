@@ -225,8 +225,8 @@ class Workspace(_calls.Closing):
         return q, v
 
     def project(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> tuple[Array, Array]:
-        """Return q (nq) and v (nv) projected onto the constraints. The change of both is the
-        smallest possible one in the norm of the mass matrix M."""
+        """Return q (nq) and v (nv) projected onto the constraints. The changes of q and v are the
+        smallest possible ones in the norm of the mass matrix M."""
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_project, number(t, "t"), address(q), address(v))
         return q, v

@@ -4,7 +4,9 @@
 libraries. They contain the parts of SuiteSparse and SUNDIALS that they need, built from Debian's
 source packages.
 
-usage: python3 build_wheels.py [TARGET...]        (default: all; see TARGETS, and sdist)
+usage: python3 build_wheels.py [TARGET...]
+
+TARGET is a key of TARGETS, or sdist. By default the program builds all of them.
 
 Writes into build/wheels/out. Needs cmake and ninja, and apt or the two archives of SOURCES in
 build/wheels/sources. For the target wasm32-wasi, the program makes an archive of static libraries
@@ -151,7 +153,8 @@ def settings_for(target: Target, folder: Path, python: Path, sources: Path) -> d
     if target.system == "Linux":
         flags += " -fno-unwind-tables -fno-asynchronous-unwind-tables"
     # The hot files (src/base/hot.h) are always compiled with -O3. Code for Windows is larger: with
-    # -O2 for the other files, its package would have 1.7 MB. With -Os, runs take 3 to 15 % longer.
+    # -O2 for the other files, the package for Windows would have 1.7 MB. With -Os for these files,
+    # runs take 3 to 15 % longer than with -O2.
     optimize = "-Os" if target.system == "Windows" else "-O2"
     link = "-s -Wl,-dead_strip" if target.system == "Darwin" else "-s -Wl,--gc-sections"
     return {

@@ -230,7 +230,8 @@ class Types:
         self.structs, self.enums, self.functions, self.handles = set(), set(), set(), set()
 
     def spell(self, base, stars):
-        """Return the ctypes name of the C type `base` followed by this number of stars."""
+        """Return the ctypes name of a C type. The type is spelled as `base` and this number of
+        stars."""
         if stars == 0:
             return self._value(base)
         if base == "char" and stars == 1:
@@ -288,7 +289,7 @@ def arguments(types, text):
 
 
 def wrap(opening, items, closing, indent="    "):
-    """Join the parts on one line, or wrap the items on indented lines if it is too long."""
+    """Join the parts on one line. If this line is too long, wrap the items on indented lines."""
     line = opening + ", ".join(items) + closing
     if len(line) <= WIDTH:
         return line
