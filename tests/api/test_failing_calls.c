@@ -527,6 +527,13 @@ static baum_status add_event(baum_simulation *run, fault *f)
   return baum_simulation_add_event(run, &def, NULL);
 }
 
+/* The first call of an event function is for the present state. The other calls are for states
+ * nearby, where the value need not be finite. */
+static bool is_nearby(read_fn *read, int64_t call, int given)
+{
+  return read == add_event && call > 1 && given == 0;
+}
+
 static void reading_from_a_run_fails_if_a_user_function_fails(void **state)
 {
   (void)state;
@@ -549,7 +556,8 @@ static void reading_from_a_run_fails_if_a_user_function_fails(void **state)
         f = (fault){.answer = FAULTS[k].answer, .from = n};
         baum_status status = READS[i](run, &f);
         f.from = 0;
-        if (!is_of_fault(status, k)) {
+        bool fine = is_nearby(READS[i], n, FAULTS[k].answer);
+        if (fine ? status != BAUM_OK : !is_of_fault(status, k)) {
           fail_msg("read %d, call %lld of %lld, answer %d: %s: %s", i, (long long)n,
                    (long long)calls, FAULTS[k].answer, baum_status_name(status), baum_message());
         }
