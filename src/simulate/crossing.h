@@ -96,7 +96,7 @@ double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, 
 
 /* branch.c: tell whether there is a gap between branches instead of a singular configuration. The
  * first function examines the last recent state. The second examines the motion at a time t between
- * the recent states, where it has the given pivot. */
+ * the recent states, at which the smallest pivot is `pivot`. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Monitors of a run: violation and its joint, predicted violation, near-singular configurations,
- * warnings, counters. */
+/* Monitors of a run: the largest violation and the joint that has it, predicted violation,
+ * near-singular configurations, warnings, counters. */
 #include <math.h>
 #include <stddef.h>
 

@@ -83,7 +83,7 @@ typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
   baum_i_samples samples; /* `values` is NULL if there is no reference */
-  /* Options of the run that became the reference; `integrator` is NULL if there is none. */
+  /* Options of the run that became the reference; `integrator` is NULL if there is no such run. */
   baum_simulation_options options;
   bool known; /* whether the uncertainties are known */
 
