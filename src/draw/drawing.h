@@ -24,8 +24,8 @@ typedef enum baum_i_form {
    * the connection to the left by its y coordinate [m]. */
   BAUM_I_BETWEEN,
   BAUM_I_ARROW, /* from a point on `body`, along a vector in the axes of `other` */
-  /* The next three forms connect a point on `body` with the nearest point of one of these on
-   * `other`: */
+  /* The next three forms connect a point on `body` with the nearest point of an object on `other`.
+   * The object is: */
   BAUM_I_TO_LINE,  /* an open polygonal line through all points after the first */
   BAUM_I_TO_PLANE, /* a plane, given by a point and a normal vector */
   BAUM_I_TO_SPHERE /* a sphere, given by its centre and the vector (radius, 0, 0) */
@@ -68,7 +68,7 @@ typedef struct baum_i_shape {
   int body;                      /* the points are in the axes of this body; 0 for ground */
   int other;                     /* second body, for the forms that have one */
   double radius;                 /* [m] of a disc, ball or cylinder; half the width of lines */
-  int first, count;              /* where its points are in `points`; set by baum_i_draw() */
+  int first, count;              /* its points in the points of the drawing; set by baum_i_draw() */
   const char *color;             /* "#rrggbb", or NULL for the colour of the style */
   /* (triangle_count x 3) the three corners of each triangle of a mesh, as indices of points of this
    * shape. */

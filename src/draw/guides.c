@@ -234,8 +234,8 @@ static void follow_curve(const baum_i_symbol *s, const double start[3], int dire
   }
 }
 
-/* Finds the points of a closed curve. Of an open curve, finds only the points within TRACK_STEPS
- * steps on either side of the starting point. */
+/* Finds the points of a curve. If the curve is open, finds only the points within TRACK_STEPS steps
+ * on either side of the starting point. */
 static void find_path(const baum_i_symbol *s, path *out)
 {
   double start[3];

@@ -64,8 +64,8 @@ static void draw_spiral(const baum_i_symbol *s, const double x[3], const double 
   baum_i_symbol_line(s, BAUM_I_SPRING, 1, 0.0, POINTS, (const double(*)[2])xy, x, y);
 }
 
-/* Draws the spring at the last joint between its two bodies. If they have no joint, draws it at the
- * centre of mass of body_b. */
+/* Draws the spring at the last joint between its two bodies. If no joint connects these bodies,
+ * draws the spring at the centre of mass of body_b. */
 void baum_i_draw_torsion(const baum_i_symbol *s)
 {
   const baum_planar_torsion_spring_def *def = s->element->def;

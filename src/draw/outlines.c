@@ -14,8 +14,8 @@
 #include "mechanism/kinds.h"
 
 /* Lengths in units of the drawing. LEAST and MOST are the limits for the radius of discs that show
- * inertia, and 2 MOST is the limit for half the edges of boxes, and for half the length and the
- * radius of cylinders. BLOCK contains half the lengths of the edges of a slider's block. */
+ * inertia. 2 MOST is the limit for half the edges of boxes, for half the length of cylinders, and
+ * for the radius of cylinders. BLOCK contains half the lengths of the edges of a slider's block. */
 static const double LEAST = 1.5, MOST = 8.0;
 static const double BLOCK[2] = {2.6, 1.5};
 

@@ -227,7 +227,7 @@ function setView({gl, uniforms, canvas}) {
   gl.uniform3fv(uniforms.middle, centre);
   gl.uniform4f(uniforms.bottom, ...UP, floor.height);
   gl.uniform4f(uniforms.window, 2 * scale / wide, 2 * scale / high, 2 * shift[0] / wide, -2 * shift[1] / high);
-  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // a large range, because bodies in a live page may move farther
+  gl.uniform2f(uniforms.measures, 5 * floor.size, 1.3 / scale); // a large range, because bodies in a live page may leave the floor
   gl.uniform3fv(uniforms.shadow, rgb(colours.shadow));
 }
 function drawSolids(frames) {

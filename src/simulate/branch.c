@@ -5,7 +5,7 @@
  * direction. The smooth motion is the motion whose velocity is continuous. States are called clear
  * if they are far enough from the singular configuration. Polynomials p through positions and
  * velocities of the clear states before the singular configuration are extrapolated to the first
- * clear state after it. There their derivative p' is compared with the velocity v of the run:
+ * clear state after it. There the derivative p' is compared with the velocity v of the run:
  *
  *   jump    (max |v_i - p_i'| / s_i) / (max |v_i| / s_i),   s_i the scale of coordinate i
  *   error   the same, but instead of v - p' the difference between the p' of two polynomials, whose

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chooses the gains of a run. If the gain rule is `auto`, it first finds the rate of the motion,
- * which this rule requires. */
+/* Chooses the gains of a run. The gain rule `auto` requires the rate of the motion, which is found
+ * first. */
 #include <math.h>
 
 #include "base/alloc.h"

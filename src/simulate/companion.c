@@ -348,7 +348,7 @@ static bool may_matter(baum_simulation *run)
     run->counters.error_estimate = (double)NAN;
   }
   c->sum += baum_i_local_error_of_step(&c->local, run);
-  /* The other steps are assumed to have the same mean error as the seen steps. */
+  /* Steps whose local errors are unknown are assumed to have the mean error of the others. */
   double seen = fmax((double)(steps - c->unseen), 0.25 * (double)steps);
   return !(c->sum * (double)steps <= NEGLIGIBLE * seen);
 }

@@ -22,9 +22,9 @@
 #include "base/sized.h"
 #include "mechanism/definition.h"
 
-/* An interval counts as a crossing if J loses rank and its smallest pivot is below this. sqrt(p) is
- * then at most a thirtieth of its usual value, and so is the distance from the singular
- * configuration. */
+/* An interval counts as a crossing if J loses rank there and the smallest pivot of the interval is
+ * below this limit. sqrt(p), and with it the distance from the singular configuration, is then at
+ * most a thirtieth of its usual value. */
 static const double SINGULAR = 1e-3;
 
 /* Value of lowest.pivot after the crossing has been recorded. The interval then continues without

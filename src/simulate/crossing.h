@@ -39,7 +39,7 @@ struct baum_i_crossings {
   baum_i_knot at;
   baum_i_knot other;
   baum_i_knot between;
-  baum_i_knot lowest; /* t, pivot and q of the lowest pivot of the present crossing */
+  baum_i_knot lowest; /* t, pivot and q of the state with the lowest pivot of the crossing */
   baum_near_singular kept[BAUM_I_NEAR_SINGULAR_KEPT];
 };
 
@@ -63,12 +63,12 @@ void baum_i_crossings_forget(baum_i_crossings *crossings);
 void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
 /* End the present crossing and discard the states, because later pivots cannot be compared with
- * earlier ones. crossings must not be NULL. */
+ * earlier ones. run->crossings must not be NULL. */
 void baum_i_crossings_end(baum_simulation *run);
 
 /* Recompute the pivots of the last states after other rows have been omitted, so that they can be
- * compared with later pivots. A crossing that has begun continues. crossings
- * must not be NULL. */
+ * compared with later pivots. A crossing that has begun continues. run->crossings must not be
+ * NULL. */
 void baum_i_crossings_renew(baum_simulation *run);
 
 /* Examine the state that was noted last. This may evaluate the mechanism, but failures of user
@@ -96,7 +96,7 @@ double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, 
 
 /* branch.c: tell whether there is a gap between branches instead of a singular configuration. The
  * first function examines the last recent state. The second examines the motion at a time t between
- * the recent states, where it has the given pivot. */
+ * the recent states, at which the smallest pivot is `pivot`. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 

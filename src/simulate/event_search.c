@@ -122,8 +122,9 @@ static baum_status value_at(baum_simulation *run, double t)
 /* ---- one event ---- */
 
 /* Tell whether the value of event k has not reached its side yet, but does not move away from it
- * either. This happens after a start at zero, because of rounding or because the last time of the
- * event is only as accurate as its tolerance. It also happens while a value stays exactly zero. */
+ * either. This happens after a start at zero, because of rounding, or because the time at which the
+ * event was last recorded is only as accurate as the tolerance of the event. It also happens while
+ * a value stays exactly zero. */
 static bool is_on_the_way(const baum_i_events *events, int k)
 {
   const baum_i_event_mark *mark = &events->marks[k];
@@ -298,9 +299,9 @@ static int record_group(baum_simulation *run, double end)
 
 /* ---- a part of a step ---- */
 
-/* At the time t, where the run stops, keep the values. A value may have passed zero before t
- * although its event is not recorded: the event is not wanted, or it was located later than t
- * because of its tolerance. */
+/* Keep the values at the time t, at which the run stops. A value may have passed zero before t
+ * although its event has not been recorded. Either the event is not wanted, or it was located later
+ * than t because of its tolerance. In the second case, record the event now. */
 static void keep_values_at_stop(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
@@ -342,10 +343,11 @@ static baum_status fail_bounce(const baum_simulation *run, int k, bool soon)
                      when);
 }
 
-/* A terminal event that happens again at once cannot be told from rounding errors. If it were
- * ignored, a body that bounces faster and faster would fall through its stop. If a flight is too
- * short for the method, the velocities at its end may not lead through zero. A program that
- * reverses them would then push the body through its stop. */
+/* Fail in two cases. First, a terminal event that happens again at once cannot be distinguished
+ * from rounding errors. If it were ignored, a body that bounces faster and faster would fall
+ * through its stop. Second, if the flight between two bounces is too short for the method, the
+ * computed velocity at its end may point away from the stop. A program that reverses this velocity
+ * would then push the body through the stop. */
 static baum_status check_bounce(baum_simulation *run, int k)
 {
   const baum_i_event *event = &run->events->list[k];
@@ -473,9 +475,9 @@ static bool find_lowest(const dip_end *a, const dip_end *b, double *t)
   return true;
 }
 
-/* The values at time t are known. If the value of event k is on its side there and at events->t,
- * but has passed zero in between, set *dip to a time at which it has passed zero, unless *dip is
- * earlier. */
+/* The values at time t are known. The value of event k may be on the same side of zero at events->t
+ * and at t, but have passed zero in between. If so, set *dip to a time at which the value has
+ * passed zero, unless *dip is already earlier. */
 static baum_status follow_dip(baum_simulation *run, int k, double t, bool exact, double *dip)
 {
   const baum_i_event *event = &run->events->list[k];
@@ -512,7 +514,7 @@ static baum_status find_dip(baum_simulation *run, double t, bool exact, double *
 /* ---- the whole ---- */
 
 /* Search for events between events->t and t. First search up to each dip before t, because the
- * values at t do not show it. */
+ * values at t do not show a dip. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   exact = exact || t == (baum_i_run_has_fixed_step(run) ? run->trial.t : run->ahead.t);

@@ -185,7 +185,8 @@ bool baum_i_event_was_recorded(const baum_simulation *run, int k)
 /* The rate of an event function is a difference over this fraction of 1/rate. */
 static const double APART = 1e-5;
 
-/* Evaluate an event function after a time h. The velocities do not change. */
+/* Evaluate an event function at the state that a motion with constant velocities reaches after a
+ * time h. */
 static baum_status look_ahead(baum_simulation *run, int number, const baum_i_state *state, double h)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -197,8 +198,8 @@ static baum_status look_ahead(baum_simulation *run, int number, const baum_i_sta
   return evaluate_one(run, number, look);
 }
 
-/* Tell whether an event function has another value for other velocities. They are not 0, because
- * the function may divide by a velocity. */
+/* Tell whether the value of an event function changes if the velocities are varied. Velocities that
+ * are not 0 do not become 0, because the function may divide by a velocity. */
 static baum_status vary_velocities(baum_simulation *run, int number, const baum_i_state *state,
                                    bool *matter)
 {
@@ -275,10 +276,10 @@ baum_status baum_i_events_evaluate_again(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* An event whose value is zero at a start, except for rounding, is on the side to which the value
- * moves. The run then also finds a return to zero within the first part of a step, such as that of
- * a body that bounces off a stop. `recorded` is the value at which this event has just been
- * recorded, or NaN. */
+/* If the value of an event is zero at a start, except for rounding, the side of the event is the
+ * side to which the value moves. The run then also finds the event if the value returns to zero
+ * within the first part of a step, for example because a body bounces off a stop. `recorded` is the
+ * value at which this event has just been recorded, or NaN. */
 static void take_side_of_motion(baum_simulation *run, int number, double recorded)
 {
   baum_i_event_mark *mark = &run->events->marks[number];
@@ -306,7 +307,7 @@ static void take_value(baum_simulation *run, int k, bool is_start)
   }
 }
 
-/* If nothing has moved since the last start, this is the start of the motion that follows. */
+/* If nothing has moved since the last start, the present state also counts as a start. */
 static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;

@@ -12,13 +12,13 @@ enum { BAUM_I_EVENT_RECORDS = 1024 };
 
 /* The state of one event at the time up to which the run has been searched. */
 typedef struct baum_i_event_mark {
-  double value; /* at a start it may still be at the other side of zero, because of rounding */
-  double rate;  /* [1/s] rate of a joint coordinate */
+  double value; /* at a start its sign may still differ from `side`, because of rounding */
+  double rate;  /* [1/s] rate of the value; used only if the value is a joint coordinate */
   double last;  /* [s] time at which the event was last recorded, or NaN if it never was */
   int32_t side; /* side of zero on which the value is: -1, 1, or 0 while it is exactly zero */
-  /* Not 0: the value has not passed zero since the search started. If it was zero then and leaves
-   * zero now, this is not an event. BAUM_I_BOUNCES: the search started at a record of this event,
-   * with velocities that moved the value away from zero. */
+  /* Not 0: the value has not passed zero since the search started. If the value was zero when the
+   * search started and leaves zero now, this is not an event. BAUM_I_BOUNCES: the search started at
+   * a record of this event, with velocities that moved the value away from zero. */
   int32_t fresh;
 } baum_i_event_mark;
 

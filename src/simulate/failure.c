@@ -82,8 +82,9 @@ static void append_body(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Name the singular configuration that the motion is near, or after which it may have left its
- * branch not long ago. Only the first crossings of a run are stored. */
+/* Name the singular configuration that the motion is near. If there is none, name the singular
+ * configuration that the motion passed last, if this was not long ago and the motion may have left
+ * its branch there. Only the first crossings of a run are stored. */
 static void append_crossing(const baum_simulation *run, double now, char *text, size_t size)
 {
   const baum_i_crossings *crossings = run->crossings;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Monitors of a run: violation and its joint, predicted violation, near-singular configurations,
- * warnings, counters. */
+/* Monitors of a run: the largest violation and the joint that has it, predicted violation,
+ * near-singular configurations, warnings, counters. */
 #include <math.h>
 #include <stddef.h>
 
@@ -177,8 +177,8 @@ static void observe_large(baum_simulation *run, double t)
   }
 }
 
-/* Check the largest violation of rows of velocity level, relative to the speed of the motion. As
- * for positions, this is repeated only after the violation has doubled. */
+/* Check the largest violation of rows of velocity level, relative to the speed of the motion. The
+ * check is repeated only after the violation has doubled, as for positions. */
 static void observe_large_velocities(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;

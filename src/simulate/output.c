@@ -304,8 +304,9 @@ static void fill_acceleration(const baum_i_marker *marker, const double a[3], do
 }
 
 /* Compute the acceleration of a point in space, r'' = a + A (w' x s + w x (w x s)). a is the
- * acceleration of the centre of the body, and A its rotation matrix. The angular velocity w and the
- * point s are in body axes. */
+ * acceleration of the centre of the body, and A is the rotation matrix of the body. In this
+ * formula, the angular velocity w and the point s are in body axes. The function computes the
+ * products in ground axes. */
 static void fill_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
                                       const double a[6], double out[6])
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks the derivatives of user functions again during a run, because the check at the start sees
- * only configurations near the design configuration, and times up to 1.3.
+ * only configurations near the design configuration, and times up to 1.3 s.
  *
  * A check costs about as much as 7 evaluations of a user constraint with all derivatives. The
  * number of steps between two checks doubles, so a run of n steps makes about log2(n / 32) checks.

@@ -24,7 +24,7 @@ static baum_status restart_method(baum_simulation *run)
 }
 
 /* Restart everything except the search for events. The values of the events are evaluated first,
- * because a restart cannot be undone. */
+ * because their evaluation may fail and a restart cannot be undone. */
 static baum_status restart_motion(baum_simulation *run)
 {
   BAUM_I_TRY(run->events ? baum_i_events_evaluate_again(run) : BAUM_OK);

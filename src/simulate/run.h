@@ -78,7 +78,7 @@ struct baum_simulation {
 
   baum_i_crossings *crossings; /* see crossing.h; NULL: crossings are not monitored */
 
-  /* the run's own copy, made when a driver law is first set; until then NULL */
+  /* the run's own copy of the parameters of elements; NULL while it uses those of the mechanism */
   double *parameters;
   baum_i_schedule schedule; /* schedule of the inputs */
   double *memory;           /* memory of the arrays below */
@@ -147,8 +147,9 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
 
 enum { BAUM_I_NO_JOINT = -1 };
 
-/* Warn at time t. `joint` is the joint that the warning is about, or BAUM_I_NO_JOINT. Later
- * warnings of the same kind are only counted, and the text of the first one is kept. */
+/* Add a warning with the time t. `joint` is the joint that the warning is about, or
+ * BAUM_I_NO_JOINT. Later warnings of the same kind are only counted, and the text of the first one
+ * is kept. */
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...) BAUM_I_PRINTF(5, 6);
 
@@ -255,8 +256,9 @@ baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Check at the start of a call whether the run was cancelled before the call, which may be too
- * short for a step. Returns BAUM_OK or BAUM_STOP_CANCELLED. */
+/* Check at the start of a call whether the run was cancelled before this call. The check before
+ * every step does not suffice, because a call may be too short for a step. Returns BAUM_OK or
+ * BAUM_STOP_CANCELLED. */
 baum_status baum_i_run_may_begin(baum_simulation *run);
 
 /* Check before every step whether the run must stop because it was cancelled, the time limit of the
@@ -362,9 +364,9 @@ baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omit
 
 /* ---- singular_step.c ---- */
 
-/* Replace run->acceleration at the start of a step by its limit if the configuration is singular.
- * Overwrites the trial state. Evaluates the present state again afterwards, and returns the status
- * of this evaluation. */
+/* If the configuration at the start of a step is singular, replace run->acceleration by its limit
+ * along the motion (integrate/limit.h). Overwrites the trial state. Evaluates the present state
+ * again afterwards, and returns the status of this evaluation. */
 baum_status baum_i_run_limit_acceleration(baum_simulation *run);
 
 /* Project the trial state, the end of a step, onto the constraints at t. The projection is skipped
@@ -374,12 +376,13 @@ baum_status baum_i_run_project(baum_simulation *run, double t);
 
 /* ---- recheck.c ---- */
 
-/* Check the derivatives of user functions at a state, for which the workspace must not be needed
- * any more. Returns true after setting the message if a derivative is wrong. *joint is then set as
- * baum_i_check_at() does. Overwrites run->spare. */
+/* Check the derivatives of user functions at a state. If a derivative is wrong, set the message,
+ * set *joint as baum_i_check_at() does, and return true. Overwrites the workspace and
+ * run->spare. */
 bool baum_i_run_find_wrong_derivative(baum_simulation *run, const baum_i_state *at, int *joint);
 
-/* Do the same if it is due after a step or at the end of a call, and warn. */
+/* Call this after every step and at the end of a call. If a check of the derivatives is due, check
+ * them, and warn if one is wrong. */
 void baum_i_run_recheck(baum_simulation *run, const baum_i_state *at, bool ends_call);
 
 /* ---- failure.c ---- */

@@ -88,8 +88,8 @@ static baum_status warn_redundancy(baum_simulation *run)
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
     baum_i_run_warn(
       run, BAUM_WARNING_SINGULAR_START, start->t, BAUM_I_NO_JOINT,
-      "the start configuration is singular, or nearly so: %d independent constraint rows, %d "
-      "nearby",
+      "the start configuration is singular, or nearly so: it has %d independent constraint rows, "
+      "and configurations near it have %d",
       r->rank_at_start, r->rank);
   }
   return BAUM_OK;
@@ -112,8 +112,9 @@ static void warn_settings(baum_simulation *run)
   double noise = baum_i_difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
     baum_i_run_warn(run, BAUM_WARNING_NOISY_DERIVATIVES, run->trial.t, BAUM_I_NO_JOINT,
-                    "rtol %.1g is below %.1g, about the error of the finite differences of user "
-                    "constraints; provide jacobian() and gamma(), or take a larger rtol",
+                    "rtol %.1g is below %.1g, which is approximately the error of the finite "
+                    "differences of user constraints; provide jacobian() and gamma(), or take a "
+                    "larger rtol",
                     run->options.rtol, noise);
   }
   bool variable = !baum_i_run_has_fixed_step(run);

@@ -8,8 +8,8 @@
 #include "simulate/crossing.h"
 
 /* Tell whether the configuration of the last solution is singular. If the block solver has refused
- * this configuration, the pivot comes from another solver. Pivots of that solver are larger, and so
- * is their limit. */
+ * this configuration, the pivot comes from another solver. Pivots of that solver are larger, so
+ * their limit is larger, too. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;

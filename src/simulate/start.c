@@ -51,7 +51,8 @@ static const char *unit_of(const baum_i_body *body, int coordinate)
   return coordinate >= first_angle(body) ? " rad" : " m";
 }
 
-/* Return the name of the joint that is violated most in the design configuration. */
+/* Return the name of the joint that is violated most at the positions `design`, at which assembly
+ * starts. */
 static baum_i_text name_worst_joint(baum_simulation *run, double t, const double *design)
 {
   baum_workspace *w = run->workspace;
@@ -115,7 +116,7 @@ static baum_status assemble_near(baum_simulation *run, const double *left, doubl
 
 /* Find by how much each driver is violated in the design configuration, and write this to the entry
  * of its row in `violations`. The entries of other rows are zero. Return false if no driver is
- * violated. All drivers then begin in the design configuration. */
+ * violated. The design configuration then already agrees with the initial values of all drivers. */
 static bool find_driver_violations(baum_simulation *run, double *violations)
 {
   baum_workspace *w = run->workspace;
@@ -516,7 +517,7 @@ static baum_status copy_angles(baum_simulation *run, double **out)
   return *out || !point->angles ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* Free the copy of the angles. After a failure, give the run these angles. */
+/* After a failure, write the copied angles back to the run. In any case, free the copy. */
 static baum_status end_with_angles(baum_simulation *run, baum_status status, double *copy)
 {
   const baum_i_point *point = &run->workspace->point;

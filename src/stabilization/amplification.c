@@ -237,7 +237,7 @@ static void find_modes(const baum_i_method *method, double A, double B, number m
   characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
 }
 
-/* Computes w for both roots mu. The one with the larger |1 + w| comes first. */
+/* Computes w for both roots mu. The w with the larger |1 + w| comes first. */
 static void increments(const baum_i_method *method, double A, double B, number w[2])
 {
   bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;

@@ -5,7 +5,7 @@
  * is the factor of one step. At a dead-beat point, all z are 0. A zero mu of R and its conjugate
  * give the dead-beat point A = -Re mu, B = |mu|^2.
  *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
- *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
+ *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), as by the rule taylor
  *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
  *   semi-implicit Euler: explicit Euler's point, transformed back: (1 - 1/2, 1)
  * If the two zeros differ, one step removes the whole violation. If they are a double zero, two

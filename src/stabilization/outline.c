@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds the curves of constant spectral radius. It marches through the squares of a lattice in the
- * chart (Lorensen, Cline 1987, here in two dimensions). In the chart, the region is to the left of
- * a curve. The plane (A, B) is a mirror image of the chart. In the plane, the region is therefore
- * to the right of a curve. The border of the chart, A = 0 and B = 0, is an edge of every region.
+/* Finds the curves of constant spectral radius. The search follows each curve through the squares
+ * of a lattice in the chart (Lorensen, Cline 1987, here in two dimensions). In the chart, the
+ * region of smaller radius is to the left of a curve. The plane (A, B) is a mirror image of the
+ * chart. In the plane, this region is therefore to the right of a curve. The border of the chart,
+ * A = 0 and B = 0, is an edge of every region.
  *
  *   3 --2-- 2     edge k is between corners k and k + 1
  *   |       |     a curve enters through k if corner k is inside and k + 1 is not,

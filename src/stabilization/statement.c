@@ -8,8 +8,8 @@
  * mu = -6, -3, -90/49 and -45/38, where z = -1. Beyond these limits the error test has to lower the
  * order or the step, as it does for explicit methods. BDF of order k is A(a_k)-stable, with
  * a_5 = 51.84 degrees (Hairer, Wanner 1996, V.2). The ratio alpha / beta is the cosine of the angle
- * between the roots of (17), s^2 + 2 alpha s + beta^2 = 0, and the negative real axis. The limit
- * for this ratio is therefore cos 51.84 degrees = 0.618. */
+ * between the roots of s^2 + 2 alpha s + beta^2 = 0 and the negative real axis. The limit for this
+ * ratio is therefore cos 51.84 degrees = 0.618. */
 #include "stabilization/amplification.h"
 
 static const char *of_variable_step(baum_i_method_family family)

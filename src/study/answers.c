@@ -144,8 +144,8 @@ static double share_at(double coarse, double fine, double wanted)
 /* ---- cost at an error ---- */
 
 /* Finds the setting of a method at which the error has the given value, by linear interpolation of
- * logarithms. Extrapolates beyond the first entry by at most the distance between the first two
- * entries, and beyond the last entry likewise. */
+ * logarithms. Before the first entry, extrapolates by at most the distance between the first two
+ * entries. After the last entry, extrapolates by at most the distance between the last two. */
 static bool find_error(const baum_i_entry *const *entries, int count, double error, setting *out)
 {
   for (int k = 0; k + 1 < count; k++) {

@@ -55,8 +55,8 @@ static baum_status copy_row_gains(baum_i_entry *entry)
   return BAUM_OK;
 }
 
-/* Appends an entry to a study, which then owns the entry. After this call, the caller must not
- * return an error, because the entry stays in the study. */
+/* Appends an entry to a study, which then owns the entry. After this call has succeeded, the caller
+ * must not return an error, because the entry stays in the study. */
 static baum_status append_entry(baum_study *study, baum_i_entry *entry)
 {
   size_t wanted = (size_t)study->entry_count + 1;

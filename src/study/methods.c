@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sorts entries by method, and finds what one more digit of accuracy costs.
  *
- * The error of a method is about C h^p, where h is the step or rtol, until rounding errors or the
- * uncertainty of the reference dominate. The cost is also about proportional to a power of h.
- * Straight lines are therefore fitted to the logarithms of error and cost, from the coarsest entry
- * to the most accurate one. Errors near the smallest error do not follow these lines. The fit
- * therefore excludes entries with errors below FLOOR times the smallest error, except the most
- * accurate entry. */
+ * The error of a method is approximately C h^p, where h is the step or rtol, until rounding errors
+ * or the uncertainty of the reference dominate. The cost, too, is approximately proportional to a
+ * power of h. Straight lines are therefore fitted to the logarithms of error and cost, from the
+ * coarsest entry to the most accurate one. Errors near the smallest error do not follow these
+ * lines. The fit therefore excludes entries with errors below FLOOR times the smallest error,
+ * except the most accurate entry. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -83,7 +83,7 @@ typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
   baum_i_samples samples; /* `values` is NULL if there is no reference */
-  /* Options of the run that became the reference; `integrator` is NULL if there is none. */
+  /* Options of the run that became the reference; `integrator` is NULL if there is no such run. */
   baum_simulation_options options;
   bool known; /* whether the uncertainties are known */
 
@@ -136,8 +136,8 @@ baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 typedef baum_status baum_i_add_fn(void *user, const baum_integrator *integrator);
 
 /* Calls `add` for the integrator `only`, or for each integrator of this build if `only` is NULL. If
- * a call fails, the study keeps none of the new settings. If no call has added a setting, the
- * function fails with the message `missing`. */
+ * a call fails, the study keeps none of the new settings. If no call has added a setting,
+ * baum_i_study_add_each() fails with the message `missing`. */
 baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only,
                                   baum_i_add_fn *add, void *user, const char *missing);
 
@@ -178,8 +178,9 @@ void baum_i_study_clear_samples(baum_i_samples *samples);
  */
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 
-/* Computes the weights of differences from the samples of the reference, which must be known.
- * Returns BAUM_OK, BAUM_ERR_MEMORY, or the status of a failed evaluation. */
+/* Computes the weights by which differences are multiplied. The weights depend on the samples of
+ * the reference, which must be known. Returns BAUM_OK, BAUM_ERR_MEMORY, or the status of a failed
+ * evaluation. */
 baum_status baum_i_study_weigh(baum_study *study);
 
 /* Compares `values`, the samples of a run, with the samples of a known motion. The differences have

@@ -81,7 +81,8 @@ static uint64_t digest_numbers(const double *numbers, size_t count, uint64_t bef
   return digest.value;
 }
 
-/* A fingerprint of the mechanism does not contain the data with which its runs start. */
+/* Returns a digest of the data with which runs of the mechanism start. The fingerprint of the
+ * mechanism does not contain these data. */
 static uint64_t digest_start(const baum_mechanism *m)
 {
   baum_i_digest d = {digest_numbers(m->design_q, (size_t)m->nq, 0)};

@@ -5,8 +5,8 @@
  * velocities of the study. The velocities of two others are perturbed by the fraction NUDGE, or, if
  * the mechanism starts at rest, by NUDGE times the rate of the motion. Each start has its own
  * reference. It is computed with the setting of the study's reference, or with RK8 and projection
- * if the reference is given. An entry is not validated if its work is more than NEAR times the work
- * of an entry that is at least as accurate. */
+ * if the user has given the study's reference. An entry is not validated if its work is more than
+ * NEAR times the work of an entry that is at least as accurate. */
 #include <math.h>
 #include <string.h>
 
