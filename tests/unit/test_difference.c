@@ -212,6 +212,41 @@ static void a_line_in_any_direction_stays_accurate_after_ten_thousand_revolution
   close_stage(&s);
 }
 
+/* ---- oscillations in time ---- */
+
+enum { PERIODS = 6 };
+
+/* The context is the angular frequency. */
+static baum_status oscillation_field(const void *context, const baum_i_local *at, double *out)
+{
+  out[0] = sin(*(const double *)context * at->t);
+  return BAUM_OK;
+}
+
+/* A difference with steps of a multiple of the period would be 0, or that of a slow function. */
+static void periods_that_fit_into_a_step_do_not_hide_an_oscillation(void **state)
+{
+  (void)state;
+  stage s;
+  open_stage(&s, 1.0, 0.0, 1.0);
+  const double periods_per_step[PERIODS] = {1.0, 1.01, 2.0, 3.01, 64.0, 1024.0};
+  for (int i = 0; i < 2 * PERIODS; i++) {
+    int order = 1 + i % 2;
+    double step = order == 1 ? baum_i_stencil_first.step : baum_i_stencil_second.step;
+    double rate = 6.283185307179586 * periods_per_step[i / 2] / step;
+    const baum_i_field field = {.evaluate = oscillation_field, .context = &rate, .size = 1};
+    const baum_i_ray ray = {.dt = 1.0, .rate = 1.0};
+    double out;
+    s.at.t = 0.7;
+    assert_int_equal(order == 1 ? baum_i_difference_first(&field, &ray, &s.at, &out)
+                                : baum_i_difference_second(&field, &ray, &s.at, &out),
+                     BAUM_OK);
+    double want = order == 1 ? rate * cos(rate * s.at.t) : -rate * rate * sin(rate * s.at.t);
+    ASSERT_NEAR(out, want, 0.0, 1e-6 * pow(rate, order));
+  }
+  close_stage(&s);
+}
+
 /* ---- work ---- */
 
 static int calls_of(const curve *given, double q, int order)
@@ -335,6 +370,7 @@ int main(void)
     cmocka_unit_test(a_scale_a_thousand_times_too_small_costs_three_digits),
     cmocka_unit_test(ten_thousand_revolutions_do_not_spoil_the_steps),
     cmocka_unit_test(a_line_in_any_direction_stays_accurate_after_ten_thousand_revolutions),
+    cmocka_unit_test(periods_that_fit_into_a_step_do_not_hide_an_oscillation),
     cmocka_unit_test(a_good_scale_takes_six_or_seven_evaluations),
     cmocka_unit_test(noise_at_most_doubles_the_evaluations),
     cmocka_unit_test(steps_shrink_near_the_edge_of_the_domain),

@@ -18,6 +18,11 @@
  * wrong by a factor of 1e6 costs time, but no accuracy. The search for a step also ends if the
  * results of both orders differ only by rounding.
  *
+ * If F oscillates in time, several periods may fit into one step. If their number is an integer,
+ * all values above are those of a slow function, and both orders agree on a wrong result. For rays
+ * along t, F is therefore also evaluated at 0.618 h, and compared with the polynomial through the
+ * other values.
+ *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q. Therefore q + k h is exact even after ten thousand revolutions of a crank.
  *
@@ -39,6 +44,7 @@ const baum_i_stencil baum_i_stencil_first = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
   .fourth = {2.0 / 3.0, -1.0 / 12.0, 0.0},
+  .between = {0.8029379096353511, -0.1097265355833544, 0.01151638342708421},
   .step = 0x1p-9,
   .shrink = 0.125,
   .steps = 8,
@@ -51,6 +57,7 @@ static const baum_i_stencil stencil_rough = {
   .order = 1,
   .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
   .fourth = {2.0 / 3.0, -1.0 / 12.0, 0.0},
+  .between = {0.8029379096353511, -0.1097265355833544, 0.01151638342708421},
   .step = 0x1p-5,
   .shrink = 0.125,
   .steps = 9,
@@ -61,11 +68,16 @@ const baum_i_stencil baum_i_stencil_second = {
   .order = 2,
   .sixth = {3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0},
   .fourth = {4.0 / 3.0, -1.0 / 12.0, 0.0},
+  .between = {0.4962429190104387, -0.03390736422914389, 0.002372505461804679},
   .step = 0x1p-6,
   .shrink = 0.25,
   .steps = 12,
   .agreement = 1e-7,
 };
+
+/* Distance of the values that test whether F oscillates within a step, in steps. Any number that is
+ * not near a fraction of small integers would do. */
+static const double between = 0.6180339887498949;
 
 /* Relative rounding error of F. The factor 64 allows for larger terms that cancel inside F. */
 static const double rounding = 64.0 * DBL_EPSILON;
@@ -153,7 +165,7 @@ static probe make_probe(baum_i_local *here, const baum_i_field *field, const bau
   return p;
 }
 
-static void move_along(const probe *p, int k, const double *dq)
+static void move_along(const probe *p, double k, const double *dq)
 {
   if (dq) {
     baum_i_span_move(p->at->point->mechanism, p->at->span, k * p->step, dq, p->q);
@@ -161,7 +173,7 @@ static void move_along(const probe *p, int k, const double *dq)
 }
 
 /* Evaluate F at k steps from the present point. */
-static baum_status sample(const probe *p, int k, double *out)
+static baum_status sample(const probe *p, double k, double *out)
 {
   if (p->at->span) {
     memcpy(p->q, p->at->q, (size_t)p->at->ql * sizeof *p->q);
@@ -189,6 +201,7 @@ static void clear_estimate(const baum_i_estimate *out, int size)
     out->error[i] = 0.0;
     out->noise[i] = 0.0;
     out->variation[i] = 0.0;
+    out->between[i] = 0.0;
   }
 }
 
@@ -199,6 +212,7 @@ static void add_pair(const baum_i_stencil *stencil, int k, const double *plus, c
 {
   for (int i = 0; i < size; i++) {
     double pair = centre ? (plus[i] - centre[i]) + (minus[i] - centre[i]) : plus[i] - minus[i];
+    out->between[i] -= stencil->between[k] * pair;
     out->value[i] += stencil->sixth[k] * pair;
     out->error[i] += (stencil->sixth[k] - stencil->fourth[k]) * pair;
     out->noise[i] = fmax(out->noise[i], fmax(fabs(plus[i]), fabs(minus[i])));
@@ -224,27 +238,74 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   estimate.error = baum_i_take(here, size);
   estimate.noise = baum_i_take(here, size);
   estimate.variation = baum_i_take(here, size);
+  estimate.between = baum_i_take(here, size);
   return estimate;
 }
 
-/* On a manifold, rounding errors of q cause an error of F in proportion to the size of F nearby.
- * This size is estimated by moving q by half its scale and evaluating F there, because F may be
- * zero at the point itself. If F fails there, the error is not estimated. */
-static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
+/* Evaluate F after q has moved along the ray by half its scale. The result tells the size of F,
+ * which may be zero at the point itself. */
+static baum_status evaluate_beside(const probe *p, double *out)
 {
   baum_i_local there = *p->at;
-  if (!p->at->span || !p->ray->dq) {
-    return;
-  }
+  double far = 0.5 / p->ray->rate;
   memcpy(p->q, p->at->q, (size_t)p->at->ql * sizeof *p->q);
-  baum_i_span_move(p->at->point->mechanism, p->at->span, 0.5 / p->ray->rate, p->ray->dq, p->q);
+  if (p->at->span) {
+    move_along(p, far / p->step, p->ray->dq);
+  } else {
+    for (int i = 0; i < p->at->nl; i++) {
+      p->q[i] += far * p->ray->dq[i];
+    }
+  }
   there.q = p->q;
   there.free = p->free;
-  if (p->field->evaluate(p->field->context, &there, beside) == BAUM_OK) {
+  return p->field->evaluate(p->field->context, &there, out);
+}
+
+/* On a manifold, rounding errors of q cause an error of F in proportion to the size of F nearby. If
+ * F fails there, the error is not estimated. */
+static void estimate_noise(const probe *p, const baum_i_estimate *out, double *beside)
+{
+  if (p->at->span && p->ray->dq && evaluate_beside(p, beside) == BAUM_OK) {
     for (int i = 0; i < p->field->size; i++) {
       out->noise[i] = fabs(beside[i]);
     }
   }
+}
+
+static bool varies(const baum_i_estimate *out, int size)
+{
+  for (int i = 0; i < size; i++) {
+    if (out->variation[i] > 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Compare the values at the distance `between` with the polynomial. If F oscillates within a step,
+ * the difference counts as an error. Differences that rounding of q may cause do not count. */
+static baum_status add_between(const probe *p, double *plus, double *minus, const double *centre,
+                               const baum_i_estimate *out)
+{
+  bool oscillates = false;
+  BAUM_I_TRY(sample(p, between, plus));
+  BAUM_I_TRY(sample(p, -between, minus));
+  for (int i = 0; i < p->field->size; i++) {
+    double pair = centre ? (plus[i] - centre[i]) + (minus[i] - centre[i]) : plus[i] - minus[i];
+    out->between[i] = fabs(out->between[i] + pair);
+    out->variation[i] = fmax(out->variation[i], fabs(pair));
+    oscillates = oscillates || out->between[i] > 0.01 * out->variation[i];
+  }
+  memset(plus, 0, (size_t)p->field->size * sizeof *plus);
+  if (!oscillates || (p->ray->dq && evaluate_beside(p, plus) != BAUM_OK)) {
+    return BAUM_OK;
+  }
+  for (int i = 0; i < p->field->size; i++) {
+    if (out->between[i] > 0.01 * out->variation[i] + 1e-9 * fabs(plus[i])) {
+      out->error[i] = fabs(out->error[i]) + out->between[i];
+    }
+  }
+  return BAUM_OK;
 }
 
 baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_field *field,
@@ -264,6 +325,9 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
     BAUM_I_TRY(sample(&p, k + 1, plus));
     BAUM_I_TRY(sample(&p, -k - 1, minus));
     add_pair(stencil, k, plus, minus, centre, out, field->size);
+  }
+  if (ray->dt != 0.0 && varies(out, field->size)) {
+    BAUM_I_TRY(add_between(&p, plus, minus, centre, out));
   }
   finish(stencil, step, out, field->size);
   return BAUM_OK;

@@ -67,10 +67,11 @@ typedef struct baum_i_stencil {
   int order;
   double sixth[3]; /* weights of the values of f at 1, 2 and 3 steps on both sides */
   double fourth[3];
-  double step;      /* the first step, relative to the scales */
-  double shrink;    /* factor from one step to the next */
-  int steps;        /* maximum number of steps */
-  double agreement; /* the search ends if the relative difference of both variants is below this */
+  double between[3]; /* weights of the polynomial through these values (difference.c) */
+  double step;       /* the first step, relative to the scales */
+  double shrink;     /* factor from one step to the next */
+  int steps;         /* maximum number of steps */
+  double agreement;  /* the search ends if the relative difference of both variants is below this */
 } baum_i_stencil;
 
 extern const baum_i_stencil baum_i_stencil_first;
@@ -84,6 +85,7 @@ typedef struct baum_i_estimate {
   double *error;
   double *noise;     /* the error that rounding of F causes in `value` */
   double *variation; /* largest term of the formula, in units of `value` */
+  double *between;   /* used only while the estimate is computed */
 } baum_i_estimate;
 
 /* Allocate the arrays of an estimate from the free memory of `here`. */
