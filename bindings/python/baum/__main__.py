@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 import argparse
+import csv
+import io
 import runpy
 import sys
 from typing import Any
 
 import numpy as np
 
+from . import _files
 from .errors import Error
 from .mechanism import Mechanism
 from .run import Run
@@ -25,8 +28,10 @@ def _scene(options: argparse.Namespace) -> Mechanism:
 def _write_csv(run: Run, path: str) -> None:
     columns = run.to_dict()
     table = np.column_stack(list(columns.values()))
-    header = ",".join(columns)
-    np.savetxt(path, table, fmt="%.17g", delimiter=",", header=header, comments="")
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(columns)  # names can contain commas
+    np.savetxt(text, table, fmt="%.17g", delimiter=",")
+    _files.write(path, text.getvalue())
 
 
 def _run(options: argparse.Namespace) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import importlib.metadata
+import io
 import json
 import math
 import os
@@ -17,7 +18,7 @@ import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
-from . import _abi
+from . import _abi, _files
 from ._lib import default, lib
 from ._lib import path as library
 from ._lib import version as library_version
@@ -284,6 +285,8 @@ def export(
 
 def _write(path: Path, files: Sequence[tuple[str, bytes]]) -> None:
     """Write the archive. It contains no file times, so equal mechanisms give equal archives."""
-    with zipfile.ZipFile(path, "w") as archive:
+    whole = io.BytesIO()
+    with zipfile.ZipFile(whole, "w") as archive:
         for name, data in files:
             archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)
+    _files.write(path, whole.getvalue())

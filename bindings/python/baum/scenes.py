@@ -15,7 +15,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
-from . import _abi, _calls, callbacks, errors
+from . import _abi, _calls, _files, callbacks, errors
 from ._lib import lib
 from ._motion import ROOM
 from .definitions import ARGUMENTS, KINDS
@@ -147,7 +147,7 @@ class Scenes:
     ) -> None:
         """Write the scene into a file, which baum.load() can read. The other arguments are those
         of scene()."""
-        Path(path).write_text(self.scene(functions, units), encoding="utf-8", newline="\n")
+        _files.write(path, self.scene(functions, units))
 
     def function_names(self: Any) -> list[str]:
         """Return the names of the functions and `user` objects that a scene would contain."""
