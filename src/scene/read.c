@@ -38,13 +38,14 @@ static baum_status read_array(const baum_i_scene_reader *r, const baum_i_definit
     return baum_i_scene_fail_kind(r, list, "a list that is not empty");
   }
   int32_t *count = baum_i_scene_counter(f, def);
-  const int stride = baum_i_field_stride(f);
+  const int64_t stride = baum_i_field_stride(f);
   if (*count == 0 && baum_i_scene_derives(definition, f)) {
-    *count = list->count / stride;
+    *count = (int32_t)(list->count / stride);
   }
   if (*count * stride != list->count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: \"%.60s\" has %d entries, must have %d",
-                       r->label, list->line, list->key, (int)list->count, (int)*count * stride);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: \"%.60s\" has %d entries, must have %lld",
+                       r->label, list->line, list->key, (int)list->count,
+                       (long long)(*count * stride));
   }
   void *array = baum_i_alloc((size_t)list->count, sizeof(double));
   BAUM_I_TRY(baum_i_check_memory(array));

@@ -146,6 +146,9 @@ def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
     if field not in known:
         more = f"; {there_are(known, field)}" if known else ", such as 'rod.mass'"
         raise ValueError(f'{name!r} is not "element.field" with a field of numbers{more}')
+    name_of = getattr(lib, f"baum_mechanism_{mechanism[element].family}_name")
+    if name_of(mechanism.handle, mechanism[element].id).decode() != element:
+        raise ValueError(f"{name!r}: several elements of the scene have the name of {element!r}")
     value = getattr(struct, field)
     numbers = [value] if kinds[field] is ctypes.c_double else list(value)
     for one, start in zip(_numbered(name, len(numbers)), numbers):

@@ -17,7 +17,7 @@ from . import _abi, _calls, _html, _motion, _records, design, design_space, draw
 from ._lib import lib, text
 from ._motion import TraceLike
 from ._strict import Strict
-from ._values import number, numbers, point, there_are, vector
+from ._values import number, numbers, point, there_are, unused, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel, has
@@ -149,7 +149,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
             for k in range(count):
                 id = getattr(lib, f"baum_mechanism_{family}_at")(address, k)
                 name = getattr(lib, f"baum_mechanism_{family}_name")(address, id).decode()
-                made._entries[name] = _entry_of(address, family, id)
+                made._entries[unused(name, made._entries)] = _entry_of(address, family, id)
         return made
 
     def __repr__(self) -> str:
