@@ -66,6 +66,23 @@ static void free_arrays(const baum_i_definition *definition, void *def)
 
 /* ---- elements ---- */
 
+/* Name an element in the message of a failure, after the number of the line: a text may have all
+ * elements in one line. */
+static baum_status add_element_name(const baum_i_scene_reader *r, const char *family, int number,
+                                    const baum_i_json_node *object, baum_status status)
+{
+  if (status == BAUM_OK || status == BAUM_ERR_MEMORY) {
+    return status;
+  }
+  const baum_i_json_node *name = baum_i_json_find(r->json, object, "name");
+  const char *text = name && name->text ? name->text : "";
+  const char *quote = text[0] ? "\"" : "";
+  const baum_i_kept_message kept = baum_i_message_keep();
+  const char *rest = strstr(kept.text + strlen(r->label) + 2, ": ") + 2;
+  return baum_i_fail(status, "%.*s%s %d%s%s%.80s%s: %.600s", (int)(rest - kept.text), kept.text,
+                     family, number, text[0] ? " " : "", quote, text, quote, rest);
+}
+
 /* If `arrays` is set, read all fields that are arrays, otherwise read all other fields. */
 static baum_status read_fields(const baum_i_scene_reader *r, const baum_i_definition *definition,
                                const baum_i_json_node *object, bool arrays, void *def)
@@ -160,10 +177,12 @@ static baum_status read_element(const baum_i_scene_reader *r, const baum_i_famil
   BAUM_I_TRY(find_kind(r, family, object, &kind));
   BAUM_I_TRY(check_keys(r, kind, object));
   const baum_i_definition *definition = *kind->definition;
+  const int number = baum_i_family_count(family, r->mechanism) + 1;
   void *def = baum_i_alloc(1, definition->size);
   BAUM_I_TRY(baum_i_check_memory(def));
   baum_i_fields_set(definition, def);
   baum_status status = fill_definition(r, definition, object, def);
+  status = add_element_name(r, family->name, number, object, status);
   if (status == BAUM_OK) {
     status = baum_i_add_element(r->mechanism, family, definition, def);
     status = baum_i_scene_add_line(r, object, status);
@@ -213,7 +232,8 @@ static baum_status read_all_outlines(const baum_i_scene_reader *r)
        node = baum_i_json_next(r->json, node), body.index1++) {
     const baum_i_json_node *outlines = baum_i_json_find(r->json, node, "outlines");
     if (outlines) {
-      BAUM_I_TRY(read_outlines_of(r, outlines, body));
+      baum_status status = read_outlines_of(r, outlines, body);
+      BAUM_I_TRY(add_element_name(r, "body", (int)body.index1, node, status));
     }
   }
   return BAUM_OK;
