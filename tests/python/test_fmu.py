@@ -342,6 +342,10 @@ class ExportTest(FmuTest):
         ):
             with self.assertRaisesRegex(kind, text):
                 self.export(None, "rk8", **given)
+        m = arm()
+        m.input("a\ufffe")
+        with self.assertRaisesRegex(ValueError, "has a character that XML does not allow"):
+            self.export(m, "rk8", step=1e-3)
         self.assertFalse((self.folder / "arm.fmu").exists())
 
     def test_orientations_that_an_element_needs_are_no_parameters(self):

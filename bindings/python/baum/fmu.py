@@ -12,9 +12,11 @@ import json
 import math
 import os
 import platform
+import re
 import sys
 import xml.etree.ElementTree as ElementTree
 import zipfile
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
 MODEL = "baum_fmu"  # the name of the binary in every FMU
 SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
+NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 # Options that an FMU does not support. The program that runs the FMU sets the start time.
 REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
 
@@ -227,10 +230,13 @@ def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Sequence[Any] | None)
     return [copy.find("input", name) for name in names]
 
 
-def _check_names(names: Sequence[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
+def _check_names(path: Path, names: Sequence[str]) -> None:
+    for name, count in Counter(names).items():
+        if count > 1:
             raise ValueError(f'export_fmu: two variables have the name "{name}"')
+    for name in (path.stem, *names):
+        if NOT_IN_XML.search(name):
+            raise ValueError(f"export_fmu: {name!r} has a character that XML does not allow")
 
 
 def export(
@@ -273,7 +279,7 @@ def export(
         "outputs": [_channel(channel) for channel in layout.channels.values()],
     }
     names = [one.name for one in variables]
-    _check_names(names)
+    _check_names(Path(path), names)
     token = hashlib.sha256(json.dumps([scene, interface, names]).encode()).hexdigest()
     interface["token"] = token
     description = _description(Path(path).stem, token, variables, chosen.get("rtol"))
