@@ -83,6 +83,9 @@ class FilesTest(unittest.TestCase):
             self.assertEqual(path.read_text(), "newer")
         with self.assertRaises(OSError):
             _files.write(self.folder, "x")
+        if os.path.exists("/dev/full"):
+            with self.assertRaisesRegex(OSError, "'/dev/full'"):
+                _files.write("/dev/full", "x")
         with self.assertRaises(FileNotFoundError) as caught:
             _files.write(self.folder / "no" / "a.json", "x")
         self.assertTrue(caught.exception.filename.endswith("a.json"))

@@ -320,6 +320,27 @@ class CommandTest(FileTest):
         self.assertEqual(len(lines), 8)
         self.assertIn("<html", page.read_text()[:500].lower())
 
+    def test_results_are_kept_if_the_run_or_the_writing_fails(self):
+        m = baum.Mechanism(gravity=(0, 0))  # the rod of 0.5 m is shorter than the crank of 1 m
+        for name, x in (("crank", 0.5), ("rod", 1.25), ("slider", 1.5)):
+            m.planar_body(name, mass=1, inertia=0.1, position=(x, 0))
+        m.revolute("A", "ground", "crank", point=(0, 0))
+        m.revolute("B", "crank", "rod", point=(1, 0))
+        m.revolute("C", "rod", "slider", point=(1.5, 0))
+        m.translational("D", "ground", "slider", point=(1.5, 0), axis=(1, 0))
+        m.driver("motor", "A", rate=1)
+        m.save(self.path)
+        csv, page = self.out("run.csv"), self.out("run.html")
+        given = ["run", self.path, "--method", "rk4", "--step", 1e-3, "--samples", 11]
+        code, out, err = call(*given, "--out", csv, "--page", page)
+        self.assertEqual(code, 1)
+        self.assertIn("does not converge", err)
+        self.assertEqual(csv.read_text().split("\n")[-2].split(",")[0], "0.5")  # it locks at 0.52 s
+        self.assertTrue(page.exists())
+        code, out, err = call("study", self.path, "--until", 0.1, "--page", self.out("no") / "a.csv")
+        self.assertEqual(code, 1)
+        self.assertIn("cheapest", out)
+
     def test_functions_come_from_a_file(self):
         pendulum().save(self.path)
         code, out, err = call("check", self.path)

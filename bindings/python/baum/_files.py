@@ -22,23 +22,28 @@ def _is_replaceable(path: Path) -> bool:
     return is_single and is_own and os.access(path, os.W_OK)
 
 
-def write(path: str | os.PathLike[str], contents: str | bytes) -> None:
-    """Write a file. If this fails or is interrupted, the old file stays. Texts are in UTF-8."""
-    data = contents.encode() if isinstance(contents, str) else contents
-    place = Path(path)
-    if not _is_replaceable(place):
-        place.write_bytes(data)
-        return
-    part = place.with_name(f".baum-{secrets.token_hex(8)}.part")
+def _replace(path: Path, data: bytes) -> None:
+    part = path.with_name(f".baum-{secrets.token_hex(8)}.part")
     try:
         with open(part, "xb") as file:
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        if place.exists():
-            shutil.copymode(place, part)
-        os.replace(part, place)
-    except OSError as error:  # it names the part
-        raise OSError(error.errno, error.strerror, str(place)) from None
+        if path.exists():
+            shutil.copymode(path, part)
+        os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def write(path: str | os.PathLike[str], contents: str | bytes) -> None:
+    """Write a file. If this fails or is interrupted, the old file stays. Texts are in UTF-8."""
+    data = contents.encode() if isinstance(contents, str) else contents
+    place = Path(path)
+    try:
+        if _is_replaceable(place):
+            _replace(place, data)
+        else:
+            place.write_bytes(data)
+    except OSError as error:  # it names the part, or no file
+        raise OSError(error.errno, error.strerror, str(place)) from None
