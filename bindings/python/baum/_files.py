@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import secrets
 import shutil
 import stat
 from pathlib import Path
+from typing import Iterator
 
 
 def _is_replaceable(path: Path) -> bool:
@@ -22,28 +24,31 @@ def _is_replaceable(path: Path) -> bool:
     return is_single and is_own and os.access(path, os.W_OK)
 
 
-def _replace(path: Path, data: bytes) -> None:
-    part = path.with_name(f".baum-{secrets.token_hex(8)}.part")
+@contextlib.contextmanager
+def part(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give the path of a new file, which replaces the file `path` when the block ends. If the block
+    raises an exception, the new file is deleted, and the old file stays."""
+    place = Path(path)
+    if not _is_replaceable(place):
+        yield place
+        return
+    new = place.with_name(f".baum-{secrets.token_hex(8)}.part{place.suffix}")
     try:
-        with open(part, "xb") as file:
-            file.write(data)
-            file.flush()
+        yield new
+        with open(new, "rb+") as file:
             os.fsync(file.fileno())
-        if path.exists():
-            shutil.copymode(path, part)
-        os.replace(part, path)
+        if place.exists():
+            shutil.copymode(place, new)
+        os.replace(new, place)
     finally:
-        part.unlink(missing_ok=True)
+        new.unlink(missing_ok=True)
 
 
 def write(path: str | os.PathLike[str], contents: str | bytes) -> None:
     """Write a file. If this fails or is interrupted, the old file stays. Texts are in UTF-8."""
     data = contents.encode() if isinstance(contents, str) else contents
-    place = Path(path)
     try:
-        if _is_replaceable(place):
-            _replace(place, data)
-        else:
-            place.write_bytes(data)
+        with part(path) as file:
+            file.write_bytes(data)
     except OSError as error:  # it names the part, or no file
-        raise OSError(error.errno, error.strerror, str(place)) from None
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
