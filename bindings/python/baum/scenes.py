@@ -193,10 +193,12 @@ def _unpickled(text: str, functions: Functions, frozen: bool) -> Mechanism:
 
 def _elements(scene: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Return everything that a scene contains, by name: settings, inputs and elements."""
+    counts: dict[str, int] = {}
     found = {"mechanism": {key: scene[key] for key in scene if key not in (*LISTS, "inputs")}}
     for key in ("inputs", *LISTS):
         for number, element in enumerate(scene.get(key, ())):
-            found[unused(element.get("name", f"{key}[{number}]"), found)] = element
+            name = element.get("name", f"{key}[{number}]")
+            found[unused(name, found, counts)] = element
     return found
 
 
