@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/digest.h"
 #include "base/text.h"
 #include "fmu/resources.h"
 
@@ -31,6 +32,7 @@ typedef struct baum_i_fmu_instance {
 typedef struct baum_i_fmu_state {
   size_t size;    /* size of the whole block */
   size_t run;     /* size of the saved run, or 0 if there is no run */
+  uint64_t check; /* hash of everything from start_time to the numbers; the run has its own */
   char token[64]; /* the first characters of the instantiation token of the FMU */
   double start_time;
   double rtol;
@@ -375,6 +377,15 @@ static size_t numbers_size(const instance *fmu)
   return (size_t)fmu->resources.number_count * sizeof(double);
 }
 
+static uint64_t hash_of(const instance *fmu, const state *saved)
+{
+  baum_i_digest digest = {0};
+  const size_t first = offsetof(state, start_time);
+  baum_i_digest_add(&digest, (const char *)saved + first,
+                    sizeof(state) - first + numbers_size(fmu));
+  return digest.value;
+}
+
 FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance, fmi3FMUState *);
 fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
 {
@@ -396,6 +407,7 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
   saved->rtol = fmu->options.rtol;
   saved->is_initialized = fmu->is_initialized;
   memcpy(saved->numbers, fmu->numbers, numbers_size(fmu));
+  saved->check = hash_of(fmu, saved);
   baum_i_free(*place); /* the caller may pass an earlier state, which is replaced */
   *place = saved;
   char *bytes = (char *)saved + sizeof(state) + numbers_size(fmu);
@@ -476,6 +488,10 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance fmu, const uint8_t *bytes, size_
   state *copy = baum_i_copy(bytes, head.size, 1);
   if (!copy) {
     return converted(fmu, baum_i_fail_memory());
+  }
+  if (copy->check != hash_of(fmu, copy)) {
+    baum_i_free(copy);
+    return fail(fmu, "fmi3DeserializeFMUState: the bytes are damaged");
   }
   baum_i_free(*place);
   *place = copy;

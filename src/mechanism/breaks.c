@@ -13,11 +13,17 @@
 /* Find the index of the first break time >= t. */
 static int place_of(const baum_mechanism *mechanism, double t)
 {
-  int k = 0;
-  while (k < mechanism->break_count && mechanism->breaks[k] < t) {
-    k++;
+  int low = 0;
+  int high = mechanism->break_count;
+  while (low < high) {
+    const int middle = low + (high - low) / 2;
+    if (mechanism->breaks[middle] < t) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
   }
-  return k;
+  return low;
 }
 
 static void insert(baum_mechanism *mechanism, double t)

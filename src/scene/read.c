@@ -38,13 +38,14 @@ static baum_status read_array(const baum_i_scene_reader *r, const baum_i_definit
     return baum_i_scene_fail_kind(r, list, "a list that is not empty");
   }
   int32_t *count = baum_i_scene_counter(f, def);
-  const int stride = baum_i_field_stride(f);
+  const int64_t stride = baum_i_field_stride(f);
   if (*count == 0 && baum_i_scene_derives(definition, f)) {
-    *count = list->count / stride;
+    *count = (int32_t)(list->count / stride);
   }
   if (*count * stride != list->count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: \"%.60s\" has %d entries, must have %d",
-                       r->label, list->line, list->key, (int)list->count, (int)*count * stride);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: line %d: \"%.60s\" has %d entries, must have %lld",
+                       r->label, list->line, list->key, (int)list->count,
+                       (long long)(*count * stride));
   }
   void *array = baum_i_alloc((size_t)list->count, sizeof(double));
   BAUM_I_TRY(baum_i_check_memory(array));
@@ -64,6 +65,23 @@ static void free_arrays(const baum_i_definition *definition, void *def)
 }
 
 /* ---- elements ---- */
+
+/* Name an element in the message of a failure, after the number of the line: a text may have all
+ * elements in one line. */
+static baum_status add_element_name(const baum_i_scene_reader *r, const char *family, int number,
+                                    const baum_i_json_node *object, baum_status status)
+{
+  if (status == BAUM_OK || status == BAUM_ERR_MEMORY) {
+    return status;
+  }
+  const baum_i_json_node *name = baum_i_json_find(r->json, object, "name");
+  const char *text = name && name->text ? name->text : "";
+  const char *quote = text[0] ? "\"" : "";
+  const baum_i_kept_message kept = baum_i_message_keep();
+  const char *rest = strstr(kept.text + strlen(r->label) + 2, ": ") + 2;
+  return baum_i_fail(status, "%.*s%s %d%s%s%.80s%s: %.600s", (int)(rest - kept.text), kept.text,
+                     family, number, text[0] ? " " : "", quote, text, quote, rest);
+}
 
 /* If `arrays` is set, read all fields that are arrays, otherwise read all other fields. */
 static baum_status read_fields(const baum_i_scene_reader *r, const baum_i_definition *definition,
@@ -159,10 +177,12 @@ static baum_status read_element(const baum_i_scene_reader *r, const baum_i_famil
   BAUM_I_TRY(find_kind(r, family, object, &kind));
   BAUM_I_TRY(check_keys(r, kind, object));
   const baum_i_definition *definition = *kind->definition;
+  const int number = baum_i_family_count(family, r->mechanism) + 1;
   void *def = baum_i_alloc(1, definition->size);
   BAUM_I_TRY(baum_i_check_memory(def));
   baum_i_fields_set(definition, def);
   baum_status status = fill_definition(r, definition, object, def);
+  status = add_element_name(r, family->name, number, object, status);
   if (status == BAUM_OK) {
     status = baum_i_add_element(r->mechanism, family, definition, def);
     status = baum_i_scene_add_line(r, object, status);
@@ -212,7 +232,8 @@ static baum_status read_all_outlines(const baum_i_scene_reader *r)
        node = baum_i_json_next(r->json, node), body.index1++) {
     const baum_i_json_node *outlines = baum_i_json_find(r->json, node, "outlines");
     if (outlines) {
-      BAUM_I_TRY(read_outlines_of(r, outlines, body));
+      baum_status status = read_outlines_of(r, outlines, body);
+      BAUM_I_TRY(add_element_name(r, "body", (int)body.index1, node, status));
     }
   }
   return BAUM_OK;

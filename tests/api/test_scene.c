@@ -410,7 +410,7 @@ static const char *const WRONG[][2] = {
   {HEAD "\"bodies\": [\n{\"kind\": \"planar_body\", \"name\": \"b\", \"mass\": 0}]}",
    "line 2: body 1 \"b\": mass is 0 kg"},
   {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"mass\": null}]}",
-   "line 1: \"mass\" is null, must be a number"},
+   "line 1: body 1: \"mass\" is null, must be a number"},
   {"\xef\xbb\xbf{}", "this is not a scene: the key"},
   {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"name\": \"\\u0007\"}]}", "name"},
   {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"name\": \"\\ud800\"}]}", "backslash"},
@@ -445,7 +445,7 @@ static const char *const WRONG[][2] = {
   {HEAD "\"joints\": [{\"kind\": \"driver\", \"coordinate\": \"angel\"}]}", "\"angel\""},
   {HEAD "\"bodies\": [{\"kind\": \"planar_body\", \"name\": \"b\", \"mass\": 1, \"inertia\": 1, "
         "\"outlines\": [{\"form\": \"cube\"}]}]}",
-   "no form \"cube\""},
+   "line 1: body 1 \"b\": there is no form \"cube\""},
   {HEAD "\"ground_outlines\": [{\"form\": \"circle\", \"radius\": 0}]}", "line 1: |radius is 0 m"},
   {HEAD "\"ground_outlines\": [{\"form\": \"circle\", \"radios\": 0}]}", "no field \"radios\""},
   {HEAD "\"ground_outlines\": [{\"points\": [[1, 2]]}]}", "2 entries, must have 3"},

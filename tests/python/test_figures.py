@@ -187,6 +187,22 @@ class Movies(unittest.TestCase):
                 self.assertEqual(gif.info["duration"], 30)
         np.testing.assert_allclose(np.diff(seen), 0.03, atol=1e-12)
 
+    def test_an_interrupted_movie_leaves_the_old_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.gif")
+            with open(path, "w") as file:
+                file.write("old")
+
+            def stop(t):
+                if t > 0.3:
+                    raise KeyboardInterrupt
+
+            with self.assertRaises(KeyboardInterrupt):
+                self.run_.movie(path, fps=10, size=(80, 60), progress=stop)
+            with open(path) as file:
+                self.assertEqual(file.read(), "old")
+            self.assertEqual(os.listdir(folder), ["x.gif"])
+
     @unittest.skipUnless(matplotlib and animation.FFMpegWriter.isAvailable(), "ffmpeg is missing")
     def test_a_film_is_written(self):
         with tempfile.TemporaryDirectory() as folder:

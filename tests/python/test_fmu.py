@@ -222,6 +222,11 @@ class BinaryTest(FmuTest):
         for wrong in (size.value - 1, 3):
             with self.assertRaisesRegex(OSError, "not a state of this FMU"):
                 other.call("fmi3DeserializeFMUState", bytes, SIZE(wrong), ctypes.byref(copy))
+        for k in (90, 150):  # the tolerance and a parameter
+            damaged = (ctypes.c_uint8 * size.value).from_buffer_copy(bytes)
+            damaged[k] ^= 1
+            with self.assertRaisesRegex(OSError, "damaged"):
+                other.call("fmi3DeserializeFMUState", damaged, size, ctypes.byref(copy))
         damaged = (ctypes.c_uint8 * size.value).from_buffer_copy(bytes)
         damaged[1000] ^= 1  # the saved run begins before byte 200 and has more than 2000 bytes
         other.call("fmi3DeserializeFMUState", damaged, size, ctypes.byref(copy))
@@ -337,6 +342,10 @@ class ExportTest(FmuTest):
         ):
             with self.assertRaisesRegex(kind, text):
                 self.export(None, "rk8", **given)
+        m = arm()
+        m.input("a\ufffe")
+        with self.assertRaisesRegex(ValueError, "has a character that XML does not allow"):
+            self.export(m, "rk8", step=1e-3)
         self.assertFalse((self.folder / "arm.fmu").exists())
 
     def test_orientations_that_an_element_needs_are_no_parameters(self):

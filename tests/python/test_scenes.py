@@ -68,6 +68,44 @@ class SceneTest(FileTest):
         runs = [x.freeze().simulate(times, "rk8", rtol=1e-9) for x in (m, back)]
         np.testing.assert_array_equal(runs[0].q, runs[1].q)
 
+    def test_elements_with_equal_names_are_all_there(self):
+        """C programs can give several elements the same name."""
+        text = """{"baum_scene": 1, "gravity": [0, 0, 0],
+            "bodies": [{"kind": "planar_body", "name": "a"}, {"kind": "planar_body", "name": "b"}],
+            "forces": [{"kind": "user_force", "name": "b", "bodies": ["a"], "force": "first"},
+                       {"kind": "user_force", "name": "b", "bodies": ["b"], "force": "second"}]}"""
+        given = {"first": lambda t, q, v: (1, 0, 0), "second": lambda t, q, v: (2, 0, 0)}
+        m = baum.parse(text, given)
+        self.assertEqual([one.name for one in m], ["a", "b", "b (2)", "b (3)"])
+        self.assertEqual(m.function_names(), ["b (2).force", "b (3).force"])
+        run = m.freeze().simulate([0, 1], "rk8", step=0.1)
+        np.testing.assert_allclose(run.v[-1], [1, 0, 0, 2, 0, 0], atol=1e-14)  # rounding errors
+        other = baum.parse(text.replace('"second"', '"third"'), given | {"third": circle})
+        self.assertEqual(m.difference(other), "b (3): force b (3).force -> circle")
+
+    def test_parameters_of_an_fmu_need_a_unique_name(self):
+        text = crank().scene().replace('"name": "A"', '"name": "crank"')
+        m = baum.parse(text)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "a.fmu"
+            with self.assertRaisesRegex(ValueError, "several elements .* 'crank .2.'"):
+                m.export_fmu(
+                    file, "rk4", step=0.1, outputs=["energy"], parameters=["crank (2).point"]
+                )
+
+    def test_texts_that_python_cannot_read_are_refused_by_the_library(self):
+        for text in ("[" * 100000, '{"a": ' * 100000):
+            with self.assertRaisesRegex(baum.Error, "line 1: brackets are nested too deeply"):
+                baum.parse(text)
+        unnamed = pendulum().scene({"wind": drag}).replace('"wind(0)"', '""')
+        with self.assertRaisesRegex(baum.Error, '"force" is the function ""'):
+            baum.parse(unnamed, globals())
+        self.path.write_text("\ufeff" + pendulum().scene(), encoding="utf-8")
+        self.assertEqual(baum.load(self.path, globals()), pendulum())
+        self.path.write_text(crank().scene(), encoding="utf-16")
+        with self.assertRaisesRegex(ValueError, "scene.json: 'utf-8' codec"):
+            baum.load(self.path)
+
     def test_messages_about_a_file_begin_with_its_path(self):
         self.path.write_text('{"baum_scene": 1,\n "bodis": []}')
         with self.assertRaises(baum.Error) as caught:
@@ -281,6 +319,27 @@ class CommandTest(FileTest):
         self.assertTrue(lines[0].startswith("t,q[0],q[1],q[2],v[0]"))
         self.assertEqual(len(lines), 8)
         self.assertIn("<html", page.read_text()[:500].lower())
+
+    def test_results_are_kept_if_the_run_or_the_writing_fails(self):
+        m = baum.Mechanism(gravity=(0, 0))  # the rod of 0.5 m is shorter than the crank of 1 m
+        for name, x in (("crank", 0.5), ("rod", 1.25), ("slider", 1.5)):
+            m.planar_body(name, mass=1, inertia=0.1, position=(x, 0))
+        m.revolute("A", "ground", "crank", point=(0, 0))
+        m.revolute("B", "crank", "rod", point=(1, 0))
+        m.revolute("C", "rod", "slider", point=(1.5, 0))
+        m.translational("D", "ground", "slider", point=(1.5, 0), axis=(1, 0))
+        m.driver("motor", "A", rate=1)
+        m.save(self.path)
+        csv, page = self.out("run.csv"), self.out("run.html")
+        given = ["run", self.path, "--method", "rk4", "--step", 1e-3, "--samples", 11]
+        code, out, err = call(*given, "--out", csv, "--page", page)
+        self.assertEqual(code, 1)
+        self.assertIn("does not converge", err)
+        self.assertEqual(csv.read_text().split("\n")[-2].split(",")[0], "0.5")  # it locks at 0.52 s
+        self.assertTrue(page.exists())
+        code, out, err = call("study", self.path, "--until", 0.1, "--page", self.out("no") / "a.csv")
+        self.assertEqual(code, 1)
+        self.assertIn("cheapest", out)
 
     def test_functions_come_from_a_file(self):
         pendulum().save(self.path)

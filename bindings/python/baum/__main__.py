@@ -4,12 +4,15 @@
 from __future__ import annotations
 
 import argparse
+import csv
+import io
 import runpy
 import sys
 from typing import Any
 
 import numpy as np
 
+from . import _files
 from .errors import Error
 from .mechanism import Mechanism
 from .run import Run
@@ -25,8 +28,10 @@ def _scene(options: argparse.Namespace) -> Mechanism:
 def _write_csv(run: Run, path: str) -> None:
     columns = run.to_dict()
     table = np.column_stack(list(columns.values()))
-    header = ",".join(columns)
-    np.savetxt(path, table, fmt="%.17g", delimiter=",", header=header, comments="")
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(columns)  # names can contain commas
+    np.savetxt(text, table, fmt="%.17g", delimiter=",")
+    _files.write(path, text.getvalue())
 
 
 def _run(options: argparse.Namespace) -> None:
@@ -34,19 +39,27 @@ def _run(options: argparse.Namespace) -> None:
     given = {name: value for name, value in chosen.items() if value is not None}
     times = np.linspace(0.0, options.until, options.samples)
     mechanism = _scene(options).freeze()
-    run = mechanism.simulate(times, options.method, record=options.record, **given)
+    failure = None
+    try:
+        run = mechanism.simulate(times, options.method, record=options.record, **given)
+    except Error as error:
+        if error.run is None or not len(error.run.t):
+            raise
+        failure, run = error, error.run  # write the samples before the failure
+    print(run.explain)
     if options.out:
         _write_csv(run, options.out)
     if options.page:
         run.page(options.page, title=options.scene)
-    print(run.explain)
+    if failure:
+        raise failure
 
 
 def _study(options: argparse.Namespace) -> None:
     result = study(_scene(options).freeze(), 0.0, options.until, grid=options.grid).run()
+    print(result.report())
     if options.page:
         result.write(options.page)
-    print(result.report())
 
 
 def _mobility(options: argparse.Namespace) -> None:

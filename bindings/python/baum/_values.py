@@ -7,7 +7,7 @@ from __future__ import annotations
 import ctypes
 import difflib
 import operator
-from typing import Any, Iterable, Mapping
+from typing import Any, Container, Iterable, Mapping
 
 import numpy as np
 
@@ -46,6 +46,16 @@ def truth(value: Any, label: str) -> bool:
     if not isinstance(value, (bool, np.bool_, int)):
         raise TypeError(f"{label}: True or False is wanted, not {value!r}")
     return bool(value)
+
+
+def unused(name: str, taken: Container[str], counts: dict[str, int]) -> str:
+    """Return a name that is not taken: "rod", or "rod (2)" if there is already a "rod". `counts` is
+    empty at first. It makes the search for the next number quick."""
+    found = name
+    while found in taken:
+        counts[name] = counts.get(name, 1) + 1
+        found = f"{name} ({counts[name]})"
+    return found
 
 
 def there_are(names: Iterable[str], given: Any) -> str:

@@ -12,7 +12,7 @@ import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from . import _motion, pictures
+from . import _files, _motion, pictures
 from ._lib import lib
 from ._values import address, vector
 from .typing import ArrayLike
@@ -47,7 +47,7 @@ class Drawing:
         """
         suffix = Path(path).suffix.lower()
         if suffix == ".svg":
-            Path(path).write_text(self._svg, encoding="utf-8")
+            _files.write(path, self._svg)
         else:
             pictures.save(self._svg, path, suffix, dpi)
 
@@ -70,7 +70,7 @@ class Page:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the page to an HTML file."""
-        Path(path).write_text(self._page, encoding="utf-8")
+        _files.write(path, self._page)
 
     def open(self) -> None:
         """Open the page in the browser. The page is written to a temporary file, which is not

@@ -7,17 +7,20 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import importlib.metadata
+import io
 import json
 import math
 import os
 import platform
+import re
 import sys
 import xml.etree.ElementTree as ElementTree
 import zipfile
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence
 
-from . import _abi
+from . import _abi, _files
 from ._lib import default, lib
 from ._lib import path as library
 from ._lib import version as library_version
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
 MODEL = "baum_fmu"  # the name of the binary in every FMU
 SYSTEMS = {"darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
 MACHINES = {"amd64": "x86_64", "arm64": "aarch64"}
+NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 # Options that an FMU does not support. The program that runs the FMU sets the start time.
 REFUSED = ("progress", "progress_interval", "row_gains", "max_steps", "start_time")
 
@@ -145,6 +149,9 @@ def _parameter(mechanism: Mechanism, name: str) -> Iterator[_Variable]:
     if field not in known:
         more = f"; {there_are(known, field)}" if known else ", such as 'rod.mass'"
         raise ValueError(f'{name!r} is not "element.field" with a field of numbers{more}')
+    name_of = getattr(lib, f"baum_mechanism_{mechanism[element].family}_name")
+    if name_of(mechanism.handle, mechanism[element].id).decode() != element:
+        raise ValueError(f"{name!r}: several elements of the scene have the name of {element!r}")
     value = getattr(struct, field)
     numbers = [value] if kinds[field] is ctypes.c_double else list(value)
     for one, start in zip(_numbered(name, len(numbers)), numbers):
@@ -223,10 +230,13 @@ def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Sequence[Any] | None)
     return [copy.find("input", name) for name in names]
 
 
-def _check_names(names: Sequence[str]) -> None:
-    for name in names:
-        if names.count(name) > 1:
+def _check_names(path: Path, names: Sequence[str]) -> None:
+    for name, count in Counter(names).items():
+        if count > 1:
             raise ValueError(f'export_fmu: two variables have the name "{name}"')
+    for name in (path.stem, *names):
+        if NOT_IN_XML.search(name):
+            raise ValueError(f"export_fmu: {name!r} has a character that XML does not allow")
 
 
 def export(
@@ -269,7 +279,7 @@ def export(
         "outputs": [_channel(channel) for channel in layout.channels.values()],
     }
     names = [one.name for one in variables]
-    _check_names(names)
+    _check_names(Path(path), names)
     token = hashlib.sha256(json.dumps([scene, interface, names]).encode()).hexdigest()
     interface["token"] = token
     description = _description(Path(path).stem, token, variables, chosen.get("rtol"))
@@ -284,6 +294,8 @@ def export(
 
 def _write(path: Path, files: Sequence[tuple[str, bytes]]) -> None:
     """Write the archive. It contains no file times, so equal mechanisms give equal archives."""
-    with zipfile.ZipFile(path, "w") as archive:
+    whole = io.BytesIO()
+    with zipfile.ZipFile(whole, "w") as archive:
         for name, data in files:
             archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)
+    _files.write(path, whole.getvalue())

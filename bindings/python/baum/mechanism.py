@@ -17,7 +17,7 @@ from . import _abi, _calls, _html, _motion, _records, design, design_space, draw
 from ._lib import lib, text
 from ._motion import TraceLike
 from ._strict import Strict
-from ._values import number, numbers, point, there_are, vector
+from ._values import number, numbers, point, there_are, unused, vector
 from .adding import Adding
 from .adding_space import AddingInSpace
 from .channels import WHOLE, Channel, has
@@ -144,12 +144,13 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         """Own a mechanism that a function of the library has built."""
         made = cls.__new__(cls)
         made._adopt(address)
+        counts: dict[str, int] = {}
         for family in CLASSES:
             count = getattr(lib, f"baum_mechanism_{family}_count")(address)
             for k in range(count):
                 id = getattr(lib, f"baum_mechanism_{family}_at")(address, k)
                 name = getattr(lib, f"baum_mechanism_{family}_name")(address, id).decode()
-                made._entries[name] = _entry_of(address, family, id)
+                made._entries[unused(name, made._entries, counts)] = _entry_of(address, family, id)
         return made
 
     def __repr__(self) -> str:

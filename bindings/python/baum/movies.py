@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _motion, pictures
+from . import _files, _motion, pictures
 from ._lib import lib
 from ._values import number
 from .progress import Line, stream
@@ -44,7 +44,8 @@ def write(
     out = stream() if progress is True else None
     line = None if out is None else Line(out, f"movie of {len(times)} frames")
     try:
-        _draw(whole, samples, writer, path, pictures.pixels(size, MOST_PIXELS), line, progress)
+        with _files.part(path) as part:
+            _draw(whole, samples, writer, part, pictures.pixels(size, MOST_PIXELS), line, progress)
     finally:
         if line is not None:
             line.close()

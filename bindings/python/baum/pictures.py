@@ -8,11 +8,13 @@ attributes. This module reads only this part of SVG.
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import xml.etree.ElementTree as xml
 from typing import TYPE_CHECKING, Any
 
+from . import _files
 from ._values import vector
 from .typing import Array
 
@@ -74,8 +76,10 @@ def save(svg: str, path: str | os.PathLike[str], suffix: str, dpi: float) -> Non
     size = width / INCH, height / INCH
     figure = Figure(figsize=size, facecolor="white", frameon=suffix == ".png")
     draw(svg, figure)
+    picture = io.BytesIO()
     with matplotlib.rc_context({"pdf.fonttype": 42}):  # embed fonts: texts stay selectable
-        figure.savefig(path, format=suffix[1:], dpi=dpi)
+        figure.savefig(picture, format=suffix[1:], dpi=dpi)
+    _files.write(path, picture.getvalue())
 
 
 def draw(svg: str, figure: Figure) -> None:

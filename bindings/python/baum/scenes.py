@@ -15,9 +15,10 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterator, Mapping
 
-from . import _abi, _calls, callbacks, errors
+from . import _abi, _calls, _files, callbacks, errors
 from ._lib import lib
 from ._motion import ROOM
+from ._values import unused
 from .definitions import ARGUMENTS, KINDS
 
 if TYPE_CHECKING:
@@ -147,7 +148,7 @@ class Scenes:
     ) -> None:
         """Write the scene into a file, which baum.load() can read. The other arguments are those
         of scene()."""
-        Path(path).write_text(self.scene(functions, units), encoding="utf-8", newline="\n")
+        _files.write(path, self.scene(functions, units))
 
     def function_names(self: Any) -> list[str]:
         """Return the names of the functions and `user` objects that a scene would contain."""
@@ -192,10 +193,12 @@ def _unpickled(text: str, functions: Functions, frozen: bool) -> Mechanism:
 
 def _elements(scene: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Return everything that a scene contains, by name: settings, inputs and elements."""
+    counts: dict[str, int] = {}
     found = {"mechanism": {key: scene[key] for key in scene if key not in (*LISTS, "inputs")}}
     for key in ("inputs", *LISTS):
         for number, element in enumerate(scene.get(key, ())):
-            found[element.get("name", f"{key}[{number}]")] = element
+            name = element.get("name", f"{key}[{number}]")
+            found[unused(name, found, counts)] = element
     return found
 
 
@@ -222,8 +225,9 @@ def _hook_fields(element: Any) -> Iterator[tuple[str, str]]:
     field with this name. `element` is a part of a scene."""
     kind = KINDS.get(str(element.get("kind"))) if isinstance(element, dict) else None
     for name, of, *_ in kind.struct._fields_ if kind else ():
-        if (of in callbacks.SHELLS or name == "user") and isinstance(element.get(name), str):
-            yield name, element[name]
+        if of in callbacks.SHELLS or name == "user":
+            if element.get(name) and isinstance(element[name], str):
+                yield name, element[name]
 
 
 def _placeholders(scene: Any) -> list[_abi.baum_hook]:
@@ -254,19 +258,17 @@ def _object(name: str, functions: Functions, label: str) -> tuple[Any, list[int]
     return functions[bare], [int(k) for k in parts[2].split(",")] if parts else []
 
 
-def _set_functions(mechanism: Mechanism, element: Any, usual: str, functions: Functions) -> None:
-    """Replace the placeholders of an element by functions. usual: the name of the element if the
-    scene gives none."""
-    own = element.get("name", usual)
+def _set_functions(mechanism: Mechanism, own: Element, element: Any, functions: Functions) -> None:
+    """Replace the placeholders of an element by functions. element: its entry in the scene."""
     changes: dict[str, Any] = {}
     for field, name in _hook_fields(element):
-        label = f"{own}: {field}"
+        label = f"{own.name}: {field}"
         value, inputs = _object(name, functions, label)
         changes[ARGUMENTS.get(field, field)] = value
         if inputs:
             changes["inputs"] = [mechanism.inputs[k] for k in inputs]
     if changes:
-        mechanism.change(mechanism[own], changes)
+        mechanism.change(own, changes)
 
 
 def parse(text: str, functions: Functions | None = None) -> Mechanism:
@@ -281,8 +283,8 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
     scene: Any = None
     try:
-        scene = json.loads(text)
-    except ValueError:
+        scene = json.loads(text.removeprefix("\ufeff"))
+    except (ValueError, RecursionError):
         pass  # the message of the library names the line
     hooks = _placeholders(scene)
     array = (_abi.baum_hook * len(hooks))(*hooks)
@@ -290,8 +292,9 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
     _calls.make(lib.baum_mechanism_parse, data, len(data), array, len(hooks), ctypes.byref(out))
     mechanism = Mechanism.of_library(out.value)
     for key, family in LISTS.items() if hooks else ():
-        for k, element in enumerate(scene.get(key, ())):
-            _set_functions(mechanism, element, f"{family}{k + 1}", functions or {})
+        own = (one for one in mechanism if one.family == family)
+        for added, element in zip(own, scene.get(key, ())):
+            _set_functions(mechanism, added, element, functions or {})
     return mechanism
 
 
@@ -300,6 +303,8 @@ def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Me
     arguments and errors are those of baum.parse(). Messages of baum.Error begin with the path."""
     try:
         return parse(Path(path).read_text(encoding="utf-8"), functions)
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{os.fspath(path)}: {error}") from None
     except errors.Error as error:
         where = str(error).removeprefix("scene: ")
         raise errors.Error(error.status, f"{os.fspath(path)}: {where}") from None

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, Mapping, Na
 
 import numpy as np
 
-from . import _abi
+from . import _abi, _files
 from ._values import there_are, vector
 from .channels import Channel
 from .errors import Error, Status
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
     from .mechanism import Mechanism
 
+DIGITS = 64  # length of a hash in the file of a sweep
 CHUNKS = 64  # a long sweep is divided into 64 to 128 parts for each worker
 Reduce = Callable[[Run], Any]
 
@@ -377,8 +378,14 @@ def _plain(value: Any) -> Any:
     return repr(value)
 
 
+def _hash(data: bytes) -> bytes:
+    """Return the hash of data as DIGITS characters."""
+    return hashlib.sha256(data).hexdigest().encode()
+
+
 class _File:
-    """The file that keeps the finished runs of a sweep."""
+    """The file that keeps the finished runs of a sweep. It contains the hash of everything that the
+    results depend on, the hash of the pickled results, and the pickled results."""
 
     def __init__(self, path: str | os.PathLike[str], task: _Task, rows: Sequence[Any]) -> None:
         self._path = Path(path)
@@ -388,16 +395,18 @@ class _File:
         record = [one.key if isinstance(one, Channel) else one for one in task.record]
         key = [_abi.VERSION, task.mechanism.scene(), functions, *task[1:4], rows, record]
         key += [task.reduce, task.options]
-        self._key = hashlib.sha256(repr(_plain(key)).encode()).hexdigest()
+        self._key = _hash(repr(_plain(key)).encode())
 
     def read(self) -> list[_Result | None]:
         if not self._path.exists():
             return [None] * self._count
-        with open(self._path, "rb") as file:
-            key, results = pickle.load(file)
+        whole = self._path.read_bytes()
+        key, check, data = whole[:DIGITS], whole[DIGITS : 2 * DIGITS], whole[2 * DIGITS :]
+        if check != _hash(data):
+            raise ValueError(f"{self._path}: this file is damaged, or is not the file of a sweep")
         if key != self._key:
             raise ValueError(f"{self._path}: this file is of another sweep")
-        found: list[_Result | None] = results
+        found: list[_Result | None] = pickle.loads(data)
         return found
 
     def write(self, results: list[_Result | None], whole: bool) -> None:
@@ -405,7 +414,5 @@ class _File:
         if not whole and time.monotonic() < self._next:
             return
         self._next = time.monotonic() + 1.0
-        part = self._path.with_name(self._path.name + ".part")
-        with open(part, "wb") as file:
-            pickle.dump((self._key, results), file)
-        os.replace(part, self._path)
+        data = pickle.dumps(results)
+        _files.write(self._path, self._key + _hash(data) + data)
