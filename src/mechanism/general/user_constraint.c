@@ -18,9 +18,10 @@
  * Constraints of velocity level, J(q, t) v = nu(q, t), have no Phi: J is required, nu is zero if it
  * is not given, and gamma = d/ds (nu - J v)(q + s v, t + s) as above.
  *
- * If all velocities are zero, the time scale of Phi is unknown. Differences with respect to t then
- * assume a time scale of one second. For a constraint that varies much more slowly, the user should
- * give nu and gamma.
+ * The time in which Phi changes at constant q is unknown. Differences with respect to t assume that
+ * it is one second. Differences along the line q + s v, t + s use the time scale of the motion
+ * instead, if that is shorter. For a constraint that changes much more slowly with t, the user
+ * should give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
