@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism. Where speed matters, one call evaluates a group of elements,
- * otherwise each call evaluates one element. */
+/* Evaluation of a whole mechanism. Where speed matters, one call evaluates a group of elements;
+ * otherwise, each call evaluates one element. */
 #include <string.h>
 
 #include "base/message.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads a scene, which is a mechanism as a JSON text. It builds the mechanism by the same public
- * calls that a program uses. */
+/* Reads a scene, which is a mechanism as a JSON text. Elements and settings pass the same checks as
+ * those that a program adds. */
 #include <string.h>
 
 #include <baum/breaks.h>

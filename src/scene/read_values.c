@@ -264,7 +264,7 @@ baum_status baum_i_scene_read_field(const baum_i_scene_reader *r, const baum_i_d
   }
   const int count = (int)(f->size / sizeof(double));
   BAUM_I_TRY(baum_i_scene_read_numbers(r, node, count, at));
-  /* later checks would name NaN, which the scene does not contain */
+  /* a later check would report NaN, but the scene contains null */
   bool is_null = count == 1 && isnan(*(const double *)at);
   return is_null && baum_i_check_number("", f->name, "", f->rule, NAN) != BAUM_OK
            ? baum_i_scene_fail_kind(r, node, "a number")

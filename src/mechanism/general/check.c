@@ -242,8 +242,9 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of rearranged_field(), which evaluates a function and stores each entry at the index of
- * the entry that is its derivative. Messages then name the right entry of the derivative. */
+/* Context of rearranged_field(). This function evaluates a field. It stores each entry of the
+ * result at the index that the derivative of this entry has in the result. Messages then name the
+ * right entry. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

@@ -35,9 +35,9 @@ typedef struct baum_i_derived {
   int of;
 } baum_i_derived;
 
-/* For each pair, compare one entry of the output of a function with differences of the other entry
- * along a ray. The output has field->size entries. If the function fails at the point `at`, its
- * status is returned. */
+/* For each pair, compare entry number `entry` of the output of a function with differences of entry
+ * number `of` along a ray. The output has field->size entries. If the function fails at the point
+ * `at`, its status is returned. */
 baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
                                    const baum_i_field *field, const baum_i_derived *pairs,
                                    int pair_count, const baum_i_ray *ray, const baum_i_local *at);

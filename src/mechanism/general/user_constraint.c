@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints that user functions compute. The function Phi(q, t) is required. Functions for the
- * following quantities are optional:
+/* Constraints that user functions compute. At position level, the function Phi(q, t) is required.
+ * Functions for the following quantities are optional:
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
@@ -139,7 +139,7 @@ static baum_status minus_phi_field(const void *context, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* Compute nu - J v as a function of q and t. If the user does not give nu, it is zero here. */
+/* Compute nu - J v as a function of q and t. If the user does not give nu, nu is zero here. */
 static baum_status minus_rate_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = context;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every row of a spatial joint is a product of two vectors,
+/* Most rows of spatial joints are products of two vectors,
  *
  *   Phi = x . y,
  *

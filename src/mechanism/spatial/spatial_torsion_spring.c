@@ -107,7 +107,7 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 }
 
 /* Let d be the least distance of z_b from -z_a in a step in which z_b moves by l relative to z_a.
- * For d << 1 the angle changes by nearly 2 pi while z_b moves by a few d. If l > 4.53 d, the
+ * For d << 1 the angle changes by nearly 2 pi while z_b moves by a few times d. If l > 4.53 d, the
  * prediction of baum_i_follow_angles() may differ from the angle by more than pi, and the count
  * then loses a revolution. LIMIT is lower than 4.53, because z_b does not move along a straight
  * line. A spring without torque never jumps. */
