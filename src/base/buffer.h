@@ -11,7 +11,7 @@
 /* A text that grows. A zeroed buffer is empty. Once memory has run out, functions that append to
  * the buffer do nothing. */
 typedef struct baum_i_buffer {
-  char *text; /* (used) followed by a zero byte; NULL while empty */
+  char *text; /* `used` bytes and then a zero byte; NULL while empty */
   size_t used;
   size_t room;
   bool failed;

@@ -4,8 +4,8 @@
  *
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *
- * Both steps are bijections, so a change of a single word always changes the hash. The hash does
- * not protect against collisions that somebody constructs on purpose.
+ * Both steps are bijections, so a change of a single number w always changes the hash. The hash
+ * does not protect against collisions that somebody constructs on purpose.
  */
 #ifndef BAUM_I_BASE_DIGEST_H
 #define BAUM_I_BASE_DIGEST_H

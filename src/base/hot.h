@@ -2,7 +2,8 @@
 /* Hot files, <name>_hot.c, are compiled twice: once like all other files, and once for processors
  * with 256-bit vectors and fused multiply-add. Each file ends with one const table of its
  * functions, named by BAUM_I_HOT(). When a mechanism is created, one of the two tables is selected
- * for all its workspaces and runs. The results of the two tables differ in the last digits.
+ * for all its workspaces and runs. The results of the two versions of a function differ in the last
+ * digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds the minimum of a function of one variable by Brent's method. A step goes to the vertex of
  * the parabola through the three lowest points found so far. If this step is longer than half of
- * the step before the last one, the search instead divides the larger of the two intervals between
- * the lowest point and the ends by the golden section.
+ * the step before the last one, the search instead goes from the lowest point towards the end that
+ * is farther away, by 0.38 of the distance to this end (golden section).
  *
  * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. If the function
  * resembles a parabola near its minimum, about eight evaluations locate the minimum to a millionth
- * of the interval; golden sections alone need thirty.
+ * of the interval; steps by golden section alone need thirty evaluations.
  */
 #include "base/least.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The functions that monitor a run execute these loops over arrays after every step. The loops use
+/* Loops over arrays. The functions that monitor a run call them after every step. The loops use
  * vectors of four numbers, because plain loops would cost half as much time as an evaluation of the
  * accelerations. */
 #ifndef BAUM_I_BASE_MEASURE_H

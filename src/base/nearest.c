@@ -5,9 +5,10 @@
  *
  *   D(i, j) = min(D(i-1, j) + 1,  D(i, j-1) + 1,  D(i-1, j-1) + [a_i != b_j]).
  *
- * A name that contains the whole given name has the distance 1 from it if the given name has at
- * least SHORTEST_PART characters. Names are similar if their distance is at most a third of the
- * length of the given name, rounded, and neither name has more than LONGEST characters. */
+ * If the given name has at least SHORTEST_PART characters, and another name contains the whole
+ * given name, their distance is set to 1. Names are similar if their distance is at most a third of
+ * the length of the given name, rounded to an integer, and neither name has more than LONGEST
+ * characters. */
 #include "base/nearest.h"
 
 #include <stdbool.h>

@@ -35,7 +35,7 @@ void baum_i_quaternion_log(const double p[4], double rotation[3])
 }
 
 /* The matrix determines 4 p p^T, whose rows are multiples of p. The row with the largest diagonal
- * entry is normalized, because it is not small. */
+ * entry is normalized, because this row is the longest one. */
 void baum_i_quaternion_of(const double axes[9], double p[4])
 {
   const double trace = axes[0] + axes[4] + axes[8];

@@ -36,7 +36,8 @@ static inline void baum_i_sets_unite(int *parent, int a, int b)
 static inline int baum_i_sets_number(int *parent, int count)
 {
   int sets = 0;
-  for (int i = 0; i < count; i++) { /* parent[parent[i]] has already been replaced */
+  for (int i = 0; i < count; i++) {
+    /* if parent[i] < i, the number parent[parent[i]] has already been replaced */
     parent[i] = parent[i] == i ? sets++ : parent[parent[i]];
   }
   return sets;

@@ -55,7 +55,7 @@ static fmi3Status fail(const instance *fmu, const char *message)
   return report(fmu, FMI3_ERROR, message);
 }
 
-/* Convert the status of a call, and report its message. */
+/* Convert the status of a call to a status of FMI, and report the message of the call. */
 static fmi3Status converted(const instance *fmu, baum_status status)
 {
   if (status == BAUM_OK) {
@@ -415,9 +415,9 @@ fmi3Status fmi3GetFMUState(fmi3Instance fmu, fmi3FMUState *place)
                       : FMI3_OK;
 }
 
-/* Tell whether the present run must end before the saved state is restored: the state has no run,
- * or its parameters or options differ from the present ones. Inputs are not compared, because
- * restoring a run sets them. */
+/* Tell whether the present run must end before the saved state is restored. It must end if the
+ * saved state has no run, or if the parameters or options of the saved state differ from the
+ * present ones. Inputs are not compared, because restoring a run sets them. */
 static bool needs_other_run(const instance *fmu, const state *saved)
 {
   const size_t inputs = (size_t)fmu->resources.input_count;

@@ -37,8 +37,8 @@ void baum_i_fmu_release(baum_i_fmu_resources *resources);
 /* Return how many numbers a parameter has. */
 int baum_i_fmu_size(const baum_i_fmu_parameter *parameter);
 
-/* Copy the mechanism, set the parameters of the copy, and freeze it. `numbers` (number_count) is
- * ordered like `start`. The function ignores the inputs in `numbers`. */
+/* Copy the mechanism, set the parameters of the copy, and freeze the copy. `numbers` (number_count)
+ * is ordered like `start`. The function ignores the inputs in `numbers`. */
 baum_status baum_i_fmu_build(const baum_i_fmu_resources *resources, const double *numbers,
                              baum_mechanism **out);
 

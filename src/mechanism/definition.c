@@ -143,7 +143,8 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
 
 /* ---- add ---- */
 
-/* Complete a caller's definition with defaults, and check it for element `number` of its family. */
+/* Complete a caller's definition with defaults, and check it as the definition of element `number`
+ * of the family. */
 static baum_status check(const baum_mechanism *mechanism, const baum_i_family *family,
                          const baum_i_definition *definition, const void *def, int number,
                          whole_def *out)

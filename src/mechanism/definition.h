@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions of elements. At the end of its file, every element type uses the macro BAUM_I_DEFINE,
- * which defines the four public functions of the type.
+/* Definitions of elements. In the file of every element type, the macro BAUM_I_DEFINE defines the
+ * four public functions of the type.
  */
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism. Where speed matters, one call evaluates a group of elements,
- * otherwise each call evaluates one element. */
+/* Evaluation of a whole mechanism. Where speed matters, one call evaluates a group of elements;
+ * otherwise, each call evaluates one element. */
 #include <string.h>
 
 #include "base/message.h"
@@ -150,7 +150,7 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
  * A user function returns the potential of a force, but not the gradient of the potential. It is
  * therefore unknown which part of the power belongs to the potential. For forces with such a user
  * function, power() returns the power of the whole force. The change of the energy stored in the
- * potential is known exactly, as a difference of two values.
+ * potential is known exactly, as a difference of two values of the potential.
  */
 
 static bool has_whole_power(const baum_i_force_type *type, const baum_i_force *force)

@@ -24,7 +24,7 @@ typedef struct baum_i_family {
   size_t count;     /* offset of the element count (an int) in the mechanism */
   /* returns element k; k counts from 0, and ground is not counted */
   baum_i_element *(*at)(const baum_mechanism *mechanism, int k);
-  /* Functions that can fail return BAUM_ERR_MEMORY and set its message. */
+  /* Functions that return a status fail only when out of memory. They then set the message. */
   baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
   /* set the type and the sizes that the definition determines */
   void (*prepare)(baum_i_element *element);

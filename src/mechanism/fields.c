@@ -284,7 +284,7 @@ static baum_status check_input(const baum_mechanism *mechanism, const baum_input
   return none ? BAUM_OK : baum_i_check_input(mechanism, *id, label, field);
 }
 
-/* A number and the law that replaces it contradict each other. */
+/* Refuse a definition that gives a law and also one of the numbers that the law replaces. */
 static baum_status check_law(const baum_i_definition *definition, const void *def,
                              const char *label)
 {

@@ -81,7 +81,7 @@ typedef struct baum_i_def_field {
   baum_i_rule rule; /* rule for numbers and arrays of numbers */
   /* defaults of the first numbers of the field; all other defaults are 0 */
   double value[BAUM_I_FIELD_DEFAULTS];
-  /* for an array: the offset of the field that counts its entries; for a law: see there */
+  /* for an array: the offset of the field that gives its length; for a law: see BAUM_I_FIELD_LAW */
   size_t counter;
   /* for an array: the offset of the count that is used if the field at `counter` is 0 */
   size_t instead;

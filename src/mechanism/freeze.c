@@ -145,7 +145,8 @@ static baum_status number_family(baum_mechanism *mechanism, const baum_i_family 
 /* ---- characteristic length ---- */
 
 /* Points are considered to coincide if their distance is below this fraction of their distance from
- * the origin, because such a distance may be a rounding error. */
+ * the origin, because a distance that is so small compared with the coordinates may be a rounding
+ * error. */
 static const double COINCIDENT = 1e-12;
 
 void baum_i_box_include(baum_i_box *box, double x, double y, double z)

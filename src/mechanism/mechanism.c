@@ -18,8 +18,8 @@
 /* ---- create, share, destroy ---- */
 
 /* Compute a tag from the address of the mechanism and the time, by the hash function "mix 13" of D.
- * Stafford. Two mechanisms have the same tag with a probability of 2^-32. The tag does not come
- * from a counter, because a counter would be global state. */
+ * Stafford. Two mechanisms that are not copies of each other have the same tag with a probability
+ * of 2^-32. The tag does not come from a counter, because a counter would be global state. */
 static uint32_t make_tag(const void *address)
 {
   uint64_t x = (uint64_t)(uintptr_t)address;

@@ -464,8 +464,8 @@ struct baum_i_joint_type {
   double (*noise)(const void *def);
 };
 
-/* Evaluates one joint after the other. All types that have a function evaluate_one() use this
- * function as their `evaluate`. */
+/* Calls evaluate_one() for one joint after the other. All types that have a function evaluate_one()
+ * use baum_i_evaluate_each() as their `evaluate`. */
 baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
                                  const baum_i_rows *rows);
 
@@ -506,8 +506,8 @@ struct baum_i_force_type {
   bool (*power_is_whole)(const baum_i_force *force);
   /* if power_is_whole() returns true: the class to which power() adds the power */
   baum_i_power whole_class;
-  /* Tell whether the force jumps, or may have lost a revolution, during a step from the
-   * configuration `from` to the configuration `to` (nq each). NULL if this never happens. */
+  /* Tell whether the force jumps, or its count of revolutions may become wrong, during a step from
+   * the configuration `from` to the configuration `to` (nq each). NULL if this never happens. */
   bool (*jumps)(const baum_i_force *force, const baum_i_point *point, const double *from,
                 const double *to);
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads a scene, which is a mechanism as a JSON text. It builds the mechanism by the same public
- * calls that a program uses. */
+/* Reads a scene, which is a mechanism as a JSON text. Elements and settings pass the same checks as
+ * those that a program adds. */
 #include <string.h>
 
 #include <baum/breaks.h>
@@ -299,7 +299,7 @@ static baum_status read_settings(const baum_i_scene_reader *r)
 {
   const baum_i_json_node *whole = r->json->nodes;
   const baum_i_json_node *node = baum_i_json_find(r->json, whole, "units");
-  const char *note = NULL; /* only for people who read the scene, so its value is not used */
+  const char *note = NULL; /* for people who read the scene; not used here */
   double g[3];
   if (node) {
     BAUM_I_TRY(baum_i_scene_read_text(r, node, &note));

@@ -140,8 +140,8 @@ baum_status baum_i_scene_read_body(const baum_i_scene_reader *r, const baum_i_js
   return BAUM_OK;
 }
 
-/* Tell whether the scene gives the name of joint k to another joint, too, before or after the
- * element that refers to it. */
+/* Tell whether another joint of the scene has the name of joint k. The other joint may be before or
+ * after the element that refers to this name. */
 static bool is_shared(const baum_i_scene_reader *r, const char *name, int32_t k)
 {
   const baum_i_json_node *list = baum_i_json_find(r->json, r->json->nodes, "joints");
@@ -264,7 +264,7 @@ baum_status baum_i_scene_read_field(const baum_i_scene_reader *r, const baum_i_d
   }
   const int count = (int)(f->size / sizeof(double));
   BAUM_I_TRY(baum_i_scene_read_numbers(r, node, count, at));
-  /* later checks would name NaN, which the scene does not contain */
+  /* a later check would report NaN, but the scene contains null */
   bool is_null = count == 1 && isnan(*(const double *)at);
   return is_null && baum_i_check_number("", f->name, "", f->rule, NAN) != BAUM_OK
            ? baum_i_scene_fail_kind(r, node, "a number")

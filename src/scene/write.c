@@ -55,8 +55,8 @@ static void put_numbers(writer *w, const double *x, int count, int width)
   baum_i_put(w->out, "]");
 }
 
-/* Write a reference to a body: its name, or its number (from 0) if the name does not identify
- * it. */
+/* Write a reference to a body: its name, or its number (from 0) if another body or ground has the
+ * same name. */
 static void put_body(writer *w, baum_body_id id)
 {
   int index = baum_i_body_index(w->mechanism, id);

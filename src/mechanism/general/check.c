@@ -25,9 +25,10 @@
  *
  * During a run, baum_i_check_at() checks the functions again at a state of the run. It calls them
  * less often: it compares all columns of a matrix together, along one direction, and each column
- * only if the results differ. A derivative that looks wrong must also look wrong at two points
- * shortly before the state, or at two points shortly after it, because the state itself may be at a
- * jump of a second derivative, for example at the end of a phase of constant acceleration.
+ * only if the results differ. A derivative that looks wrong is reported only if it also looks wrong
+ * at two points shortly before the state, or at two points shortly after it. The reason is that the
+ * state itself may be at a jump of a second derivative, for example at the end of a phase of
+ * constant acceleration.
  */
 #include "mechanism/general/check.h"
 
@@ -163,7 +164,7 @@ static double spread(int k)
   return k % 2 == 0 ? size : -size;
 }
 
-/* Write a direction in which all coordinates change by about their scales. */
+/* Write a direction in which each coordinate changes by 0.2 to 1 times its scale. */
 static void set_general_direction(const baum_i_local *at, double *direction)
 {
   for (int j = 0; j < at->nl; j++) {
@@ -172,8 +173,9 @@ static void set_general_direction(const baum_i_local *at, double *direction)
 }
 
 /* Tell whether the deviation of a value is negligible. Where a motion satisfies its constraints,
- * phi is zero along the motion, and its rounding errors cannot be estimated from its size. The
- * deviation is therefore compared with the variation of the function when all coordinates change.
+ * phi is zero along the motion, and the rounding errors of phi cannot be estimated from its size.
+ * The deviation is therefore compared with the variation of the function when all coordinates
+ * change.
  */
 static bool is_negligible(const column *c, const baum_i_local *at, const trial *t, int i)
 {
@@ -240,8 +242,9 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
-/* Context of rearranged_field(), which evaluates a function and stores each entry at the index of
- * the entry that is its derivative. Messages then name the right entry of the derivative. */
+/* Context of rearranged_field(). This function evaluates a field. It stores each entry of the
+ * result at the index that the derivative of this entry has in the result. Messages then name the
+ * right entry. */
 typedef struct rearranged {
   const baum_i_field *field;
   const baum_i_derived *pairs;

@@ -12,7 +12,7 @@ typedef struct baum_i_claim {
   const baum_i_user_function *function;
   /* The name of the function that was differentiated, for example "phi". */
   const char *source;
-  const double *given; /* the values that the function returned at this point */
+  const double *given; /* the values that the function returned */
 } baum_i_claim;
 
 /* Compare a claim with differences of a field (function) along a ray (straight line), see
@@ -35,15 +35,15 @@ typedef struct baum_i_derived {
   int of;
 } baum_i_derived;
 
-/* For each pair, compare one entry of the output of a function with differences of the other entry
- * along a ray. The output has field->size entries. If the function fails at this point, its status
- * is returned. */
+/* For each pair, compare entry number `entry` of the output of a function with differences of entry
+ * number `of` along a ray. The output has field->size entries. If the function fails at the point
+ * `at`, its status is returned. */
 baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
                                    const baum_i_field *field, const baum_i_derived *pairs,
                                    int pair_count, const baum_i_ray *ray, const baum_i_local *at);
 
-/* Check that a function does not depend on velocities, by comparing its values with its values at
- * zero velocities. */
+/* Check that a function does not depend on velocities, by comparing its values at the point `at`
+ * with its values at zero velocities. */
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
                                      const baum_i_field *field, const baum_i_local *at);
 

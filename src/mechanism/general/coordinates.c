@@ -3,8 +3,8 @@
  * compute their mass matrix M(q, t) and their force g(q, v, t). Either v = q', or q' = N(q) v,
  * where the user functions of coordinates_manifold.c define N.
  *
- * All derivatives of M a are finite differences (difference.c). Derivatives of g are finite
- * differences, too, unless a user function computes them.
+ * All derivatives of M a, where a is the acceleration v', are finite differences (difference.c).
+ * Derivatives of g are finite differences, too, unless a user function computes them.
  */
 #include <math.h>
 #include <string.h>

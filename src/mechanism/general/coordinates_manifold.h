@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The configuration manifold of user coordinates whose positions do not form a vector. User
- * functions define it. */
+ * functions define this manifold. */
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATES_MANIFOLD_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATES_MANIFOLD_H
 

@@ -14,9 +14,9 @@
  * revolutions were made. There are two exceptions: a coupling with a law, and a ratio of two
  * spatial angles that is not rational.
  *
- * If a coupling only repeats what other joints already enforce, as between the angles of two hinges
- * of one door, the gradients of c_a and c_b cancel up to rounding. The row is then set to zero.
- * Otherwise it would look like an independent row.
+ * If a coupling only repeats what other joints already enforce (for example, if it couples the
+ * angles of two hinges of one door), the gradients of c_a and c_b cancel up to rounding. The row is
+ * then set to zero. Otherwise it would look like an independent row.
  *
  * The row acts on the bodies of joint_a and joint_b. If the joints have a common body, it is listed
  * once, and its columns for both joints are added.

@@ -335,9 +335,10 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Store the entries of the derivative that have improved. best (size) is the smallest difference of
- * the two orders so far, relative to the variation of F. An entry of `best` is negative if this
- * difference is small enough. Returns true if a smaller step would not help. */
+/* Store the entries of the derivative that have improved. For each entry, best (size) contains the
+ * smallest difference so far between the results of the two orders, relative to the variation of F.
+ * A number in `best` is negative if this difference was small enough. Returns true if a smaller
+ * step would not help. */
 static bool keep_improved(const baum_i_estimate *now, double agreement, double *out, double *best,
                           int size)
 {

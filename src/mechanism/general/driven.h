@@ -34,8 +34,8 @@ enum {
  * parameters of the driver. */
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
-/* Expects each driven angle of a spatial joint at the value that its driver prescribes at time t.
- * Of several drivers of an angle, the last one counts. */
+/* Sets the expected value of each driven angle of a spatial joint to the value that its driver
+ * prescribes at time t. If an angle has several drivers, the last one is used. */
 baum_status baum_i_expect_driven_angles(baum_i_point *point, double t);
 
 /* Checks that the three numbers in s, which are value, rate and acceleration, are finite. The

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A driver whose law is a cubic spline, either natural or periodic. Outside of the given times, a
- * natural spline continues with the slope that it has at its end. The acceleration s'' is then
- * continuous. */
+/* A driver whose law is a cubic spline, either natural or periodic. Before the first and after the
+ * last given time, a natural spline continues with the slope that it has at this time. The
+ * acceleration s'' is then continuous. */
 #include <baum/spline.h>
 
 #include <math.h>

@@ -96,7 +96,7 @@ static inline baum_i_spring_law baum_i_spring_law_of(const baum_i_force *force,
 }
 
 /* Set `numbers` from the definition of a spring. `design` is the length in the design
- * configuration. The free length l_0 has this value if the definition does not give it. */
+ * configuration. If the definition gives no free length, l_0 is set to `design`. */
 void baum_i_spring_lower(const baum_i_force *force, double design, double *numbers);
 
 /* ---- members of the types of springs ---- */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints that user functions compute. The function Phi(q, t) is required. Functions for the
- * following quantities are optional:
+/* Constraints that user functions compute. At position level, the function Phi(q, t) is required.
+ * Functions for the following quantities are optional:
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
@@ -18,9 +18,10 @@
  * Constraints of velocity level, J(q, t) v = nu(q, t), have no Phi: J is required, nu is zero if it
  * is not given, and gamma = d/ds (nu - J v)(q + s v, t + s) as above.
  *
- * If all velocities are zero, the time scale of Phi is unknown. Differences with respect to t then
- * assume a time scale of one second. For a constraint that varies much more slowly, the user should
- * give nu and gamma.
+ * The time in which Phi changes at constant q is unknown. Differences with respect to t assume that
+ * it is one second. Differences along the line q + s v, t + s use the time scale of the motion
+ * instead, if that is shorter. For a constraint that changes much more slowly with t, the user
+ * should give nu and gamma.
  */
 #include <math.h>
 #include <string.h>
@@ -138,7 +139,7 @@ static baum_status minus_phi_field(const void *context, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-/* Compute nu - J v as a function of q and t. If the user does not give nu, it is zero here. */
+/* Compute nu - J v as a function of q and t. If the user does not give nu, nu is zero here. */
 static baum_status minus_rate_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = context;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Axes in definitions, and the second derivatives of a projection. The equations are in
- * axis_row.h. */
+/* Axes in definitions, and the second derivatives of the distance along an axis. The equations are
+ * in axis_row.h. */
 #include "mechanism/planar/axis_row.h"
 
 #include <math.h>

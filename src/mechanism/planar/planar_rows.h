@@ -110,8 +110,8 @@ BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
                       jacobian + joint->jacobian);
 }
 
-/* Evaluate Phi, J and gamma, and store them only when all three are evaluated. The compiler can
- * then compute their common terms only once. */
+/* Evaluate Phi, gamma and J. Phi and gamma are stored only after all three have been evaluated. The
+ * compiler can then compute common terms only once. */
 BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
                                          const baum_i_planar_pair *pair,
                                          const baum_i_planar_kernels *kernels,

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rack and pinion in the plane. The centre of the pinion is the marker on body_b, and its pitch
- * radius is R. The pinion rolls on the rack on body_a, which has the direction e (Nikravesh 1988,
- * chapter 4; Haug 1989, chapter 3). With the vector d from the marker on body_a to the marker on
- * body_b, u = A_a e, and the displacement s = u . d of axis_row.h:
+ * radius is R. The pinion rolls on a rack, which is fixed in body_a and has the direction e
+ * (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). With the vector d from the marker on body_a to
+ * the marker on body_b, u = A_a e, and the displacement s = u . d of axis_row.h:
  *
  *   Phi   = s - R (angle_b - angle_a) - offset        (1 row)
  *   J     = s_q + [ 0 0 R  0 0 -R ]                   (6 columns)

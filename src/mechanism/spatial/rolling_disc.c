@@ -14,7 +14,7 @@
  *
  *   U(z) = V_b + W_b x (p + rho) - V_a - W_a x (d + rho)
  *
- * The first row is a row of positions, k . (d + rho) - k . s_a = 0. Here s_a is the vector from the
+ * The first row is of position level, k . (d + rho) - k . s_a = 0. Here s_a is the vector from the
  * origin of body_a to a point of the plane. The J of this row is k . U. The other two rows are of
  * velocity level. They are e . U = 0 for two directions e in the plane.
  *
@@ -236,7 +236,8 @@ static variation second_along(const contact *x, const baum_i_spatial_motion *z,
   return out;
 }
 
-/* Returns D_y of the motion z. Its velocities are 0, because the V of z are constant. */
+/* Returns D_y of the motion z. In the result, the velocities V are 0, because the V of z are
+ * constant. */
 static baum_i_spatial_motion motion_along(const baum_i_spatial_motion *z,
                                           const baum_i_spatial_motion *y)
 {

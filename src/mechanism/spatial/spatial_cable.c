@@ -153,10 +153,11 @@ static baum_status potential(const baum_i_force *force, baum_i_point *point, dou
   return BAUM_OK;
 }
 
-/* While the damper of a slackening cable cancels its spring, the cable exerts no force, but its
- * potential decreases. The step control of a run does not notice this decrease, which ends suddenly
- * at s = 0. The integral of the power of the spring would therefore be inaccurate. For a damped
- * cable, power() uses the whole force, and the decrease is a difference of two potentials. */
+/* While the force of the damper of a slackening cable cancels the force of the spring, the cable
+ * exerts no force, but its potential decreases. The step control of a run does not notice this
+ * decrease, which ends suddenly at s = 0. The integral of the power of the spring would therefore
+ * be inaccurate. For a damped cable, power() uses the whole force, and the decrease is a difference
+ * of two potentials. */
 static bool power_is_whole(const baum_i_force *force)
 {
   const baum_spatial_cable_def *def = force->element.def;

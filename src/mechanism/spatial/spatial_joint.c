@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions that all spatial joints share. They evaluate the table of products that defines a
- * joint. */
+/* Functions of those spatial joints that are defined by a table of products. They evaluate this
+ * table. */
 #include "mechanism/spatial/spatial_joint.h"
 
 #include "mechanism/general/coordinate.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spatial joint is defined by a table of products (spatial_rows.h). Some of these products are
- * its rows, and its coordinates are computed from the others. All spatial joints have the same
- * functions in their type struct.
+/* Many spatial joints are defined by a table of products (spatial_rows.h). Some of the products are
+ * the rows of the joint, and its coordinates are computed from the other products. All these joints
+ * have the same functions in their type struct.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
@@ -10,7 +10,8 @@
 #include "mechanism/general/composed_row.h"
 #include "mechanism/spatial/spatial_rows.h"
 
-/* The type of a spatial joint. It begins with the struct that all joint types share. */
+/* The type of a spatial joint that is defined by a table. It begins with the struct that all joint
+ * types share. */
 typedef struct baum_i_spatial_joint_type {
   baum_i_joint_type type;
   baum_i_spatial_row rows[BAUM_I_SPATIAL_ROWS];
@@ -73,8 +74,8 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, int number,
                                          const baum_i_point *point, const double *w, double lambda,
                                          baum_i_coordinate_blocks *out);
 
-/* Members that the types of all spatial joints have. The last arguments are the fields of the
- * definition. */
+/* Members that the types of all joints with a table have in common. The last arguments are the
+ * fields of the definition. */
 #define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS, ...)                   \
   .definition = {.kind = (TITLE),                                                    \
                  .size = sizeof(baum_##NAME##_def),                                  \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every row of a spatial joint is a product of two vectors,
+/* Most rows of spatial joints are products of two vectors,
  *
  *   Phi = x . y,
  *
@@ -54,8 +54,9 @@ typedef struct baum_i_spatial_pair {
 baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double *numbers,
                                            bool has_axes, const baum_i_point *point);
 
-/* Computes the axes of an element on body_b, in its axes on body_a, at the positions q of all
- * bodies: r[3 i + k] is the product of axis i on body_a and axis k on body_b. */
+/* An element has one set of axes on body_a and one on body_b. Computes the products of these axes
+ * at the positions q of all bodies: r[3 i + k] is the product of axis i on body_a and axis k on
+ * body_b. */
 void baum_i_spatial_relative_axes(const baum_i_force *force, const baum_i_point *point,
                                   const double *q, double r[9]);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Torsion spring and damper in parallel about the axis z_a. The axis z_b may be inclined to z_a.
- * The angle is the twist of the relative rotation about the axis. With the quaternion p of this
+ * The angle is the twist of the relative rotation about z_a. With the quaternion p of this
  * rotation,
  *
  *   angle = 2 atan2(p_z, p_w) = atan2(s, c)
@@ -107,10 +107,10 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 }
 
 /* Let d be the least distance of z_b from -z_a in a step in which z_b moves by l relative to z_a.
- * For d << 1 the angle changes by nearly 2 pi while z_b moves by a few d. If l > 4.53 d, the
+ * For d << 1 the angle changes by nearly 2 pi while z_b moves by a few times d. If l > 4.53 d, the
  * prediction of baum_i_follow_angles() may differ from the angle by more than pi, and the count
- * then loses a revolution. The limit is lower because z_b does not move along a straight line. A
- * spring without torque loses nothing. */
+ * then loses a revolution. LIMIT is lower than 4.53, because z_b does not move along a straight
+ * line. A spring without torque never jumps. */
 static bool jumps(const baum_i_force *force, const baum_i_point *point, const double *from,
                   const double *to)
 {
