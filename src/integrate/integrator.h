@@ -76,7 +76,7 @@ struct baum_integrator {
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
-  /* true if `advance` evaluates the accelerations at the end of the step last */
+  /* true if the last evaluation in `advance` is that of the accelerations at the end of the step */
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */
