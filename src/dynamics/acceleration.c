@@ -10,7 +10,7 @@
  * right-hand sides.
  *
  * Rows that always depend on other rows are omitted from the system. Their multipliers are set to
- * zero. The solution for all multipliers is then one of many possible sets. If alpha = beta = 0,
+ * zero. The result is then one of many possible sets of multipliers. If alpha = beta = 0,
  * users receive the set of least norm instead (least_multipliers.c).
  */
 #include <string.h>

@@ -79,8 +79,8 @@ baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
 /* Factors the matrix of new values. The values must not change until the last solve, because
- * residuals are computed from them. Keeps the present pivots, and then allocates nothing, as long
- * as these pivots are good enough. Returns BAUM_OK (baum_i_kkt_get_quality() then tells how good
+ * residuals are computed from them. Keeps the present pivots as long as they are good enough, and
+ * then allocates nothing. Returns BAUM_OK (baum_i_kkt_get_quality() then tells how good
  * the factorization is), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. Sets a message
  * only if out of memory, because only the caller knows the time and the names for other
  * messages. */

@@ -55,7 +55,8 @@ static size_t jacobian_size(const baum_i_kkt_structure *s)
   return size;
 }
 
-/* Removes bodies whose angular velocities are not adjacent columns in a block of J. */
+/* Removes bodies whose angular velocities are not adjacent columns in a block of J that contains
+ * them. */
 static void check_columns(const baum_i_whitening *w)
 {
   const baum_i_kkt_structure *s = w->structure;
