@@ -27,7 +27,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_NONZERO},
 };
 
-/* Returns n. Sets `sum` to the sum of the magnitudes of its terms, because rounding errors are
+/* Returns n. Sets `sum` to the sum of the magnitudes of the terms of n, because rounding errors are
  * proportional to this sum. */
 static double axial_rate(const double *p, double *sum)
 {

@@ -16,7 +16,7 @@ enum { CRANK, CRANK_INERTIA, ROD_MASS, ROD_INERTIA, STIFFNESS, DAMPING, FREE_LEN
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [CRANK] = {"crank", "m", "length of the crank; the rod is 1 m from its pin to its centre",
              BAUM_I_POSITIVE},
-  [CRANK_INERTIA] = {"crank_inertia", "kg m^2", "of the crank about its pin", BAUM_I_POSITIVE},
+  [CRANK_INERTIA] = {"crank_inertia", "kg m^2", "of the crank about the origin", BAUM_I_POSITIVE},
   [ROD_MASS] = {"rod_mass", "kg", "of the rod", BAUM_I_POSITIVE},
   [ROD_INERTIA] = {"rod_inertia", "kg m^2", "of the rod about its centre of mass", BAUM_I_POSITIVE},
   [STIFFNESS] = {"stiffness", "N/m", "of the spring", BAUM_I_POSITIVE},

@@ -75,8 +75,8 @@ static void integrate(double k, double h, long steps, double *angle, double *rat
 
 double baum_i_swing(double k, double t, double *angle, double *rate)
 {
-  /* A second motion starts at the distance `beside` from the first one. The distance of both at the
-   * end shows how fast errors grow. */
+  /* A second motion starts at the distance `beside` from the first one. The distance between the
+   * two motions at the end shows how fast errors grow. */
   const double beside = 1e-9;
   double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
   double steps = ceil(4.0 * fabs(t) * fast) + 1.0;

@@ -10,7 +10,7 @@
  * right-hand sides.
  *
  * Rows that always depend on other rows are omitted from the system. Their multipliers are set to
- * zero. The solution for all multipliers is then one of many possible sets. If alpha = beta = 0,
+ * zero. The result is then one of many possible sets of multipliers. If alpha = beta = 0,
  * users receive the set of least norm instead (least_multipliers.c).
  */
 #include <string.h>
@@ -163,9 +163,9 @@ baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const do
   return BAUM_OK;
 }
 
-/* The block solver only factors its matrix, because the pivots are part of the factors. If it is
- * not used, or if baum_i_blocks_tell() rejects its pivot, the accelerations are computed. For the
- * solver of the whole system this costs little more than factoring. */
+/* The block solver only factors its matrix, because the pivots are part of the factors. Without the
+ * block solver, or if baum_i_blocks_tell() rejects its pivot, the accelerations are computed. For
+ * the solver of the whole system this costs little more than factoring. */
 baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
 {
   if (!w->motion) {

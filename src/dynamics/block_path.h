@@ -68,9 +68,9 @@ typedef struct baum_i_block_size {
 } baum_i_block_size;
 
 /* Create a path for the present set of omitted rows. If `for_motion` is true, the path also
- * excludes fixed bodies and the rows between them. If blocks do not suit the mechanism, returns
- * BAUM_OK with *out = NULL and the reason in *verdict. Otherwise returns BAUM_OK, BAUM_ERR_MEMORY,
- * BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
+ * excludes fixed bodies and the rows between them. If the block solver does not suit the mechanism,
+ * returns BAUM_OK with *out = NULL and the reason in *verdict. Otherwise returns BAUM_OK,
+ * BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is allowed */

@@ -343,7 +343,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* The smallest positive number and the largest number of those given to include(). */
+/* The smallest positive number and the largest number of all numbers given to include(). */
 typedef struct range {
   double least;
   double most;
@@ -371,7 +371,7 @@ static bool is_uneven_in_space(const baum_i_space *b)
   return b->is_raised || moves.most > UNEVEN * moves.least || turns.most > UNEVEN * turns.least;
 }
 
-/* Tell whether joints may connect a light body to a heavy one. At both sides of all pins, the
+/* Tell whether joints may connect a light body to a heavy one. For both bodies of every pin, the
  * function compares the inverse masses w_0 + w_2 |p|^2, where w_0 is the inverse mass of the body,
  * w_2 its inverse inertia, and p the point of the pin. It also compares the inverse masses and
  * inertias of all bodies that other joints connect. It returns true for every mechanism that has

@@ -11,8 +11,8 @@
  *          index 2: (J v)_q - nu_q                       J                       0
  *          index 3: J                                    0                       0
  *
- * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, the following rows differ or are
- * added:
+ * The form GGL has the rows of index 2. With u = v - W^-1 J^T mu, where W is the metric of
+ * metric.c, the following rows differ or are added:
  *
  *          q                                             v                       lambda  mu
  *   q      c I - N^+ (N u)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T

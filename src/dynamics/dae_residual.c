@@ -8,7 +8,7 @@
  *   index 3:  Phi
  *
  * The form GGL (C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90) has index
- * 2. With y = (q, v, lambda, mu) its residual consists of these rows:
+ * 2. With y = (q, v, lambda, mu) and the metric W of metric.c, its residual consists of these rows:
  *
  *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g

@@ -88,7 +88,8 @@ struct baum_workspace {
   double *shift;    /* (nc) S of kkt.h */
   double *inputs;   /* (input_count) present values */
   /* (nc) factor by which the gains of each row are multiplied. It is the option row_gains of the
-   * run (without this option 1), times 1/2 for rows of velocity level. NULL: all factors are 1. */
+   * run (1 if the option is not set), times 1/2 for rows of velocity level. NULL: all factors are
+   * 1. */
   const double *row_gains;
   double *metric; /* (nv) diagonal of W, once metric_ready */
 

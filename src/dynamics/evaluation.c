@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public functions of baum/dynamics.h. They check their arguments, call the stages of the
- * evaluation, and write results that are stored as blocks to the caller's dense arrays. */
+ * evaluation, and copy the results, which are stored as blocks, to the caller's dense arrays. */
 #include <math.h>
 #include <string.h>
 

@@ -68,9 +68,9 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   say(report, "%d %s, %d velocities, %d constraint rows.", report->degrees_of_freedom,
       report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
   if (m->velocity_row_count > 0) {
-    say(report, " %d %s of velocity level: %d of velocity, %d of position.", m->velocity_row_count,
-        m->velocity_row_count == 1 ? "row" : "rows", report->degrees_of_freedom,
-        report->position_degrees_of_freedom);
+    say(report, " %d %s of velocity level; degrees of freedom: %d of velocity, %d of position.",
+        m->velocity_row_count, m->velocity_row_count == 1 ? "row" : "rows",
+        report->degrees_of_freedom, report->position_degrees_of_freedom);
   }
   if (r->count > 0) {
     char names[512] = "";

@@ -9,8 +9,8 @@
  * Phi of rows of velocity level is 0, so positions are projected in directions that these rows
  * permit, and the projection of velocities removes the violation of these rows.
  *
- * Newton's method on the positions ends when a step is so small that the next one, of the order of
- * its square, is below rounding.
+ * Newton's method on the positions ends when a step is so small that the next step, which is of the
+ * order of the square of this step, is below rounding.
  */
 #include <float.h>
 #include <math.h>
@@ -33,8 +33,8 @@ static const double STALLED = 8.0 * DBL_EPSILON;
  * coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
 
-/* Return the size below which steps are rounding errors of the coordinates. It is large far from
- * the origin and after many revolutions. */
+/* Return the size below which steps are rounding errors of the coordinates. This size is large far
+ * from the origin and after many revolutions. */
 static double rounding_of(const baum_mechanism *m, const double *q)
 {
   return 8.0 * DBL_EPSILON * baum_i_position_size(m, q);

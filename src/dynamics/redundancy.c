@@ -18,9 +18,9 @@
  * singular, ambiguous ranks of its neighbours are also accepted. Such ranks occur because the
  * directions of long members change only little from neighbour to neighbour.
  *
- * Rows of velocity level come last in every choice, so the chosen rows of positions are a largest
- * independent set of all rows of positions. The number of chosen rows of positions gives the
- * degrees of freedom of position.
+ * Rows of velocity level come last in every choice, so the chosen rows of position level are a
+ * largest independent set of all rows of position level. The number of chosen rows of position
+ * level gives the degrees of freedom of position.
  *
  * To find a neighbour, the configuration is moved along x, a solution of J x = nu in which all
  * degrees of freedom take part, and is then assembled.

@@ -29,8 +29,9 @@ static const double WORST = 1e-3;
 static const double STEP = 0.5;
 static const double FACTOR = 1.25;
 
-/* A run searches for other rows when the pivot falls below POOR. It searches again each time the
- * pivot has changed by a factor of RETRY. */
+/* A run searches for other rows when the pivot, divided by the largest pivot of the run so far,
+ * falls below POOR. The run searches again each time this quotient has changed by a factor of
+ * RETRY. */
 static const double POOR = 0.2;
 static const double RETRY = 3.0;
 
@@ -247,9 +248,9 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
 /* ---- contradictions ---- */
 
 /* The error of an omitted row is J a - r, see find_missed(). In 50 000 random mechanisms, rounding
- * caused errors of up to 4e-12 of the accelerations. If the constraints are violated, the error may
- * be larger, as simulate/monitor.c explains. Next to a configuration where the kept rows alone are
- * singular, it may be as large as the square root of the violation. */
+ * caused errors of up to 4e-12 times the accelerations. If the constraints are violated, the error
+ * may be larger, as simulate/monitor.c explains. Next to a configuration where the kept rows alone
+ * are singular, it may be as large as the square root of the violation. */
 static const double CONTRADICTION = 1e-9;
 static const double TIMES = 10.0;
 /* Rows shorter than this fraction of the longest row contain nothing but rounding errors. */
@@ -302,12 +303,13 @@ static void find_violations(const baum_workspace *w, const double *length, const
 
 static baum_status fail_contradiction(const baum_workspace *w, int row, double part)
 {
-  return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: no acceleration satisfies all constraints: if the other rows are "
-                     "satisfied, a redundant row of %s is violated by %.3g of the accelerations; "
-                     "constraints contradict each other, or the configuration is singular and the "
-                     "velocities follow no branch",
-                     w->point.t, baum_i_row_label(w->mechanism, row).text, part);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: no acceleration satisfies all constraints: if the other rows are "
+    "satisfied, a redundant row of %s is violated by %.3g times the accelerations; "
+    "constraints contradict each other, or the configuration is singular and the "
+    "velocities follow no branch",
+    w->point.t, baum_i_row_label(w->mechanism, row).text, part);
 }
 
 /* Return the error |J a - r| of an omitted row, where r is the right-hand side of the row. Set

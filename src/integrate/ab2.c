@@ -6,7 +6,7 @@
  *   w_0 = theta + theta^2/2,  w_1 = -theta^2/2;  b = 3/2, -1/2
  *
  * The amplification z of a violation satisfies z^2 = z + mu (3 z - 1)/2 (mu: amplification.h). With
- * alpha = beta, violations decay up to alpha h = 1.
+ * alpha = beta, violations decay if alpha h is below 1.
  */
 #include "integrate/adams_bashforth.h"
 

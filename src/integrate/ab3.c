@@ -8,7 +8,7 @@
  *   w_2 = theta^2/4 + theta^3/6;  b = 23/12, -16/12, 5/12
  *
  * The amplification z of a violation satisfies z^3 = z^2 + mu (23 z^2 - 16 z + 5)/12 (mu:
- * amplification.h). With alpha = beta, violations decay up to alpha h = 6/11.
+ * amplification.h). With alpha = beta, violations decay if alpha h is below 6/11.
  */
 #include "integrate/adams_bashforth.h"
 

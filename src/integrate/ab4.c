@@ -9,7 +9,7 @@
  *   w_3 = -theta^2/6 - theta^3/6 - theta^4/24;  b = 55/24, -59/24, 37/24, -9/24
  *
  * The amplification z of a violation satisfies z^4 = z^3 + mu (55 z^3 - 59 z^2 + 37 z - 9)/24 (mu:
- * amplification.h). With alpha = beta, violations decay up to alpha h = 3/10.
+ * amplification.h). With alpha = beta, violations decay if alpha h is below 3/10.
  */
 #include "integrate/adams_bashforth.h"
 

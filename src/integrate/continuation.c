@@ -13,16 +13,16 @@
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv)
  *
  * This ratio is positive as long as no real eigenvalue of D reaches 1. |D| < 1 at the end of the
- * step is sufficient: |D| is then also below 1 along the step, because D grows about in proportion
- * to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for
- * Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe z that moves
- * every coordinate by a fraction of its scale:
+ * step is sufficient: |D| is then also below 1 along the step, because D grows approximately in
+ * proportion to the length of the step (the lemma of Newton and Kantorovich; P. Deuflhard, Newton
+ * Methods for Nonlinear Problems, 2004, chapters 2 and 5). The norm of D is estimated with a probe
+ * z that moves every coordinate by a fraction of its scale:
  *
  *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i
  *
  * `turning` is close to the largest eigenvalue of D or above it, because z has a component in
- * every critical direction. Each product D z takes one solution of linear equations. Their matrix
- * is already factored, because v and a need it, too.
+ * every critical direction. Each product D z requires one solution of linear equations. Their
+ * matrix is already factored, because v and a need it, too.
  *
  * The saddle-point solver solves all these equations. Without degrees of freedom, its solution a is
  * J^-1 times the right-hand side of the rows, whatever M is. If the right-hand side of the rows is

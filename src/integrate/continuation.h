@@ -21,7 +21,7 @@ typedef struct baum_i_configuration {
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
   BAUM_I_REFUSAL_FAR, /* Newton's corrections were too large, or hardly decreased */
-  /* J has changed so much that a singular configuration may be in between */
+  /* J has changed so much that the step may pass a singular configuration */
   BAUM_I_REFUSAL_TURNED,
   BAUM_I_REFUSAL_SINGULAR,   /* J cannot be factored */
   BAUM_I_REFUSAL_OMITTED,    /* a row that was omitted as redundant is violated */

@@ -7,8 +7,7 @@
  *           [ -beta^2 P   -2 alpha P ]
  *
  * CVODE requires solutions of (I - gamma df/dy) (dq, dv) = (r_q, r_v), where gamma is a coefficient
- * of CVODE, which is a fraction of the step. If the rest is neglected, and because P P = P, the
- * solution is
+ * of CVODE, which is a fraction of the step. If the rest is neglected, P P = P gives the solution
  *
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
  *   s = 2 alpha gamma + (beta gamma)^2

@@ -13,7 +13,7 @@
  *
  * The seventh rate is at the end of the step, and is the first rate of the next step. The weights
  * of the error estimate are those of order 5 minus those of order 4. The amplification of a
- * violation is z = R(mu) = 1 + mu + ... + mu^5/120 + mu^6/600.
+ * violation is z = R(mu) = 1 + mu + ... + mu^5/120 + mu^6/600 (mu: amplification.h).
  */
 #include "integrate/rk_adaptive.h"
 

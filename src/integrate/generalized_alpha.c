@@ -53,9 +53,10 @@ enum { ITERATIONS = 20 };
  * position or the scale, whichever is larger. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* The next iterations use the same matrix as long as their changes of the positions are at most
- * NEAR, and each change is below FAST times the change before it. With a matrix of a distant
- * configuration, changes may become small although the error in a soft direction is still large. */
+/* The next iterations use the same matrix as long as their changes of the positions, relative to
+ * the scales, are at most NEAR, and each change is below FAST times the change before it. With a
+ * matrix of a distant configuration, changes may become small although the error in a soft
+ * direction is still large. */
 static const double NEAR = 1e-6;
 static const double FAST = 0.1;
 /* Changes that have stopped decreasing are treated as rounding errors if they are at most STALLED

@@ -56,7 +56,7 @@ typedef struct baum_i_statistics {
   int64_t factorizations;      /* number of factorizations of the method's own matrix */
   int64_t full_factorizations; /* number of those that chose new pivots, and may allocate */
   int64_t nonlinear_iterations;
-  /* accepted steps over a singular configuration with an error above the tolerance */
+  /* steps over a singular configuration that were accepted with an error above the tolerance */
   int64_t forced;
 } baum_i_statistics;
 
@@ -76,7 +76,7 @@ struct baum_integrator {
   bool predicts_violation;
   /* true if the method solves the residual form, whose unknowns include multipliers */
   bool solves_residuals;
-  /* true if `advance` evaluates the accelerations at the end of the step last */
+  /* true if the last evaluation in `advance` is that of the accelerations at the end of the step */
   bool evaluates_end;
   bool without_freedom; /* only for mechanisms without degrees of freedom; takes no formulation,
                            step or rtol */

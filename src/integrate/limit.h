@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations in a singular configuration.
  *
- * In a singular configuration the equations allow the accelerations of all branches. Near it
- * rounding errors are amplified, because they are divided by the smallest pivot. The acceleration
- * of the smooth motion is the limit of the accelerations along the motion that leaves the
- * configuration. Any smooth path with the same initial velocity has the same limit. The path used
- * here consists of states q + dt v projected onto the constraints. A cubic through the
- * accelerations at four of these states is extrapolated back to the configuration. */
+ * In a singular configuration the equations allow the accelerations of all branches. Near a
+ * singular configuration, rounding errors are amplified, because they are divided by the smallest
+ * pivot. The acceleration of the smooth motion is the limit of the accelerations along the motion
+ * that leaves the configuration. Any smooth path with the same initial velocity has the same limit.
+ * The path used here consists of states q + dt v projected onto the constraints. A cubic through
+ * the accelerations at four of these states is extrapolated back to the configuration. */
 #ifndef BAUM_I_INTEGRATE_LIMIT_H
 #define BAUM_I_INTEGRATE_LIMIT_H
 

@@ -24,9 +24,9 @@
  * The caller provides the acceleration a at the start, which has the form M^-1 (g - J^T lambda).
  * Newton's method therefore begins with v' = v + (h/2) a. It iterates only v', because lambda
  * itself is not needed. All iterations use the matrix J(q) M^-1 J(q)^T of the start of the step. An
- * iteration computes a change dq along M^-1 J(q)^T, and changes v' by dq / h. It then computes q
- * again, by moving the q of the start of the step by h v'. In this way v does not contain rounding
- * errors of q divided by h.
+ * iteration computes a change dq along M^-1 J(q)^T, and changes v' by dq / h. It then computes the
+ * end of the step again, by moving the q of its start by h v'. In this way v does not contain
+ * rounding errors of q divided by h.
  */
 #include <float.h>
 #include <math.h>

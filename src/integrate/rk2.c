@@ -5,7 +5,7 @@
  *   1/2 | 1/2
  *       | 0    1
  *
- * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2.
+ * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 (mu: amplification.h).
  */
 #include "integrate/rk.h"
 

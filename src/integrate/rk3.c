@@ -6,7 +6,8 @@
  *   1   | -1    2
  *       |  1/6  2/3  1/6
  *
- * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6.
+ * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6 (mu:
+ * amplification.h).
  */
 #include "integrate/rk.h"
 

@@ -7,7 +7,8 @@
  *   1   | 0    0    1
  *       | 1/6  1/3  1/3  1/6
  *
- * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6 + mu^4/24.
+ * The amplification of a violation is z = R(mu) = 1 + mu + mu^2/2 + mu^3/6 + mu^4/24 (mu:
+ * amplification.h).
  */
 #include "integrate/rk.h"
 

@@ -8,8 +8,8 @@
  * Three extra rates of the interpolant lie at 0.1, 0.2 and 7/9 of the step. The numbers are those
  * of the authors' program, which has 30 digits, rounded to double.
  *
- * The amplification of a violation is z = R(mu). R is the exponential series up to mu^8; its
- * coefficients of mu^9 to mu^12 follow from the table.
+ * The amplification of a violation is z = R(mu) (mu: amplification.h). R is the exponential series
+ * up to mu^8; its coefficients of mu^9 to mu^12 follow from the table.
  */
 #include "integrate/rk_adaptive.h"
 

@@ -117,7 +117,7 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
 }
 
 /* Find the time until the singular configuration [s]. The square root of the pivot decreases
- * linearly towards it, so the function extrapolates this square root to zero. */
+ * linearly towards this configuration, so the function extrapolates the square root to zero. */
 static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {

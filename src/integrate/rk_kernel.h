@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loops of Runge-Kutta methods over rates K_j of n numbers each, where n is a multiple of
- * BAUM_I_RK_LANES. They are optimized because with few bodies plain loops would cost as much as the
- * evaluations of the accelerations. */
+ * BAUM_I_RK_LANES. They are optimized because plain loops would cost as much as the evaluations of
+ * the accelerations if the mechanism has few bodies. */
 #ifndef BAUM_I_INTEGRATE_RK_KERNEL_H
 #define BAUM_I_INTEGRATE_RK_KERNEL_H
 

@@ -154,7 +154,7 @@ static bool factor_one(const double *m, int n, double *l)
         sum -= l[i * n + k] * l[j * n + k];
       }
       if (i == j) {
-        /* A smaller sum is only a rounding error left by cancellation. */
+        /* A sum below this limit is only a rounding error left by cancellation. */
         positive = positive && sum > 1e-14 * m[i * n + i];
         l[i * n + i] = sqrt(sum);
       } else {

@@ -7,13 +7,13 @@
  * diagonal entry 1 and multiplier 0. The columns of J are grouped into *body blocks* of three. A
  * planar body is one body block with diagonal W. A *dense* body (user coordinates, M = L L^T) has
  * as many body blocks as it needs; its unknowns are y = L^T a, for which W is the identity. Body
- * block 0 is the ground, with W = 0. Arrays such as motion[] begin with the nv numbers of v. Three
- * numbers of the ground follow, and then y of the dense bodies. Each body block uses three
- * consecutive numbers. A particle has only two numbers. The third number of its body block is the
- * first number of the next body block. The particle does not change that number, because the third
- * diagonal entry of its W is 0. A *side* of a node is the 2 x 3 block of J in the rows of the node
- * and the columns of one body block. A pin is a joint that makes a point of body a coincide with a
- * point of body b. Its sides are
+ * block 0 is the ground, with W = 0. Arrays such as motion[] begin with nv numbers, one for each
+ * velocity. Three numbers of the ground follow, and then y of the dense bodies. Each body block
+ * uses three consecutive numbers. A particle has only two numbers. The third number of its body
+ * block is the first number of the next body block. The particle does not change that number,
+ * because the third diagonal entry of its W is 0. A *side* of a node is the 2 x 3 block of J in the
+ * rows of the node and the columns of one body block. A pin is a joint that makes a point of body a
+ * coincide with a point of body b. Its sides are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -47,13 +47,13 @@ typedef struct baum_i_block_layout {
   const unsigned char *fixed;
 } baum_i_block_layout;
 
-/* A node with the two sides of a pin. Pins are processed two at a time. If their number is odd, the
- * last pin is repeated in the arrays of size "even pin_count". */
+/* A node with the two sides of a pin. Pins are processed two at a time. If the number of pins is
+ * odd, the last pin is repeated in the arrays of size "even pin_count". */
 typedef struct baum_i_pin_node {
   int32_t node;
   int32_t row;           /* first of its two rows */
   int32_t body_block[2]; /* body blocks of body a and b */
-  int32_t place[2];      /* indices of their numbers in motion[] */
+  int32_t place[2];      /* index in motion[] at which each of them begins */
 } baum_i_pin_node;
 
 static inline size_t baum_i_even(size_t count)
@@ -76,9 +76,9 @@ typedef struct baum_i_side_entry {
   int32_t from[2]; /* indices in the values of J; from[1] = -1: the node has one row */
 } baum_i_side_entry;
 
-/* Two pins that are coupled through one body. `off` is the index of their block in off[]. `arm`
- * contains the indices of the two arms on this body: first the arm of the node that is eliminated
- * later, then the arm of the other node. */
+/* Two pins that are coupled through one body. `off` is the index in off[] of the block of S that
+ * couples them. `arm` contains the indices of the two arms on this body: first the arm of the node
+ * that is eliminated later, then the arm of the other node. */
 typedef struct baum_i_pin_pair {
   int32_t off;
   int32_t arm[2];
@@ -139,7 +139,7 @@ typedef struct baum_i_block {
   int motion_size; /* v, ground, and y of dense bodies */
   /* the solution is refined if the smallest ratio of det D to `size` of a node is below this */
   double weak_pivot;
-  bool leaves_v; /* dense bodies or particles use entries of motion[] after those of v */
+  bool leaves_v; /* dense bodies or particles use entries of motion[] after the first nv */
   int hub;       /* mass block with too many sides; -1: none */
 
   unsigned char *fixed; /* (mass_block_count) non-zero: W = 0 */

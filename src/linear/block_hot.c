@@ -275,8 +275,9 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
   return lambda;
 }
 
-/* Substitutes from the last node to the first. Each lambda is applied to the motion at once, while
- * the processor already computes the next one. rows (nc) receives lambda unless it is NULL. */
+/* Substitutes from the last node to the first. Each lambda is applied to the motion immediately,
+ * while the processor already computes the next lambda. If `rows` (nc) is not NULL, it receives
+ * lambda. */
 BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,

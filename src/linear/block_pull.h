@@ -6,8 +6,8 @@
 #include "linear/block.h"
 
 /* Prepares a correction with the factors of the last solution: sets pull to x (nv), the motion to
- * -x, rest and multipliers to 0. The correction then gives the motion -W J^T S^-1 J x. For fixed
- * bodies 0 is used in place of x. */
+ * -x, and both rest and multipliers to 0. The correction then gives the motion -W J^T S^-1 J x. For
+ * fixed bodies 0 is used in place of x. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 
 #endif

@@ -35,7 +35,7 @@ static const double fallen = 0.01;
 /* If rcond is below this, LU is useless even with pivots chosen for accuracy. */
 static const double least_rcond = 1e-15;
 /* If rcond is below this, a pivot may be only a rounding error. Pivots of dependent rows are up to
- * 1e-14. */
+ * 1e-14 times the largest pivot. */
 static const double rounding_rcond = 1e-13;
 /* Largest contradiction between dependent rows that is accepted, relative to the right-hand
  * side. */

@@ -79,10 +79,11 @@ baum_status baum_i_kkt_prepare(baum_i_kkt *kkt);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is allowed */
 
 /* Factors the matrix of new values. The values must not change until the last solve, because
- * residuals are computed from them. As long as the present pivots are good enough, keeps them and
- * allocates nothing. Returns BAUM_OK (baum_i_kkt_get_quality() then tells how good the
- * factorization is), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. Sets a message only
- * if out of memory, because only the caller knows the time and the names for other messages. */
+ * residuals are computed from them. Keeps the present pivots as long as they are good enough, and
+ * then allocates nothing. Returns BAUM_OK (baum_i_kkt_get_quality() then tells how good
+ * the factorization is), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. Sets a message
+ * only if out of memory, because only the caller knows the time and the names for other
+ * messages. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
 /* Solves, and refines a and lambda until the residuals of both equations are at rounding level. (a,
@@ -129,7 +130,7 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
  * its length is at most `tolerance` after orthogonalization against the independent rows before it.
  * independent (nc) receives 1 for the rows of a largest set of independent rows, and 0 for all
  * other rows. Rows with independent[i] != 0 on entry are preferred, then rows with a lower number,
- * but any row is preferred to the structure's last_rows. Allocates memory. Returns BAUM_OK,
+ * but any other row is preferred to the structure's last_rows. Allocates memory. Returns BAUM_OK,
  * BAUM_ERR_MEMORY or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,

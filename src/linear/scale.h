@@ -7,9 +7,10 @@
  *
  * all rounded up to a power of two. After scaling, the diagonal of M is therefore between 1 and 4,
  * and the largest entry of a row of J is between 1 and 2. If S_ii is not zero, the maximum in e_i
- * includes sqrt(S_ii). A change of units multiplies K by a diagonal matrix from both sides. D
- * changes by the inverse, so D K D does not depend on units, except for the rounding to powers of
- * two. The d_j of a velocity without mass is computed from the rows in which it occurs. */
+ * includes sqrt(S_ii). A change of units multiplies K by a diagonal matrix from both sides, and D
+ * by the inverse of this matrix. D K D therefore does not depend on units, except for the rounding
+ * to powers of two. The d_j of a velocity without mass is computed from the rows in which it
+ * occurs. */
 #ifndef BAUM_I_LINEAR_SCALE_H
 #define BAUM_I_LINEAR_SCALE_H
 

@@ -17,13 +17,14 @@ static const double least_weak_pivot = 1e-5;
 static const double many_nodes = 128.0;
 
 /* A body is thin if its smallest moment of inertia is below this fraction of the trace of I. The
- * angular acceleration about its axis (its spin) may be much larger than all other
- * accelerations. */
+ * axis of this moment is the axis of the body. The angular acceleration about this axis is called
+ * spin. It may be much larger than all other accelerations. */
 static const double thin = 2e-5;
 
 /* A body is slender if its smallest moment of inertia is below `slender` times the trace of I. The
- * pivots of its joints may then be as small as this fraction. Raising the moment of inertia by
- * `raised` times the trace avoids this, and each refinement then gains about four digits. */
+ * pivots of its joints may then be as small as this fraction. Raising this moment of inertia by
+ * `raised` times the trace avoids such small pivots. Each refinement then gains about four
+ * digits. */
 static const double slender = 1e-8;
 static const double raised = 1e-4;
 
@@ -134,7 +135,7 @@ static bool factor_tensor(const double tensor[12], double l[9])
       for (int k = 0; k < j; k++) {
         sum -= l[3 * i + k] * l[3 * j + k];
       }
-      /* a smaller sum is only a rounding error left by cancellation */
+      /* a sum below this limit is only a rounding error left by cancellation */
       if (i == j && !(sum > 1e-14 * tensor[5 * i])) {
         return false;
       }

@@ -269,11 +269,11 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 /* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
   void (*substitute)(baum_i_space *space, double *lambda);
-  /* Compares, for each node, the accelerations of its bodies that its multipliers alone cause with
-   * the accelerations that all multipliers and forces cause. Returns the largest acceleration that
-   * one node causes, divided by the largest acceleration of a body of the same island. For the spin
-   * that a node causes on a thin body, the divisor is this largest acceleration or the whole spin
-   * of the body, whichever is larger. If the returned quotient is large, digits have cancelled. */
+  /* Tells how strongly the effects of different nodes cancel. Returns the largest acceleration that
+   * the multipliers of one node alone would cause, divided by the largest acceleration in the same
+   * island, which all multipliers and forces cause. For the spin that a node causes on a thin body,
+   * the divisor is this largest acceleration or the whole spin of the body, whichever is larger. If
+   * the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
   /* Prepares correct(): computes r - J a in working precision. The residual of the equations of

@@ -475,8 +475,8 @@ static void gather(baum_i_space *b)
   }
 }
 
-/* Adds the corrections to the saved multipliers of an island. Returns their largest change relative
- * to the largest multiplier. */
+/* Adds the corrections to the saved multipliers of an island. Returns the largest correction
+ * relative to the largest multiplier. */
 static double add_changes(const baum_i_space *b, int island)
 {
   four changes = baum_i_four_zero();
@@ -501,14 +501,14 @@ static double add_changes(const baum_i_space *b, int island)
   return ratio(largest(changes), largest(sizes));
 }
 
-/* If no joint keeps a slender body from spinning about its axis, the raised moment of inertia makes
- * each correction of the spin much too small, and more than SLOWEST times the correction before it.
+/* If no joint keeps a slender body from spinning about its axis, corrections of the spin decrease
+ * slowly because of the raised moment of inertia: each is more than SLOWEST times the one before.
  * Corrections below NOISE times the accelerations may be rounding errors. */
 static const double SLOWEST = 0.01;
 static const double NOISE = 1e-13;
 
-/* Returns the change of the spin of a thin body, relative to the spin or to `others`, whichever is
- * larger. Returns 1 if the body is slender and the changes do not decrease quickly. */
+/* Returns the change of a thin body's spin, relative to the spin or to `others` (the largest other
+ * acceleration), whichever is larger; 1 if the body is slender and changes decrease slowly. */
 static double change_of_spin(const baum_i_space *b, int t, const double *before, double others)
 {
   const baum_i_space_body *body = &b->bodies[t];

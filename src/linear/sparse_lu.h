@@ -22,7 +22,7 @@ baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int
                                     baum_i_sparse_lu **out);
 void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is allowed */
 
-/* Factors the matrix. As long as the last pivots are good, keeps them and allocates nothing.
+/* Factors the matrix. Keeps the last pivots as long as they are good, and then allocates nothing.
  * Returns BAUM_OK, BAUM_ERR_SINGULAR or BAUM_ERR_MEMORY. None of these functions sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 

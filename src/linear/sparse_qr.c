@@ -47,12 +47,12 @@
 
 enum { NONE = -1 };
 
-/* A front may have more columns than the pattern of each of its rows of R, but only by 1 /
- * SLACK_SHARE of this pattern plus SLACK columns. */
+/* If a row of R has p entries in its pattern, the front of this row has at most p + p / SLACK_SHARE
+ * + SLACK columns. */
 enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
-  int32_t parent; /* indices of fronts and rows of A, or NONE */
+  int32_t parent; /* this and the next three: index of a front or of a row of A, or NONE */
   int32_t first_child;
   int32_t next_child;
   int32_t first_row; /* first row of A that begins with a pivot of this front */

@@ -26,8 +26,8 @@ void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is allowed */
 
 /* Factors the matrix with the given values, which must be finite and in the order of pattern->row.
  * Returns the rank. A column is dependent if its norm is at most `tolerance` after
- * orthogonalization against the independent columns before it. Unless it is NULL, independent
- * (columns) receives 1 for independent columns and 0 for the others. This function and the two
+ * orthogonalization against the independent columns before it. If `independent` (columns) is not
+ * NULL, it receives 1 for independent columns and 0 for the others. This function and the two
  * functions below allocate nothing. */
 int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
                                 unsigned char *independent);

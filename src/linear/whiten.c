@@ -21,7 +21,7 @@ typedef struct white_body {
 struct baum_i_whitening {
   const baum_i_kkt_structure *structure;
   white_body *bodies;         /* (mass_block_count) */
-  const white_body **columns; /* (nv) the body whose first angular velocity this is, or NULL */
+  const white_body **columns; /* (nv) body whose first angular velocity is this column, or NULL */
   double *numbers;            /* memory of both arrays below */
   double *mass;
   double *jacobian;
@@ -55,7 +55,8 @@ static size_t jacobian_size(const baum_i_kkt_structure *s)
   return size;
 }
 
-/* Removes bodies whose angular velocities are not adjacent columns of all blocks of J. */
+/* Removes bodies whose angular velocities are not adjacent columns in a block of J that contains
+ * them. */
 static void check_columns(const baum_i_whitening *w)
 {
   const baum_i_kkt_structure *s = w->structure;

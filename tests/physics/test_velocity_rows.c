@@ -328,7 +328,8 @@ static void position_and_velocity_degrees_of_freedom_differ(void **state)
   assert_int_equal(mobility.degrees_of_freedom, 2);
   assert_int_equal(mobility.position_degrees_of_freedom, 3);
   assert_int_equal(mobility.velocity_rows, 1);
-  assert_non_null(strstr(mobility.text, "1 row of velocity level: 2 of velocity, 3 of position."));
+  assert_non_null(strstr(
+    mobility.text, "1 row of velocity level; degrees of freedom: 2 of velocity, 3 of position."));
   check(baum_mechanism_report(m, &report, sizeof report));
   assert_int_equal(report.degrees_of_freedom, 2);
   assert_int_equal(report.position_degrees_of_freedom, 3);
