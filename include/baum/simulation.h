@@ -276,9 +276,9 @@ typedef struct baum_simulation_options {
    *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
    *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
    *  If the second integration fails, or takes more than ten times as many evaluations as the run,
-   *  it ends with BAUM_WARNING_ERROR_UNKNOWN. Kinematics has no such errors. Without this option, a
-   *  fixed-step run starts a second integration only if the sum of its local errors becomes large
-   *  enough to matter. Default: false. */
+   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics has no such errors. Without
+   *  this option, a fixed-step run starts a second integration only if the sum of its local errors
+   *  becomes large enough to matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 
@@ -859,7 +859,7 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_ERROR_UNKNOWN = 9,       /**< The option error_check could not continue. */
+  BAUM_WARNING_ERROR_UNKNOWN = 9,       /**< The estimate of the error has ended. */
   BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */

@@ -51,9 +51,10 @@ struct baum_i_block_path {
   double *constant_force;      /* (nv) constant forces; 0 for bodies whose force varies */
   bool force_is_constant;      /* all forces are constant */
   bool mass_is_constant;
-  bool always_check; /* `block` has many nodes: check the residual of every solution */
-  bool uneven;       /* masses differ by large factors, so that digits may cancel */
-  int fixed_count;   /* number of fixed bodies that the path excludes */
+  bool always_check;    /* `block` has many nodes: check the residual of every solution */
+  bool uneven;          /* masses differ by large factors, so that digits may cancel */
+  double largest_pivot; /* largest result of the measure in pivot.c */
+  int fixed_count;      /* number of fixed bodies that the path excludes */
   int64_t factorizations;
   int64_t refinements;
 };

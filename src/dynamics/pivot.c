@@ -96,20 +96,21 @@ static weakest smallest_in_space(const baum_i_space *space)
 
 /* Find the pivot of the last elimination by blocks, even if the block solver then gave up. Returns
  * false if there is no such elimination. Also returns false if the pivot is at rounding level,
- * masses are uneven, and another solver gave the solution: uneven masses often cause such
- * pivots. */
+ * although larger ones have occurred, masses are uneven, and another solver gave the solution:
+ * uneven masses often cause such pivots. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;
   if (!w->eliminated_by) {
     return false;
   }
-  const baum_i_block_path *path = w->eliminated_by;
+  baum_i_block_path *path = w->eliminated_by;
   const weakest found =
     path->space ? smallest_in_space(path->space) : smallest_of_blocks(path->block);
   *pivot = 1.0 / found.inverse;
   *row = found.row;
-  return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
+  path->largest_pivot = fmax(path->largest_pivot, *pivot);
+  return w->solved_by || !path->uneven || *pivot > NOISE || path->largest_pivot <= NOISE;
 }
 
 bool baum_i_blocks_tell(const baum_workspace *w)
@@ -120,13 +121,15 @@ bool baum_i_blocks_tell(const baum_workspace *w)
 }
 
 /* For other solvers *joint is the joint with the largest multiplier, for lack of a better
- * indication. */
+ * indication. If blocks have been eliminated, too, the measure must not exceed those of blocks,
+ * which would otherwise seem to be singular in comparison. */
 double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;
   double pivot = 1.0;
   if (w->mechanism->nc > 0 && !find_pivot_of_blocks(w, &pivot, &row)) {
     pivot = baum_i_kkt_rcond(w->kkt);
+    pivot = w->eliminated_by ? fmin(pivot, w->eliminated_by->largest_pivot) : pivot;
     row = joint ? baum_i_largest(w->lambda, w->mechanism->nc, NULL) : -1;
   }
   if (joint) {

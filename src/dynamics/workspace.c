@@ -200,6 +200,12 @@ baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 
 void baum_i_workspace_forget(baum_workspace *w)
 {
+  baum_i_block_path *const paths[] = {w->path, w->motion};
+  for (int k = 0; k < 2; k++) {
+    if (paths[k]) {
+      paths[k]->largest_pivot = 0.0;
+    }
+  }
   baum_i_kkt_forget(w->kkt);
   if (w->sharing.kkt) {
     baum_i_kkt_forget(w->sharing.kkt);

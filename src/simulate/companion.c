@@ -246,15 +246,16 @@ static baum_status go_to(baum_simulation *run, double t)
   return interpolate_at(run, t);
 }
 
-/* Without error_check, nobody waits for the estimate. */
+/* A companion that the user has not requested may end without a warning if it is too costly. */
 static void warn_of_end(baum_simulation *run, double t)
 {
-  if (run->options.error_check) {
+  bool costly = is_too_costly(run);
+  if (run->options.error_check || !costly) {
     baum_i_run_warn(
       run, BAUM_WARNING_ERROR_UNKNOWN, t, BAUM_I_NO_JOINT,
-      "t = %.9g s: error_check ended because the second integration %s; the error of "
-      "the motion is unknown; compare with a run that has %s",
-      t, is_too_costly(run) ? "takes more than ten times as many evaluations as the run" : "failed",
+      "t = %.9g s: the error of the motion is unknown, because the second integration "
+      "that estimates it %s; compare with a run that has %s",
+      t, costly ? "takes more than ten times as many evaluations as the run" : "has failed",
       baum_i_run_has_fixed_step(run) ? "half the step" : "a tenth of rtol");
   }
 }

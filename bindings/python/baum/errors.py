@@ -159,7 +159,7 @@ class SingularityCrossedWarning(Warning):
 
 
 class ErrorUnknownWarning(Warning):
-    """The option error_check could not continue, so the error of the motion is unknown."""
+    """The estimate of the error has ended, so the error of the motion is unknown."""
 
     code = 9
 
