@@ -2,6 +2,7 @@
 """Tests sweeps: samples of parameters, executors, failures, cancelling and continuing."""
 
 import concurrent.futures
+import pickle
 import tempfile
 import unittest
 from pathlib import Path
@@ -172,7 +173,19 @@ class SweepTest(unittest.TestCase):
         refuses(ValueError, "different numbers", {"crank.mass": [1], "crank.inertia": [1, 2]})
         refuses(ValueError, "count is missing", {"crank.mass": [1, 2]}, samples=Fixed())
         refuses(ValueError, "lower and upper", {"crank.mass": [1]}, samples=Fixed(), count=1)
+        refuses(ValueError, "shape .2, 2.; .* .2, 1.", {"crank.mass": [1, 2]}, samples=Fixed(), count=2)
+        refuses(ValueError, "sampler is wanted, not 'gird'", {"crank.mass": [1, 2]}, samples="gird")
+        refuses(TypeError, r"reduce\(\) returned None", {"crank.mass": [1]}, reduce=lambda run: None)
         refuses(TypeError, r"submit\(\) or map\(\)", {"crank.mass": [1]}, executor=3)
+
+    def test_a_file_with_other_content_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "sweep.pickle"
+            for content in (b"", b"garbage", pickle.dumps([1, 2, 3])):
+                file.write_bytes(content)
+                with self.assertRaisesRegex(ValueError, "sweep.pickle: this is not the file of a sweep"):
+                    baum.sweep(crank(), {"crank.mass": [1]}, TIMES, **METHOD, file=file)
+                self.assertEqual(file.read_bytes(), content)
 
     @unittest.skipUnless(hasattr(Exception, "add_note"), "needs Python 3.11")
     def test_an_exception_names_its_run(self):

@@ -75,6 +75,8 @@ def _values_of(run: Run, reduce: Reduce | None) -> dict[str, Array]:
     if reduce is None:
         return {key: run[key] for key in run}
     value = reduce(run)
+    if value is None:
+        raise TypeError("reduce() returned None, not a number, an array or a dict of them")
     named = value if isinstance(value, dict) else {"value": value}
     return {name: np.asarray(x, dtype=float) for name, x in named.items()}
 
@@ -129,8 +131,10 @@ def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
 def _rows(columns: dict[str, Array], samples: Any, count: int | None) -> list[tuple[Any, ...]]:
     if isinstance(samples, str) and samples == "grid":
         return list(itertools.product(*columns.values()))
-    if samples is not None and samples != "rows":
+    if samples is not None and not isinstance(samples, str):
         return _drawn(columns, samples, count)
+    if samples not in (None, "rows"):
+        raise ValueError(f'samples: "rows", "grid" or a sampler is wanted, not {samples!r}')
     lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
         raise ValueError(
@@ -149,7 +153,13 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
         if values.shape != (2,):
             raise ValueError(f"{name}: lower and upper bound are wanted, not {values.tolist()}")
     low, high = np.array(list(columns.values())).T
-    return [tuple(row) for row in low + (high - low) * np.asarray(sampler.random(count))]
+    drawn = np.asarray(sampler.random(count))
+    if drawn.shape != (count, len(columns)):
+        raise ValueError(
+            f"samples: random({count}) returned an array of shape {drawn.shape}; wanted is a row "
+            f"for each sample with a number for each parameter, {(count, len(columns))}"
+        )
+    return [tuple(row) for row in low + (high - low) * drawn]
 
 
 # ---- executors ---------------------------------------------------------------------------------
@@ -393,8 +403,11 @@ class _File:
     def read(self) -> list[_Result | None]:
         if not self._path.exists():
             return [None] * self._count
-        with open(self._path, "rb") as file:
-            key, results = pickle.load(file)
+        try:
+            with open(self._path, "rb") as file:
+                key, results = pickle.load(file)
+        except (pickle.UnpicklingError, EOFError, TypeError, ValueError) as error:
+            raise ValueError(f"{self._path}: this is not the file of a sweep") from error
         if key != self._key:
             raise ValueError(f"{self._path}: this file is of another sweep")
         found: list[_Result | None] = results
