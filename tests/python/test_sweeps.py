@@ -2,6 +2,7 @@
 """Tests sweeps: samples of parameters, executors, failures, cancelling and continuing."""
 
 import concurrent.futures
+import os
 import pickle
 import tempfile
 import unittest
@@ -158,6 +159,14 @@ class SweepTest(unittest.TestCase):
             np.testing.assert_array_equal(whole["value"], alone["value"])
             with self.assertRaisesRegex(ValueError, "of another sweep"):
                 baum.sweep(crank(), {"crank.mass": [1, 2]}, TIMES, **given)
+
+    def test_a_sweep_that_ends_early_stops_its_runs(self):
+        # The first run fails at once. The other runs would take 1e9 steps each.
+        m = crank()
+        m.force("f", "crank", lambda t, q, v, u: (0, 0, 0 / (1 - u)), inputs=[m.input("fails")])
+        inputs = {"fails.initial": [1.0] + [0.0] * (300 * (os.cpu_count() or 1))}
+        with self.assertRaises(ZeroDivisionError):
+            baum.sweep(m, inputs, [1e6], "rk4", step=1e-3)
 
     def test_wrong_arguments_are_refused(self):
         def refuses(kind, text, parameters, **given):

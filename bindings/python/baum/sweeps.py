@@ -11,6 +11,7 @@ import hashlib
 import itertools
 import os
 import pickle
+import threading
 import time
 import types
 import warnings
@@ -100,7 +101,12 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
 def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
     """Run a part of a sweep. This function is defined at module level, so that other processes can
     import it."""
-    return [_one(task, row) for row in rows]
+    results: list[_Result] = []
+    for row in rows:
+        results.append(_one(task, row))
+        if results[-1].status == Status.STOP_CANCELLED:  # the sweep has ended
+            break
+    return results
 
 
 # ---- the rows of parameters --------------------------------------------------------------------
@@ -324,8 +330,14 @@ def sweep(
     if executor is not None:
         _fill(results, executor, task, rows, progress, kept)
     else:
+        ended = threading.Event()
+        # After Ctrl-C, or if `progress` cancels the sweep, the runs in other threads stop, too.
+        task = task._replace(options={**options, "progress": lambda t: ended.is_set()})
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
-            _fill(results, threads, task, rows, progress, kept)
+            try:
+                _fill(results, threads, task, rows, progress, kept)
+            finally:
+                ended.set()
     return Sweep(task.names, rows, results)
 
 
