@@ -30,7 +30,16 @@ static const double ROUNDING = 1e-15; /* the uncertainty is at least this */
 /* Time limit of a run of the reference, divided by the limit of an entry. */
 static const double PATIENCE = 5.0;
 
-enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
+enum {
+  PARTIES = 2,
+  RUNS = 4,
+  STEPS = 5000,
+  /* Runs with a tolerance take at least this many steps, and twice as many with half of it. Without
+   * this limit, all four runs could step over a force that acts only for a short time, and would
+   * agree on a wrong motion. With the same limit in all runs, their steps could be equal, and
+   * their differences would not show their errors. */
+  LEAST_STEPS = 250
+};
 
 typedef const baum_integrator *integrator_fn(void);
 
@@ -79,6 +88,9 @@ static baum_simulation_options setting(const baum_study *study, const attempt *a
     o.step = fabs(study->t1 - study->t0) / (half ? 2 * STEPS : STEPS);
   } else if (!o.integrator->without_freedom) {
     o.rtol = half ? 0.5 * a->rtol : a->rtol;
+    if (a != WITHOUT_FREEDOM) { /* forces do not change a prescribed motion */
+      o.max_step = fabs(study->t1 - study->t0) / (half ? 2 * LEAST_STEPS : LEAST_STEPS);
+    }
   }
   return o;
 }

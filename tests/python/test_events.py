@@ -106,6 +106,8 @@ class Events(unittest.TestCase):
         s = turning().simulation("rk4", step=1e-2)
         with self.assertRaisesRegex(baum.Error, "neither function"):
             s.event()
+        with self.assertRaisesRegex(TypeError, "name: a string is wanted, not 3"):
+            s.event("pin", name=3)
         with self.assertRaisesRegex(baum.Error, "direction"):
             s.event("pin", direction=2)
         with self.assertRaisesRegex(TypeError, "value: a number is wanted"):

@@ -219,6 +219,8 @@ class Options(unittest.TestCase):
             (dict(gains=5), r"gains: something like baum.fixed\(5, 5\) is wanted, not 5"),
             (dict(step="small"), "step: a number is wanted, not 'small'"),
             (dict(integrator=3), "integrator: a name is wanted, not 3"),
+            (dict(record=None), "a channel or its name is wanted, not None"),
+            (dict(record=m["bob"]), "a channel or its name is wanted, not <.*; it has acceleration"),
         ):
             with self.assertRaisesRegex(TypeError, words):
                 m.simulate([1.0], **{"integrator": "euler", "step": 1e-3, **fields})
@@ -364,6 +366,26 @@ class StepByStep(unittest.TestCase):
         self.assertEqual(other.time, run.time)
         # projection removes the violation that Euler's method has caused
         np.testing.assert_allclose(other.q, run.q, atol=1e-2)
+
+    def test_a_run_in_the_middle_of_a_call_is_not_continued(self):
+        m, found = baum.Mechanism(), []
+        bob = m.planar_particle("bob", mass=1)
+
+        def force(t, q, v):
+            if t > 0.05 and not found:
+                found.append(None)
+                with self.assertRaisesRegex(baum.Error, "in use by another call"):
+                    other.continue_from(run)
+                found.append(other.time)
+            return 0, 0
+
+        m.force("none", bob, force)
+        m.freeze()
+        found.append("the checks at the start of a run call the force, too")
+        run, other = (m.simulation("rk4", step=1e-2) for _ in range(2))
+        found.clear()
+        run.advance_to(0.1)
+        self.assertEqual(found, [None, 0.0])
 
     def test_bytes_of_something_else_are_refused(self):
         run = slider_crank(omega=20).simulation("rk4", step=1e-3)

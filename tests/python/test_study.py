@@ -54,6 +54,17 @@ class Studies(unittest.TestCase):
             # is therefore smaller.
             self.assertLess(np.abs(run.q - exact).max(), error)
 
+    def test_the_reference_sees_a_force_that_acts_for_a_short_time(self):
+        # A body at rest is pushed at 1.3 s: v = 20 N * 5 ms * sqrt(pi) / 1 kg. Steps without a limit
+        # would grow so long at rest that they miss the force.
+        m = baum.Mechanism(gravity=(0, 0))
+        bob = m.planar_particle("bob", mass=1)
+        m.force("push", bob, lambda t, q, v: (20 * np.exp(-(((t - 1.3) / 5e-3) ** 2)), 0))
+        study = baum.study(m.freeze(), 0, 2, samples=20, repeats=1, validate=False, progress=False)
+        study.add("rk4", step=1e-3).run()
+        self.assertAlmostEqual(study.reference_samples().v[-1, 0], 0.1 * np.sqrt(np.pi), 9)
+        self.assertLess(study.entries[0].error, 1e-3)
+
     def test_texts_of_an_unfinished_study_name_what_is_missing(self):
         study = small(self.m)
         self.assertIn("no entry is finished; call run()", study.report())

@@ -2,6 +2,8 @@
 """Tests sweeps: samples of parameters, executors, failures, cancelling and continuing."""
 
 import concurrent.futures
+import os
+import pickle
 import tempfile
 import unittest
 from pathlib import Path
@@ -158,6 +160,14 @@ class SweepTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "of another sweep"):
                 baum.sweep(crank(), {"crank.mass": [1, 2]}, TIMES, **given)
 
+    def test_a_sweep_that_ends_early_stops_its_runs(self):
+        # The first run fails at once. The other runs would take 1e9 steps each.
+        m = crank()
+        m.force("f", "crank", lambda t, q, v, u: (0, 0, 0 / (1 - u)), inputs=[m.input("fails")])
+        inputs = {"fails.initial": [1.0] + [0.0] * (300 * (os.cpu_count() or 1))}
+        with self.assertRaises(ZeroDivisionError):
+            baum.sweep(m, inputs, [1e6], "rk4", step=1e-3)
+
     def test_wrong_arguments_are_refused(self):
         def refuses(kind, text, parameters, **given):
             with self.assertRaisesRegex(kind, text):
@@ -172,7 +182,19 @@ class SweepTest(unittest.TestCase):
         refuses(ValueError, "different numbers", {"crank.mass": [1], "crank.inertia": [1, 2]})
         refuses(ValueError, "count is missing", {"crank.mass": [1, 2]}, samples=Fixed())
         refuses(ValueError, "lower and upper", {"crank.mass": [1]}, samples=Fixed(), count=1)
+        refuses(ValueError, "shape .2, 2.; .* .2, 1.", {"crank.mass": [1, 2]}, samples=Fixed(), count=2)
+        refuses(ValueError, "sampler is wanted, not 'gird'", {"crank.mass": [1, 2]}, samples="gird")
+        refuses(TypeError, r"reduce\(\) returned None", {"crank.mass": [1]}, reduce=lambda run: None)
         refuses(TypeError, r"submit\(\) or map\(\)", {"crank.mass": [1]}, executor=3)
+
+    def test_a_file_with_other_content_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "sweep.pickle"
+            for content in (b"", b"garbage", pickle.dumps([1, 2, 3])):
+                file.write_bytes(content)
+                with self.assertRaisesRegex(ValueError, "sweep.pickle: this is not the file of a sweep"):
+                    baum.sweep(crank(), {"crank.mass": [1]}, TIMES, **METHOD, file=file)
+                self.assertEqual(file.read_bytes(), content)
 
     @unittest.skipUnless(hasattr(Exception, "add_note"), "needs Python 3.11")
     def test_an_exception_names_its_run(self):

@@ -370,7 +370,8 @@ class Simulation(_calls.Closing):
         """
         given = vector(np.atleast_1d(times), None, "times")
         counts: list[ctypes.c_int64] = []
-        channels = [record] if isinstance(record, (str, Channel)) else record
+        is_one = isinstance(record, str) or not isinstance(record, Iterable)
+        channels: Any = [record] if is_one else record
         layout = self._layout(
             [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in channels)]
         )
@@ -515,6 +516,8 @@ class Simulation(_calls.Closing):
         tolerance: accuracy of the time of the event [s], by default the rounding error of the time.
         coordinate: which coordinate of `joint`, as in Mechanism.driver().
         """
+        if not (name is None or isinstance(name, str)):
+            raise TypeError(f"name: a string is wanted, not {name!r}")
         struct = default(_abi.baum_event_def)
         struct.name = None if name is None else name.encode()
         if joint is not None:
@@ -576,7 +579,8 @@ class Simulation(_calls.Closing):
         and keeps its own options."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
-        self._call(lib.baum_simulation_continue, other._owner.address)
+        # other._owner.call() refuses a run that another call is advancing
+        other._owner.call(lambda from_: self._call(lib.baum_simulation_continue, from_))
         self._warn()
 
     def cancel(self) -> None:

@@ -11,6 +11,7 @@ import hashlib
 import itertools
 import os
 import pickle
+import threading
 import time
 import types
 import warnings
@@ -76,6 +77,8 @@ def _values_of(run: Run, reduce: Reduce | None) -> dict[str, Array]:
     if reduce is None:
         return {key: run[key] for key in run}
     value = reduce(run)
+    if value is None:
+        raise TypeError("reduce() returned None, not a number, an array or a dict of them")
     named = value if isinstance(value, dict) else {"value": value}
     return {name: np.asarray(x, dtype=float) for name, x in named.items()}
 
@@ -99,7 +102,12 @@ def _one(task: _Task, row: Sequence[Any]) -> _Result:
 def _many(task: _Task, rows: Sequence[Sequence[Any]]) -> list[_Result]:
     """Run a part of a sweep. This function is defined at module level, so that other processes can
     import it."""
-    return [_one(task, row) for row in rows]
+    results: list[_Result] = []
+    for row in rows:
+        results.append(_one(task, row))
+        if results[-1].status == Status.STOP_CANCELLED:  # the sweep has ended
+            break
+    return results
 
 
 # ---- the rows of parameters --------------------------------------------------------------------
@@ -130,8 +138,10 @@ def _columns(parameters: Mapping[str, ArrayLike]) -> dict[str, Array]:
 def _rows(columns: dict[str, Array], samples: Any, count: int | None) -> list[tuple[Any, ...]]:
     if isinstance(samples, str) and samples == "grid":
         return list(itertools.product(*columns.values()))
-    if samples is not None and samples != "rows":
+    if samples is not None and not isinstance(samples, str):
         return _drawn(columns, samples, count)
+    if samples not in (None, "rows"):
+        raise ValueError(f'samples: "rows", "grid" or a sampler is wanted, not {samples!r}')
     lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
         raise ValueError(
@@ -150,7 +160,13 @@ def _drawn(columns: dict[str, Array], sampler: Any, count: int | None) -> list[t
         if values.shape != (2,):
             raise ValueError(f"{name}: lower and upper bound are wanted, not {values.tolist()}")
     low, high = np.array(list(columns.values())).T
-    return [tuple(row) for row in low + (high - low) * np.asarray(sampler.random(count))]
+    drawn = np.asarray(sampler.random(count))
+    if drawn.shape != (count, len(columns)):
+        raise ValueError(
+            f"samples: random({count}) returned an array of shape {drawn.shape}; wanted is a row "
+            f"for each sample with a number for each parameter, {(count, len(columns))}"
+        )
+    return [tuple(row) for row in low + (high - low) * drawn]
 
 
 # ---- executors ---------------------------------------------------------------------------------
@@ -315,8 +331,14 @@ def sweep(
     if executor is not None:
         _fill(results, executor, task, rows, progress, kept)
     else:
+        ended = threading.Event()
+        # After Ctrl-C, or if `progress` cancels the sweep, the runs in other threads stop, too.
+        task = task._replace(options={**options, "progress": lambda t: ended.is_set()})
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
-            _fill(results, threads, task, rows, progress, kept)
+            try:
+                _fill(results, threads, task, rows, progress, kept)
+            finally:
+                ended.set()
     return Sweep(task.names, rows, results)
 
 
