@@ -135,8 +135,8 @@ static baum_status call_baum_sweep(scene *s)
   return baum_sweep(s->parts.mechanism, &o, &def, rows, NULL);
 }
 
-/* A small scene as text. The calls do not write and read the mechanism above, because it would need
- * hooks for all its functions. */
+/* A small scene as text. The calls do not write and read the mechanism above, because a text of
+ * that mechanism needs a hook for each of its functions. */
 static const char SCENE_TEXT[] =
   "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
   "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "

@@ -148,7 +148,7 @@ static void buffers_with_any_changed_bit_are_refused(void **state)
 }
 
 /* The sum of all words would not change if the highest bits of two words changed. The checksum must
- * detect this. */
+ * detect such a change. */
 static void buffers_with_two_changed_signs_are_refused(void **state)
 {
   (void)state;
@@ -487,8 +487,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The run is saved before a law is set, and restored afterwards. The law and the input must then be
- * removed. */
+/* The run is saved before a law and an input are set. If it is restored afterwards, it must have
+ * the law and the value of the input that it had when it was saved. */
 static void restoring_removes_laws_that_were_set_later(void **state)
 {
   (void)state;

@@ -279,8 +279,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
     /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. The second term adds the same
-     * velocity as in the first step. The test subtracts this velocity, so that the velocity that
-     * comes from the damping term remains. */
+     * velocity in both steps. The test subtracts this velocity twice, so that only the velocity
+     * that comes from the first term remains. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);
