@@ -140,9 +140,9 @@ HEAP_PUBLIC void free(void *memory)
 
 /* SUNLogger_Create() of SUNDIALS 6.4.1, which SUNContext_Create() calls, checks only its first
  * allocation. SUNHashMap_New() then allocates a map and writes to it without checking, because it
- * compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated, it
- * frees the map, although the logger keeps the map and later destroys it again. A caller cannot
- * prevent these two errors. The test therefore lets only the first allocation fail.
+ * compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated,
+ * SUNHashMap_New() frees the map, although the logger keeps the map and later destroys it again. A
+ * caller cannot prevent these two errors. The test therefore lets only the first allocation fail.
  */
 #if BAUM_HAVE_SUNDIALS
 

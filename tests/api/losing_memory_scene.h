@@ -11,8 +11,8 @@
 
 /* ---- scenes, which contain the objects of a call ---- */
 
-/* Which objects a call needs. They are made in this order, so that a scene of one stage also has
- * the objects of the stages before it. STUDIED is an exception: its scene has a study of a
+/* The stage of a scene tells which objects a call needs. A scene of one stage also has the objects
+ * of the stages before it. STUDIED is an exception: a scene of this stage has only a study of a
  * pendulum. */
 typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
 

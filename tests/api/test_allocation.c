@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steps and evaluations must not allocate memory. Every other call must return BAUM_ERR_MEMORY if
- * any of its allocations fails. This includes allocations of SuiteSparse and SUNDIALS, except those
+ * any of its allocations fails. Allocations of SuiteSparse and SUNDIALS are included, except those
  * that heap.h excludes. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>

@@ -165,7 +165,7 @@ static void buffers_with_two_changed_signs_are_refused(void **state)
 
 /* ---- buffers whose checksum is right, but whose content is not ---- */
 
-/* Writes the checksum into the buffer. It is documented in base/digest.h. */
+/* Writes the checksum into the buffer. The checksum is documented in base/digest.h. */
 static void seal(saved *s)
 {
   uint64_t h = 0;
@@ -210,7 +210,8 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 
 /* In the first part of the test, a buffer with an impossible size must be refused. The second part
  * replaces each word of the buffer by 0, one at a time. One of these words says that the driver has
- * a polynomial as its law. If it is 0, the driver has no law, and restoring must refuse this. */
+ * a polynomial as its law. If this word is 0, the driver has no law, and restoring must refuse the
+ * buffer. */
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;

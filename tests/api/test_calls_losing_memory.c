@@ -459,8 +459,8 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Tells whether a call failed because memory was missing. If it was memory for opening a file, the
- * status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
+/* Tells whether a call failed because memory was missing. If the missing memory was for opening a
+ * file, the status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||

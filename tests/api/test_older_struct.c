@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* If a program was compiled with an older version, its definitions and options are shorter structs.
- * The fields that they do not have must get their defaults. */
+ * The fields that these structs do not have must get their default values. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -71,9 +71,9 @@ static void auto_uses_the_mean_rate_of_the_pilot_run(void **state)
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
   /* A torque of 0.033 N m accelerates the crank from rest. The rate is max(|v|/L, sqrt(|a|/L)),
-   * where L is the characteristic length. It is 119 1/s at the start, and its mean over the first
-   * 3.75 rad of the exact motion is 336 1/s. The pilot run has five steps, which give this mean to
-   * within 20 %. */
+   * where L is the characteristic length. This rate is 119 1/s at the start, and its mean over the
+   * first 3.75 rad of the exact motion is 336 1/s. The pilot run has five steps, which give this
+   * mean to within 20 %. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }

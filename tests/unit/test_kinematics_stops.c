@@ -124,8 +124,9 @@ static void outputs_before_the_lock_up_are_computed(void **state)
   close_run(run, mechanism);
 }
 
-/* A flat parallelogram can continue as an antiparallelogram. In this configuration J is singular,
- * and the driver does not determine the motion. The run must therefore stop before it. */
+/* A flat parallelogram can continue as an antiparallelogram. In the flat configuration J is
+ * singular, and the driver does not determine the motion. The run must therefore stop before this
+ * configuration. */
 static void a_run_stops_where_branches_cross(void **state)
 {
   (void)state;
