@@ -39,7 +39,7 @@ static struct {
   long fail_from;      /* index of the first allocation that fails */
   long fail_to;        /* index after the last allocation that fails */
   bool inside;         /* true during a call of an excluded function (see below) */
-  long may_still_fail; /* how many more allocations of this call are counted and may fail */
+  long may_still_fail; /* how many more allocations of the excluded function may fail */
 } heap;
 
 /* ---- counting ---- */
@@ -90,7 +90,8 @@ void *HEAP_REAL(calloc)(size_t number, size_t size);
 void *HEAP_REAL(realloc)(void *old, size_t size);
 void HEAP_REAL(free)(void *memory);
 
-/* Tells whether an allocation has to fail. Allocations of excluded calls are not counted. */
+/* Tells whether an allocation has to fail. Allocations of an excluded function are not counted,
+ * except the first ones, which may fail. */
 HEAP_EARLY static bool heap_refuses(void)
 {
   if (heap.inside && heap.may_still_fail-- <= 0) {
@@ -139,9 +140,9 @@ HEAP_PUBLIC void free(void *memory)
 
 /* SUNLogger_Create() of SUNDIALS 6.4.1, which SUNContext_Create() calls, checks only its first
  * allocation. SUNHashMap_New() then allocates a map and writes to it without checking, because it
- * compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated, it
- * frees the map, although the logger keeps the map and later destroys it again. A caller cannot
- * prevent these two errors. The test therefore lets only the first allocation fail.
+ * compares `map` with NULL where `*map` is meant. If the buckets of the map cannot be allocated,
+ * SUNHashMap_New() frees the map, although the logger keeps the map and later destroys it again. A
+ * caller cannot prevent these two errors. The test therefore lets only the first allocation fail.
  */
 #if BAUM_HAVE_SUNDIALS
 

@@ -11,8 +11,8 @@
 
 /* ---- scenes, which contain the objects of a call ---- */
 
-/* Which objects a call needs. They are made in this order, so that a scene of one stage also has
- * the objects of the stages before it. STUDIED is an exception: its scene has a study of a
+/* The stage of a scene tells which objects a call needs. A scene of one stage also has the objects
+ * of the stages before it. STUDIED is an exception: a scene of this stage has only a study of a
  * pendulum. */
 typedef enum stage { NOTHING, OPEN, FROZEN, RUNNING, STUDIED } stage;
 
@@ -135,8 +135,8 @@ static baum_status call_baum_sweep(scene *s)
   return baum_sweep(s->parts.mechanism, &o, &def, rows, NULL);
 }
 
-/* A small scene as text. The calls do not write and read the mechanism above, because it would need
- * hooks for all its functions. */
+/* A small scene as text. The calls do not write and read the mechanism above, because a text of
+ * that mechanism needs a hook for each of its functions. */
 static const char SCENE_TEXT[] =
   "{\"baum_scene\": 1, \"break_times\": [1], \"ground_outlines\": [{\"form\": \"polygon\", "
   "\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}], \"bodies\": [{\"kind\": \"planar_body\", "

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Steps and evaluations must not allocate memory. Every other call must return BAUM_ERR_MEMORY if
- * any of its allocations fails. This includes allocations of SuiteSparse and SUNDIALS, except those
+ * any of its allocations fails. Allocations of SuiteSparse and SUNDIALS are included, except those
  * that heap.h excludes. */
 #define _GNU_SOURCE /* needed by heap.h */
 #include <math.h>
@@ -67,7 +67,7 @@ static bool reached_the_end(baum_status status)
 }
 
 /* Finds combination k of an integrator, a kind of step and a formulation in this build. Returns
- * false if there are fewer. */
+ * false if there are fewer combinations. */
 static bool find_pair(int k, baum_simulation_options *o)
 {
   for (int i = 0; step_mode_at(i).integrator; i++) {
@@ -538,8 +538,8 @@ static void runs_with_redundant_joints_and_any_solver_survive_every_failing_allo
       fail_every_allocation(simulate, &s);
     } else {
       /* A run makes thousands of allocations, but only a few places in the code make them. Only the
-       * allocations of the solver differ from BAUM_SOLVER_AUTO, so it is enough to test one in
-       * fifty. */
+       * allocations of the solver differ from those with BAUM_SOLVER_AUTO, so it is enough to test
+       * one allocation in fifty. */
       fail_allocations(simulate, &s, 50);
     }
   }

@@ -148,7 +148,7 @@ static void buffers_with_any_changed_bit_are_refused(void **state)
 }
 
 /* The sum of all words would not change if the highest bits of two words changed. The checksum must
- * detect this. */
+ * detect such a change. */
 static void buffers_with_two_changed_signs_are_refused(void **state)
 {
   (void)state;
@@ -165,7 +165,7 @@ static void buffers_with_two_changed_signs_are_refused(void **state)
 
 /* ---- buffers whose checksum is right, but whose content is not ---- */
 
-/* Writes the checksum into the buffer. It is documented in base/digest.h. */
+/* Writes the checksum into the buffer. The checksum is documented in base/digest.h. */
 static void seal(saved *s)
 {
   uint64_t h = 0;
@@ -210,7 +210,8 @@ static void random_bytes_with_a_valid_checksum_are_harmless(void **state)
 
 /* In the first part of the test, a buffer with an impossible size must be refused. The second part
  * replaces each word of the buffer by 0, one at a time. One of these words says that the driver has
- * a polynomial as its law. If it is 0, the driver has no law, and restoring must refuse this. */
+ * a polynomial as its law. If this word is 0, the driver has no law, and restoring must refuse the
+ * buffer. */
 static void impossible_sizes_and_laws_are_refused(void **state)
 {
   (void)state;
@@ -487,8 +488,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The run is saved before a law is set, and restored afterwards. The law and the input must then be
- * removed. */
+/* The run is saved before a law and an input are set. If it is restored afterwards, it must have
+ * the law and the value of the input that it had when it was saved. */
 static void restoring_removes_laws_that_were_set_later(void **state)
 {
   (void)state;

@@ -162,7 +162,8 @@ static void invalid_choices_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* An integrator accepts the formulations that it offers and names them when it refuses another. */
+/* An integrator accepts the formulations that it offers and names them when it refuses another
+ * formulation. */
 static void check_pair(const baum_mechanism *mechanism, const baum_integrator *integrator,
                        baum_formulation formulation)
 {

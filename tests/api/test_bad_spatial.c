@@ -102,7 +102,7 @@ static void orientations_that_are_no_unit_quaternion_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static void inertias_of_no_body_are_refused(void **state)
+static void inertias_that_no_body_has_are_refused(void **state)
 {
   (void)state;
   static const char positive[] =
@@ -420,8 +420,8 @@ static void loads_that_a_particle_cannot_take_are_refused(void **state)
 
 /* ---- opposite axes ---- */
 
-/* Joins a body to ground. The axis of the joint on ground is z. Its axis on the body is axis_b,
- * which is not given if it is NULL. */
+/* Joins a body to ground. The axis of the joint on ground is z. The axis on the body is `axis_b`.
+ * If `axis_b` is NULL, the definition does not give this axis. */
 static baum_mechanism *mount(const char *kind_name, const double *axis_b)
 {
   const element_kind *kind = kind_of(kind_name);
@@ -559,7 +559,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(orientations_that_are_no_unit_quaternion_are_refused),
-    cmocka_unit_test(inertias_of_no_body_are_refused),
+    cmocka_unit_test(inertias_that_no_body_has_are_refused),
     cmocka_unit_test(axes_without_direction_are_refused),
     cmocka_unit_test(wrong_cables_are_refused),
     cmocka_unit_test(wrong_knife_edges_are_refused),

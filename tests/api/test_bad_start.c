@@ -132,9 +132,9 @@ static void velocities_of_an_inaccurate_design_are_explained(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Makes a rod whose design angle is `angle` [rad]. A pin holds its left end. If `link` [m] is
- * positive, a rod of this length connects its centre with the pin on ground. Drivers may rotate the
- * rod at 1 and at 2 rad/s from an angle `value` [rad]. */
+/* Makes an arm whose design angle is `angle` [rad]. A pin on ground holds the left end of the arm.
+ * If `link` [m] is positive, a rod of this length connects the centre of the arm with the pin.
+ * Up to two drivers rotate the arm at 1 and at 2 rad/s from an angle `value` [rad]. */
 static baum_mechanism *make_rod(double angle, double link, int drivers, double value)
 {
   baum_mechanism *m = create_mechanism();
@@ -482,8 +482,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* Lets the functions fail from call number n on, until the run stops. Whichever n this is, the run
- * must stop at a good step, and must be able to continue. */
+/* Lets the functions fail from call number n on, until the run stops. For every n, the run must
+ * stop at a good step, and must be able to continue. */
 static void check_single_fault(step_mode mode, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};

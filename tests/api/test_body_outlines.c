@@ -129,7 +129,7 @@ static void print_svg(const baum_mechanism *m, char text[BYTES])
   check(baum_mechanism_svg(m, NULL, text, BYTES, NULL));
 }
 
-static void without_outlines_a_body_draws_itself_again(void **state)
+static void a_body_whose_outlines_are_removed_is_drawn_as_before(void **state)
 {
   (void)state;
   static char before[BYTES], with[BYTES], after[BYTES];
@@ -213,7 +213,7 @@ static void copies_have_the_outlines_and_no_number_changes(void **state)
   baum_mechanism_destroy(copy);
 }
 
-static void a_copy_without_memory_loses_none(void **state)
+static void copying_loses_no_memory_if_allocations_fail(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -356,10 +356,10 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(an_outline_replaces_the_shapes_of_its_body),
-    cmocka_unit_test(without_outlines_a_body_draws_itself_again),
+    cmocka_unit_test(a_body_whose_outlines_are_removed_is_drawn_as_before),
     cmocka_unit_test(nearer_triangles_of_two_meshes_cover_those_behind),
     cmocka_unit_test(copies_have_the_outlines_and_no_number_changes),
-    cmocka_unit_test(a_copy_without_memory_loses_none),
+    cmocka_unit_test(copying_loses_no_memory_if_allocations_fail),
     cmocka_unit_test(wrong_calls_are_refused),
     cmocka_unit_test(wrong_fields_are_named_and_change_nothing),
   };

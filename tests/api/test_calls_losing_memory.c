@@ -77,7 +77,8 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   }
 }
 
-/* Returns the digest of a scene. If `all` is true, it includes all that a saved run contains. */
+/* Returns the digest of a scene. If `all` is true, the digest includes all that a saved run
+ * contains. */
 static uint64_t look(const scene *s, bool all)
 {
   baum_i_digest d = {0};
@@ -445,7 +446,8 @@ static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
   make_scene(&s, c->stage);
-  (void)look(&s, !c->works); /* fail_once() does the same; saving makes solvers choose new pivots */
+  /* fail_once() also calls look(). If look() saves the run, solvers choose new pivots. */
+  (void)look(&s, !c->works);
   heap_watch();
   baum_status status = c->make(&s);
   long allocations = heap_stop();
@@ -457,8 +459,8 @@ static long count_allocations(const call *c, uint64_t *seen)
   return allocations;
 }
 
-/* Tells whether a call failed because of memory. If memory for opening a file was missing, the
- * status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
+/* Tells whether a call failed because memory was missing. If the missing memory was for opening a
+ * file, the status is BAUM_ERR_FILE, and the message contains the reason that the system gives. */
 static bool is_for_memory(baum_status status)
 {
   return status == BAUM_ERR_MEMORY ||
@@ -493,7 +495,8 @@ static bool fail_once(const call *c, long n, bool for_good, uint64_t wanted)
 static void fail_some(const call *c)
 {
   uint64_t wanted = 0;
-  /* Libraries keep the memory that they allocate in a first call. */
+  /* Libraries keep the memory that they allocate in their first call. The blocks are therefore
+   * counted only after this call. */
   long allocations = count_allocations(c, &wanted);
   long step = allocations > MOST ? allocations / MOST : 1;
   long before = heap_blocks();

@@ -313,7 +313,7 @@ static void end_scene(scene *s)
 }
 
 /* Tells whether a call has done its work. For calls that read an event, a singular configuration or
- * a warning, BAUM_ERR_ARGUMENT is right, because there is none to read. */
+ * a warning, BAUM_ERR_ARGUMENT is right, because there is nothing to read. */
 static bool is_done(baum_status status, const char *name)
 {
   return status >= BAUM_OK ||

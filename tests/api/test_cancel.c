@@ -199,8 +199,8 @@ static void cancelling_in_the_last_step_does_not_cancel_the_next_call(void **unu
 
 /* ---- sampling ---- */
 
-/* Samples positions and energies. If the sampling is cancelled or out of time, it continues with
- * the remaining samples. */
+/* Samples positions and energies. If a call is cancelled or its time limit passes, the function
+ * makes another call for the remaining samples. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
   const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_ENERGY)};

@@ -263,7 +263,7 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
       {"across", 1.0},
       {"axial", 1e-9},
       {"tilt", 0.3},
-      {"turning", 0.010133}}}, /* sqrt(0.1 9.81e-4 / cos 0.3), rounded */
+      {"turning", 0.010133}}}, /* sqrt(0.1 * 9.81e-4 / cos 0.3), rounded */
     {"rolling_disc",
      "may be off by",
      0.0,
@@ -274,7 +274,8 @@ static void formulas_that_cancel_or_overflow_are_not_given(void **state)
       {"axial", 1e-6},
       {"tilt", 0.3},
       {"turning", 0.32045}}}, /* sqrt(9.81e-2 / cos 0.3), rounded */
-    /* Two terms nearly cancel: 0.3 9.81 arm + (across + inner / 2) 2^2 sin 0.4 is almost 0. */
+    /* Two terms nearly cancel, so that the sum 0.3 * 9.81 arm + (across + inner / 2) 2^2 sin 0.4 is
+     * almost 0. */
     {"gimbals", "may be off by", 1.0, 2, {{"axial", 1e-9}, {"arm", -8.47e-4}}},
     {"differential", "may be off by", 1.0, 1, {{"damping", 1e-9}}},
     {"chaplygin_sleigh", "off by inf", 1e4, 0, {{NULL, 0.0}}},
@@ -309,7 +310,7 @@ static void a_study_takes_a_formula_as_its_solution(void **state)
 
 /* ---- errors ---- */
 
-static void errors_are_differences_by_the_scales(void **state)
+static void errors_are_differences_divided_by_scales(void **state)
 {
   (void)state;
   baum_mechanism *m = build(&CRANK);
@@ -498,7 +499,7 @@ int main(void)
     cmocka_unit_test(a_reference_that_does_not_hold_is_not_given),
     cmocka_unit_test(formulas_that_cancel_or_overflow_are_not_given),
     cmocka_unit_test(a_study_takes_a_formula_as_its_solution),
-    cmocka_unit_test(errors_are_differences_by_the_scales),
+    cmocka_unit_test(errors_are_differences_divided_by_scales),
     cmocka_unit_test(states_of_other_mechanisms_are_not_compared),
     cmocka_unit_test(every_allocation_of_a_mechanism_may_fail),
     cmocka_unit_test(references_and_errors_allocate_nothing),

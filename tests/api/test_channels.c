@@ -156,8 +156,8 @@ static int cheap_channels(const every_element *parts, baum_channel channels[8])
 
 enum { SAMPLES = 12, ROW = EVERY_NQ + EVERY_NV + 2 * EVERY_NC + 12 };
 
-/* Counts the evaluations of a run that samples the channels at 12 times. There is one time in each
- * step, from 0.05 s on. */
+/* Counts the evaluations of a run that samples the channels at 12 times. There is one time
+ * for each step of 0.01 s, from 0.05 s on. */
 static int64_t cost_of(const every_element *parts, const baum_integrator *integrator,
                        const baum_channel *channels, int count)
 {

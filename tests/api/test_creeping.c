@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* If the steps of a run are too short to ever reach the end, the run must stop with a message. If
- * its steps are short but still advance it, the run must continue. */
+ * the steps are short but still advance the run, the run must continue. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -164,7 +164,7 @@ static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *be
   check(baum_mechanism_add_user_constraint(m, &def, NULL));
 }
 
-/* A point that is off the hoop, so that a run has to assemble it. */
+/* The design position of the bead. It is off the hoop, so that a run has to be assembled. */
 static const double DESIGN_Q[2] = {0.48, 0.64};
 
 typedef struct variant {

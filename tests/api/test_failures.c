@@ -170,8 +170,8 @@ static bool reached(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* Tells whether the state is still near the constraint and slow. A run that fails with fixed steps
- * may have left the constraint, or it may be too fast for any step. */
+/* Tells whether the state is still near the constraint and slow. In a run that fails with fixed
+ * steps, the pendulum may have left the constraint, or it may move too fast for any step. */
 static bool is_still_a_pendulum(const baum_simulation *run)
 {
   const double *q = baum_simulation_q(run);

@@ -106,8 +106,8 @@ static bool ends_with(const char *text, const char *end)
   return strlen(text) >= strlen(end) && strcmp(text + strlen(text) - strlen(end), end) == 0;
 }
 
-/* The messages end with the heading of the entry in docs/cookbook/warnings.md, also if the message
- * itself is too long. */
+/* The message of a warning must end with the heading of its entry in docs/cookbook/warnings.md. If
+ * the text before the heading is too long, this text is cut. */
 static void messages_of_warnings_end_with_the_heading_of_their_entry(void **state)
 {
   (void)state;

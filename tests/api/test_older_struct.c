@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* If a program was compiled with an older version, its definitions and options are shorter structs.
- * The fields that they do not have must get their defaults. */
+ * The fields that these structs do not have must get their default values. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -126,8 +126,8 @@ static void a_shorter_definition_has_defaults_where_it_ends(void **state)
 
 /* ---- options ---- */
 
-/* Returns the status of a run with these options. Writes its explanation, or the message if it
- * failed, to `text`. */
+/* Creates a run with these options and returns the status of the creation. Writes to `text` the
+ * explanation of the run, or the message if the creation failed. */
 static baum_status run_with(const baum_mechanism *mechanism, const any_def *def,
                             char text[TEXT_SIZE])
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs check the derivatives of user functions again at their states. In these tests, the functions
- * are right wherever the check at the start evaluates them. */
+/* The library checks the derivatives of user functions at the start of a run, and again at states
+ * that the run reaches. In these tests, the functions are right wherever the check at the start
+ * evaluates them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,8 +20,8 @@
 #include "step_mode.h"
 
 /* A rod of length l = 1 + 0.1 sin t. From the time `late` on, J is multiplied by `jacobian`, and
- * gamma by `gamma`. If `profile` is true, the length instead has a constant acceleration from t = 1
- * on. */
+ * gamma by `gamma`. If `profile` is true, the length is instead constant until t = 1 and has a
+ * constant acceleration afterwards. */
 typedef struct rod {
   double late;
   double jacobian;
@@ -127,7 +128,7 @@ static void a_derivative_that_is_wrong_late_in_the_run_is_a_warning(void **state
   }
 }
 
-/* The state at t = 1, where the second derivative of the length jumps, is the end of a call. */
+/* A call ends at t = 1, where the second derivative of the length jumps. */
 static void a_jump_of_a_second_derivative_is_no_warning(void **state)
 {
   (void)state;

@@ -182,8 +182,8 @@ static void a_file_of_another_owner_keeps_that_owner(void **state)
   end_scene(&s);
 }
 
-/* Files of other programs have the name "X.part", or a name that the library gives to temporary
- * files. */
+/* The folder already contains files of other programs. One of them has the name of the report with
+ * ".part" at its end. The others have names that the library gives to temporary files. */
 static void files_of_others_are_not_touched(void **state)
 {
   (void)state;
@@ -210,7 +210,7 @@ static void files_of_others_are_not_touched(void **state)
   end_scene(&s);
 }
 
-static void a_path_without_a_folder_is_in_the_present_one(void **state)
+static void a_path_without_a_folder_is_in_the_current_folder(void **state)
 {
   (void)state;
   scene s = make_scene();
@@ -297,7 +297,7 @@ int main(void)
     cmocka_unit_test(hard_links_and_symbolic_links_stay_links),
     cmocka_unit_test(a_file_of_another_owner_keeps_that_owner),
     cmocka_unit_test(files_of_others_are_not_touched),
-    cmocka_unit_test(a_path_without_a_folder_is_in_the_present_one),
+    cmocka_unit_test(a_path_without_a_folder_is_in_the_current_folder),
     cmocka_unit_test(a_full_disk_is_reported_and_a_device_is_not_replaced),
     cmocka_unit_test(a_failed_write_leaves_the_older_file_and_no_other),
     cmocka_unit_test(file_and_folder_are_on_the_disk_before_the_call_returns),

@@ -103,7 +103,8 @@ static void times_do_not_drift_however_many_steps(void **state)
   o.step = 0.001;
   o.start_time = 0.1;
   scene s = open_with(&o);
-  assert_true(baum_simulation_step(s.run, 2000) >= BAUM_OK); /* inaccurate, may warn */
+  assert_true(baum_simulation_step(s.run, 2000) >=
+              BAUM_OK); /* the run is inaccurate and may warn */
   assert_true(baum_simulation_time(s.run) == 0.1 + 2000 * 0.001);
   close_scene(&s);
 }
@@ -170,7 +171,7 @@ static void the_present_time_as_target_does_nothing(void **state)
 
 /* Every target time is reached exactly. A run that goes forward and back again ends at its start,
  * except for the error of the method. */
-static void out_and_back_ends_near_the_start(void **state)
+static void a_run_forward_and_back_ends_near_its_start(void **state)
 {
   (void)state;
   for (int k = 0; mode_at(k).integrator; k++) {
@@ -570,7 +571,7 @@ int main(void)
     cmocka_unit_test(a_target_on_the_grid_takes_whole_steps),
     cmocka_unit_test(a_target_off_the_grid_takes_one_short_step_and_begins_a_grid),
     cmocka_unit_test(the_present_time_as_target_does_nothing),
-    cmocka_unit_test(out_and_back_ends_near_the_start),
+    cmocka_unit_test(a_run_forward_and_back_ends_near_its_start),
     cmocka_unit_test(targets_do_not_alter_the_steps_of_a_variable_step_method),
     cmocka_unit_test(max_steps_ends_a_call_and_the_next_goes_on),
     cmocka_unit_test(a_run_can_be_put_back_to_where_it_was),

@@ -486,7 +486,7 @@ static baum_status study_little(const model *m)
 
 /* To save time, only every seventh allocation is tested. Lack of memory must never be reported as a
  * refused entry. */
-static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
+static void a_study_without_memory_fails_and_loses_no_memory(void **state)
 {
   const model *m = *state;
   if (!heap_is_ours()) {
@@ -525,7 +525,7 @@ int main(void)
     cmocka_unit_test(a_setting_that_cannot_be_run_is_an_entry_with_its_reason),
     cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
     cmocka_unit_test(the_quick_grid_has_all_integrators_with_default_settings),
-    cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),
+    cmocka_unit_test(a_study_without_memory_fails_and_loses_no_memory),
   };
   return cmocka_run_group_tests(tests, build, clear);
 }

@@ -151,8 +151,8 @@ static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **sta
   int first = 0;
   baum_study *want = run_to_the_end(&whole, &first);
   int entries = baum_study_entry_count(want);
-  /* The first two kills happen while errors are measured, and the last one while CPU times are
-   * measured. */
+  /* The first two times, the process is killed while errors are measured, and the last time while
+   * CPU times are measured. */
   const int kills[] = {KILLED_AT, entries - 1, entries + 3};
   for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
     run_and_be_killed(&broken, kills[k]);

@@ -127,7 +127,7 @@ static void errors_of(const model *m, const baum_channel *channel, double unit, 
   baum_study_destroy(study);
 }
 
-static void error_may_be_of_channels_by_a_unit(void **state)
+static void the_error_may_be_that_of_channels_divided_by_a_unit(void **state)
 {
   const model *m = *state;
   const baum_channel place = baum_channel_of(BAUM_Q);
@@ -193,7 +193,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(entries_have_their_gains_in_their_names),
     cmocka_unit_test(gains_of_rows_belong_to_the_method),
-    cmocka_unit_test(error_may_be_of_channels_by_a_unit),
+    cmocka_unit_test(the_error_may_be_that_of_channels_divided_by_a_unit),
     cmocka_unit_test(invalid_units_entries_and_costs_are_refused),
   };
   return cmocka_run_group_tests(tests, build, clear);

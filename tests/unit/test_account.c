@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the energy account with motions that are known in closed form. Each of the first tests has
- * only one source of work. The other tests check how the account starts and continues in a run. */
+/* Tests the energy account with motions that are known in closed form. Each test of a class of work
+ * has only one source of work. The last tests check how the account starts and continues in a
+ * run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

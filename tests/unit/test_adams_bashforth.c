@@ -38,8 +38,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrato
 
 /* ---- formulas ---- */
 
-/* A method of order k integrates the force t^p exactly if p < k. So does the Runge-Kutta method
- * that computes its first steps. */
+/* A method of order k integrates the force t^p exactly if p < k. This is also true of the
+ * Runge-Kutta method that computes the first steps of a run. */
 static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
 {
   (void)state;
@@ -119,8 +119,8 @@ static void steps_use_the_coefficients_of_the_stability_analysis(void **state)
   }
 }
 
-/* The first k - 1 steps are Runge-Kutta steps with four evaluations. Each later step needs only
- * one. */
+/* In a method of order k, each of the first k - 1 steps is a Runge-Kutta step with four
+ * evaluations. Each later step needs only one evaluation. */
 static void a_step_costs_one_evaluation_after_the_first_steps(void **state)
 {
   (void)state;

@@ -48,7 +48,7 @@ static void both_eulers_have_the_roots_of_their_polynomials(void **state)
   }
 }
 
-static void explicit_euler_is_stable_in_the_triangle_of_figure_1(void **state)
+static void explicit_euler_is_stable_in_its_triangle(void **state)
 {
   (void)state;
   uint64_t seed = 2;
@@ -325,7 +325,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(both_eulers_have_the_roots_of_their_polynomials),
-    cmocka_unit_test(explicit_euler_is_stable_in_the_triangle_of_figure_1),
+    cmocka_unit_test(explicit_euler_is_stable_in_its_triangle),
     cmocka_unit_test(semi_implicit_euler_is_stable_in_its_own_triangle),
     cmocka_unit_test(edges_of_the_triangles_are_marginal),
     cmocka_unit_test(double_roots_on_the_circle_survive_the_rounding_of_gains),

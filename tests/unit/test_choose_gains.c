@@ -71,9 +71,9 @@ static void auto_uses_the_mean_rate_of_the_pilot_run(void **state)
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
   /* A torque of 0.033 N m accelerates the crank from rest. The rate is max(|v|/L, sqrt(|a|/L)),
-   * where L is the characteristic length. It is 119 1/s at the start, and its mean over the first
-   * 3.75 rad of the exact motion is 336 1/s. The pilot run has five steps, which give this mean to
-   * within 20 %. */
+   * where L is the characteristic length. This rate is 119 1/s at the start, and its mean over the
+   * first 3.75 rad of the exact motion is 336 1/s. The pilot run has five steps, which give this
+   * mean to within 20 %. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
@@ -279,8 +279,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
     assert_true(v[1] == 0.0 && v[2] == 0.0);
     /* In the second step, a = -2 alpha f Phi' - (beta f)^2 Phi. The second term adds the same
-     * velocity as in the first step. The test subtracts this velocity, so that the velocity that
-     * comes from the damping term remains. */
+     * velocity in both steps. The test subtracts this velocity twice, so that only the velocity
+     * that comes from the first term remains. */
     double first[2] = {v[0], v[3]};
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     v = baum_simulation_v(run);

@@ -342,7 +342,8 @@ static void jumps_of_driver_velocities_are_not_counted_as_errors(void **state)
 }
 
 /* A controller sets a force every few steps. After each change, four steps have no estimate. The
- * error is therefore known if a change comes every six steps, but not if it comes every five. */
+ * error is therefore known if a change comes every six steps, but not if one comes every five
+ * steps. */
 static void errors_are_known_if_inputs_change_every_six_steps(void **state)
 {
   (void)state;
@@ -364,7 +365,7 @@ static void errors_are_known_if_inputs_change_every_six_steps(void **state)
       check(baum_simulation_step(run, steps));
     }
     assert_int_equal(isnan(counters_of(run).error_estimate), steps == 5);
-    /* steps before a new start do not count */
+    /* Estimates of steps before a new start do not count. */
     const double q[2] = {0.0, 0.0};
     check(baum_simulation_step(run, 100000));
     check(baum_simulation_set_state(run, 0.0, q, q));

@@ -164,9 +164,9 @@ static double defect_of(solver *s, double t, const double *y, double gamma, cons
 }
 
 /* The largest defects that the tests accept. A wrong or missing term causes a defect of at least
- * 1e-3. If all derivatives are given, correct terms have a median of 4e-12 and a maximum of 4e-8.
- * If the matrix contains differences of user functions, the measured defect reaches 1e-5 near
- * singular configurations. */
+ * 1e-3. If all terms are correct and all derivatives are given, the defects have a median of 4e-12
+ * and a maximum of 4e-8. If the matrix contains differences of user functions, the measured defect
+ * reaches 1e-5 near singular configurations. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 

@@ -45,10 +45,11 @@ typedef struct point {
 
 /* Sets the scales of the columns. With these scales, the results of the tests do not depend on
  * units. Coordinates have their own scales. The scale of a velocity is the scale of its coordinate,
- * divided by one second. The scale of a lambda is E / d. Here E is the largest m scale^2 / s^2 of
- * all coordinates, and d is the norm of the row of J that belongs to the lambda, with columns
- * multiplied by the scales of the coordinates. The scale of a mu is the scale of the lambda of the
- * same row, multiplied by one second. */
+ * divided by one second. The scale of a multiplier lambda is E / d. Here E is the largest value of
+ * m scale^2 / s^2 among all coordinates, where m is the mass of a coordinate and s is one second.
+ * d is the norm of the row of J that belongs to the lambda, with columns multiplied by the scales
+ * of the coordinates. The scale of a multiplier mu of GGL is the scale of the lambda of the same
+ * row, multiplied by one second. */
 static void set_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE supports neither forces that depend on velocities nor variable masses. Its message must
- * name the elements that have them. */
+/* RATTLE supports neither forces that depend on velocities nor variable masses. When it refuses a
+ * mechanism, its message must name the elements that have such forces or masses. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -318,13 +318,13 @@ static void auto_refuses_a_negative_or_infinite_rate(void **state)
   }
 }
 
-/* ---- Near the edge -------------------------------------------------------- */
+/* ---- Near the edge of the stability region --------------------------------- */
 
 static void stable_gains_near_the_edge_cause_a_warning(void **state)
 {
   (void)state;
-  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* the limit is at (2, 4) */
-                                   {EULER, 1e-3, 1.9e-3},      /* the limit of B is 2 alpha h */
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* stable up to alpha h = 2 */
+                                   {EULER, 1e-3, 1.9e-3},      /* stable up to beta^2 h^2 = 2e-3 */
                                    {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
                                    {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
                                    {AB4, 0.298, 0.298 * 0.298}};
@@ -337,7 +337,7 @@ static void stable_gains_near_the_edge_cause_a_warning(void **state)
   }
 }
 
-/* Small gains also damp weakly. Only weak damping near the edge is a reason for a warning. */
+/* Small gains also damp weakly. Weak damping causes a warning only near the edge of the region. */
 static void small_and_usual_gains_cause_no_warning(void **state)
 {
   (void)state;

@@ -325,7 +325,7 @@ static void check_run(step_mode mode)
     v += 2.0 * h * inputs[k];
     t = until[k];
   }
-  /* The first value equals the initial value, so it causes no restart. */
+  /* The first value that is set equals the initial value of the input, so it causes no restart. */
   int64_t changes = step_mode_remembers(mode) ? CHANGES : 0;
   assert_true(counters_of(run).restarts >= changes);
   assert_true(step_mode_is_adams(mode) ||

@@ -439,8 +439,8 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
-/* The driver is set to another velocity, and then to an angle slightly ahead of the crank. A third
- * angle is too far away, and is refused. */
+/* The test sets the driver three times: to another velocity, to an angle slightly ahead of the
+ * crank, and to an angle that is too far from the crank. This last angle must be refused. */
 static void a_driver_can_be_set_in_a_run(void **state)
 {
   (void)state;

@@ -117,15 +117,16 @@ static void outputs_before_the_lock_up_are_computed(void **state)
   for (int k = 0; k < 3; k++) {
     double x[3];
     slider_crank_motion(&data, -times[k], x);
-    /* The last time is 1e-6 rad before the singular configuration, where rounding errors of x are
-     * amplified 1e3 times. */
+    /* At the last of these times, the crank is 1e-6 rad from the singular configuration. There, the
+     * error of x is 1e3 times as large as the rounding error of the crank angle. */
     ASSERT_NEAR(q[k][SLIDER_X], x[0], 0.0, 1e-12);
   }
   close_run(run, mechanism);
 }
 
-/* A flat parallelogram can continue as an antiparallelogram. In this configuration J is singular,
- * and the driver does not determine the motion. The run must therefore stop before it. */
+/* A flat parallelogram can continue as an antiparallelogram. In the flat configuration J is
+ * singular, and the driver does not determine the motion. The run must therefore stop before this
+ * configuration. */
 static void a_run_stops_where_branches_cross(void **state)
 {
   (void)state;
@@ -173,8 +174,8 @@ static void omitted_rows_that_are_violated_stop_the_run(void **state)
   baum_simulation *run = open_run(mechanism);
   ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
               "kinematics: a row of |\"rows\" that was omitted as redundant no longer");
-  /* The run tolerates violations of up to 1e-6. The violation is (t - 0.5)^2, which reaches this
-   * limit after 1e-3 s. */
+  /* The run tolerates violations of up to 1e-6. After 0.5 s the violation is (t - 0.5)^2, which
+   * reaches this limit at 0.501 s. */
   ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
   close_run(run, mechanism);
 }

@@ -281,8 +281,8 @@ static void turn_and_solve(int loops, double start)
 static void a_full_revolution_from_a_degenerate_configuration_is_solved_everywhere(void **state)
 {
   (void)state;
-  /* The start angles are 90 degrees, 45 degrees and 1 rad. At the first two, some entries are zero
-   * or equal except for rounding. */
+  /* The start angles are 90 degrees, 45 degrees and 1 rad. At the first two angles, some entries
+   * of the matrix are zero or equal, except for rounding. */
   const double starts[] = {PI / 2.0, PI / 4.0, 1.0};
   for (int k = 0; k < 3; k++) {
     turn_and_solve(1, starts[k]);
@@ -398,7 +398,7 @@ static void repeated_rows_that_agree_are_solved(void **state)
   (void)state;
   static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
   for (int k = 0; k < 4; k++) {
-    /* The solver tolerates a contradiction if it is less than 1e-8 of the right-hand sides r. */
+    /* The solver tolerates a contradiction if it is less than 1e-8 times the right-hand sides. */
     saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10);
     baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
     assert_int_equal(factor(kkt, &system), BAUM_OK);

@@ -73,10 +73,13 @@ static void numbers_that_are_not_finite_are_found_everywhere(void **state)
   }
 }
 
-/* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0. If
- * v at the end of the step then changes by e, the estimated error dv of the velocities changes by
- * e. The estimated error of the positions is dq + h dv / 2. If dq is given, this sum changes by h e
- * / 2. If dq is computed from the samples, dq changes by -h e / 2, so the sum stays 0. */
+/* If q is a polynomial of degree 4 in t, the estimated errors of positions and velocities are 0.
+ * The test then changes v at the end of the step by e. This changes the estimated error dv of the
+ * velocities from 0 to e. The estimated error of the positions is dq + h dv / 2, where dq is either
+ * given or computed from the samples. If dq = 0 is given, the error of the positions becomes
+ * h e / 2. If dq is computed, dq becomes -h e / 2, so the error of the positions stays 0. The
+ * result of local_error() is the error of the positions plus `period` times the error of the
+ * velocities. */
 static void polynomials_have_no_local_error(void **state)
 {
   (void)state;

@@ -111,8 +111,8 @@ static void outlined_areas_agree_with_counted_areas(void **state)
       double B = most(beta2_h2, count);
       int parts;
       double got = region_area(count, &parts);
-      /* The boundary passes through about 2 / 120 of the cells. The count includes each of these
-       * cells completely or not at all. */
+      /* The boundary passes through about 2 / 120 of the cells of the grid. The count includes each
+       * of these cells completely or not at all. */
       ASSERT_NEAR(got, counted_area(m, radii[r], A, B), 0.0, 0.01 * A * B);
       assert_true((count > 0) == (parts > 0));
     }

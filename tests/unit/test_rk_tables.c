@@ -5,7 +5,9 @@
  *
  *   sum_i b_i phi_i(t) = 1 / gamma(t),
  *   phi_i(t) = product over the branches t' of the root of sum_j a_ij phi_j(t'),
- *   gamma(t) = |t| times the product of gamma(t') over these branches.
+ *   gamma(t) = |t| times the product of gamma(t') over these branches,
+ *
+ * where |t| is the number of nodes of t.
  *
  * An interpolant b(x) has the order p if these trees satisfy sum_i b_i(x) phi_i(t) = x^|t| /
  * gamma(t). The weights of an error estimate are differences of the weights of two methods.

@@ -88,9 +88,9 @@ static void find_smooth(test_point *p, int joints, uint64_t *seed)
   assert_true(smooth);
 }
 
-/* Tells whether the first force is smooth near this point. A force with axes is not smooth near two
- * relative orientations. In one of them, the angle of a torsion spring is undefined. In the other,
- * the rotation vector of a bushing jumps. */
+/* Tells whether the first force is smooth near the state p. A force with axes is not smooth near
+ * two relative orientations of its bodies. In one of them, the angle of a torsion spring is
+ * undefined. In the other one, the rotation vector of a bushing jumps. */
 static bool is_force_smooth(const test_point *p)
 {
   const baum_i_force *force = p->mechanism->force_count > 0 ? p->mechanism->forces[0] : NULL;

@@ -104,9 +104,9 @@ static void derivatives_agree_with_differences(void **state)
 
 /* ---- the curve ---- */
 
-/* The natural spline through three points has a closed form. If d_i are the slopes of the chords
- * over the intervals h_i, its second derivative at the middle point is M = 3 (d_1 - d_0) / (h_0 +
- * h_1). */
+/* The natural spline through three points has a closed form. The second derivative of this spline
+ * at the middle point is 3 (d_1 - d_0) / (h_0 + h_1), where h_i are the lengths of the intervals
+ * and d_i are the slopes of the chords over these intervals. */
 static void a_natural_spline_through_three_points_has_its_closed_form(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the control of the step size: its formulas, evaluated by hand, its bounds, and the steps
- * that it chooses for a known error. */
+/* Tests the control of the step size. The tests compare its formulas with values that were computed
+ * by hand, and check its bounds and the steps that it chooses for a known error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
