@@ -162,7 +162,8 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* The rounding errors of M, J and g are amplified by the condition number at 0.2 rad. */
+    /* The rounding errors of M, J and g are amplified by the condition number. It is largest when a
+     * crank is only 0.2 rad from the flat configuration. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);

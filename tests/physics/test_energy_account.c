@@ -3,7 +3,7 @@
  * difference is called the residual. With variable steps, the residual must be below 100 rtol. With
  * fixed steps, it must have the order of the method. The test covers all mechanisms of
  * account_scenes.h with every formulation. The residual is read at 8 times, and the largest value
- * counts. It is divided by the largest energy or work. */
+ * counts. This value is divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -52,7 +52,7 @@ static int for_each_method(const manifold_scene *scene, try_fn *try, const void 
   return tried;
 }
 
-/* Returns options with h = 1e-3 s or rtol = 1e-7. */
+/* Returns options with the fixed step h = 1e-3 s, or with variable steps and rtol = 1e-7. */
 static baum_simulation_options options_of(const method *with)
 {
   baum_simulation_options options = step_mode_options(with->mode, 1e-3, 1e-7);

@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 12 /* largest nq, nv and nc */ };
+enum { MANIFOLD_SIZE = 24 /* largest nq, nv and nc */, MANIFOLD_SCENES = 12 };
 
 typedef struct manifold_scene {
   const char *name;

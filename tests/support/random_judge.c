@@ -150,7 +150,7 @@ static void compare_mobility(scene *s, const baum_mobility *mobility)
   }
   free(skipped);
   bool clear = fmin(rows[0].kept, rows[1].kept) >= CLEAR && !mobility->near_singular;
-  if (!clear || mobility->conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
+  if (!clear || mobility->conflicting_rows > 0) { /* drivers may prescribe unreachable values */
     return;
   }
   int want[2] = {s->nv - rows[0].rank, s->nv - rows[1].rank};

@@ -20,10 +20,10 @@ typedef enum slender_verdict {
 } slender_verdict;
 
 /* The largest permitted error. Errors in an island are relative to the largest acceleration in this
- * island. There is one exception: if the angular acceleration of a slender rod about its axis is
- * larger than that, the error of this angular acceleration is relative to its own size.
- * Accelerations of origins are divided by the length of the island. A thousand times the effect of
- * rounding is added to this limit. */
+ * island, without the angular accelerations of slender rods about their axes. If one of these
+ * angular accelerations is larger, its error is relative to its own size. Accelerations of origins
+ * are divided by the length of the island. A thousand times the effect of rounding is added to this
+ * limit. */
 static const double SLENDER_ERROR = 1e-9;
 
 /* Mechanisms are counted in classes, by the smallest ratio of the axial to the transverse moment of

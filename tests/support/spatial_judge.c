@@ -243,7 +243,7 @@ static void compare_mobility(scene *s)
   assert_int_equal(baum_mechanism_mobility(s->random->mechanism, &mobility, sizeof mobility),
                    BAUM_OK);
   bool clear = fmin(want->rows.kept, want->position_rows.kept) >= CLEAR && !mobility.near_singular;
-  if (!clear || mobility.conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
+  if (!clear || mobility.conflicting_rows > 0) { /* drivers may prescribe unreachable values */
     return;
   }
   s->tally->mobilities++;
