@@ -14,7 +14,8 @@
 static const double PI = 3.14159265358979324;
 
 /* The limit for ordinary configurations. It is about ten times the error that remains after
- * refinement. The remaining error is rounding, amplified by condition numbers of a few hundred. */
+ * iterative refinement of the solution. The remaining error is rounding, amplified by condition
+ * numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would

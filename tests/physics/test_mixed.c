@@ -100,8 +100,8 @@ static void add_slide(baum_mechanism *m, bool spatial, baum_body_id b, const dou
   check(baum_mechanism_add_spatial_prismatic(m, &def, NULL));
 }
 
-/* Adds a bob with its centre below, behind and beside the point. If `rigid` is true, it is welded
- * to the body; otherwise it hangs on a spherical joint. */
+/* Adds a bob whose centre is below, behind and beside the point `at`. If `rigid` is true, it is
+ * welded to the body; otherwise it hangs on a spherical joint. */
 static void add_bob(assembly *s, baum_body_id on, const double at[2], bool rigid)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();

@@ -18,8 +18,8 @@
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
 
-/* When rtol decreases by a factor of 10, the error must fall by at least this factor, in the
- * geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
+/* When rtol decreases by a factor of 10, the error must fall by at least the factor LEAST_FALL, in
+ * the geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
  * 10. */
 static const double LEAST_FALL = 7.0;
 /* The corresponding factor for BDF. At order p, the error is proportional to rtol^(p / (p + 1)). It

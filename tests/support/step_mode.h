@@ -41,7 +41,8 @@ static inline bool step_mode_is_adams(step_mode mode)
 }
 
 /* Tells whether the method uses data of earlier steps. Such a method restarts if the motion has a
- * jump. This applies to variable steps, multistep methods and the generalized-alpha method. */
+ * jump. These are all methods with variable steps, the multistep methods, and the generalized-alpha
+ * method. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
