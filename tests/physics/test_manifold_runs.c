@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c). Every integrator
  * of this build is used with all formulations that it offers. The results are compared with those
- * of a twin, which is the same mechanism made of the library's planar bodies. A mechanism without a
- * twin is compared with its known motion about a fixed point. */
+ * of a twin, which is the same mechanism with angles as coordinates. A mechanism without a twin is
+ * compared with a reference solution. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -98,7 +98,8 @@ static void add_edge(random_spatial *r, int a, int b)
 
 /* ---- bodies and loops ---- */
 
-/* Adds a joint between two bodies with orientations. Its kind is not one of the basic kinds. */
+/* Adds a screw, a constant-velocity joint or a rolling disc between two bodies with
+ * orientations. */
 static void add_pair(random_spatial *r, int a, int b)
 {
   int kind = chance_below(&r->chance, 4);

@@ -77,8 +77,8 @@ static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *
     return RANDOM_CONFLICT;
   }
   double error = error_of(s, rows);
-  /* The library and the oracle may omit different rows. Their results then differ by the conflict
-   * of these rows. */
+  /* The library and the oracle may omit different rows. Their results may then differ by the
+   * conflict of these rows divided by the smallest singular value of the independent rows. */
   double choice = dependent ? rows->conflict / rows->kept : 0.0;
   if (!(error <= RANDOM_ERROR + choice)) {
     return RANDOM_WRONG;

@@ -2,8 +2,9 @@
 /* Random mechanisms of slender rods. Their accelerations are compared with a solution of the same
  * equations in quadruple precision. A mechanism consists of up to three islands whose masses,
  * lengths and accelerations differ by large factors. Joints lie on the axes of the rods or near
- * them, and half of the rods have full inertia tensors. The ratio of the axial moment of inertia to
- * the transverse one is 0, or between 1e-12 and 1e-3. */
+ * them, and half of the rods have full inertia tensors. Three quarters of the rods are slender: the
+ * ratio of their axial moment of inertia to the transverse one is 0, or between 1e-12 and 1e-3. The
+ * ratio of all other rods is between 0.5 and 1. */
 #ifndef BAUM_TEST_SLENDER_RODS_H
 #define BAUM_TEST_SLENDER_RODS_H
 
