@@ -295,7 +295,7 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
 
 /* While the rod is perpendicular to the slot, the slot holds the bob only through the light rod.
  * Pivots then become as small as the ratio of the masses, although J keeps its rank. The run must
- * not treat this configuration as singular and step over it. */
+ * not treat this configuration as singular, and it must not step over it. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;
