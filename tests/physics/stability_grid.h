@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares baum_stability_at() with runs of mechanisms. In such a run, all rows of the mechanism
  * are violated at the start. A pair of gains (alpha, beta) is considered stable if the largest
- * violation in the last quarter of the run is smaller than in the first quarter. For every
- * fixed-step integrator, pairs on a grid are tested. The grid covers the part of the plane of
- * (alpha h, beta^2 h^2) that contains the predicted region. Each mechanism has a separate test
- * program, so that they can run in parallel. Include after cmocka.h.
+ * violation in the last quarter of the run is smaller than the largest violation in the first
+ * quarter. For every fixed-step integrator, pairs on a grid are tested. The grid covers the part of
+ * the plane of (alpha h, beta^2 h^2) that contains the predicted stable region. Each mechanism has
+ * a separate test program, so that the programs can run in parallel. Include after cmocka.h.
  *
  * The step is chosen as follows. The motion itself causes a steady violation of (alpha h / (beta^2
- * h^2)) h^2 |gamma|. It must be far below the initial violation, which is 1e-6 of the
- * characteristic length. The step is 1e-5 / omega, where omega is the rate of the motion at the
- * start. The steady violation is then 1e-10 of the characteristic length. In the corner of the grid
- * where alpha h is largest and beta^2 h^2 is smallest, it is about 20 times as large. For methods
- * of higher order it is smaller.
+ * h^2)) h^2 |gamma|, where gamma is the right side of J a = gamma. This steady violation must be
+ * far below the initial violation, which is 1e-6 of the characteristic length. The step is 1e-5 /
+ * omega, where omega is the rate of the motion at the start. The steady violation is then 1e-10 of
+ * the characteristic length. In the corner of the grid where alpha h is largest and beta^2 h^2 is
+ * smallest, the steady violation is about 20 times as large. For methods of higher order it is
+ * smaller.
  */
 #ifndef BAUM_TEST_STABILITY_GRID_H
 #define BAUM_TEST_STABILITY_GRID_H
@@ -33,14 +34,15 @@ static const double GROWN = 1e3;
  * one-step method has two modes, which change by the factors z1 and z2 in a step. If Phi' = 0 at
  * the start, a mode initially has the fraction (1 - z1) / (z2 - z1) of the violation. In these
  * tests that fraction is at least 1/100, so a run in which a mode grows never counts as decayed. A
- * multistep method has further modes, which may be smaller. A run with such a method therefore
- * never ends early as decayed. */
+ * multistep method has further modes, whose initial fractions may be smaller. A run with such a
+ * method therefore never ends early as decayed. */
 static const double DECAYED = 1e-3;
 
 /* Size of the grid divided by the size of the predicted stable region. */
 static const double BEYOND = 1.1;
 
-/* Returns a step of 1e-5 / omega. At the start, omega is 3.1, 2 or 150 rad/s. */
+/* Returns a step of 1e-5 / omega. At the start, omega is 3.1 rad/s for the pendulum, 2 rad/s for
+ * the four-bar, and 150 rad/s for the slider-cranks. */
 static inline double step_of(physics_mechanism which)
 {
   return which == PENDULUM ? 1e-5 / 3.1 : which == FOUR_BAR ? 1e-5 / 2.0 : 1e-5 / 150.0;
@@ -159,8 +161,8 @@ static inline double beta2_at(const window *w, double j)
   return fmax(0.0, w->beta2_h2 * j / CELLS);
 }
 
-/* Tells whether a point of the grid is next to the predicted boundary. The prediction is then
- * different at a neighbouring grid point, or already at a distance of 1e-9 cells. In the first case
+/* Tells whether a point of the grid is next to the predicted boundary. This is so if the prediction
+ * is different at a neighbouring grid point, or at a distance of only 1e-9 cells. In the first case
  * the boundary passes through the cell, and in the second case through the point itself. */
 static inline bool at_boundary(const window *w, int i, int j)
 {
@@ -226,8 +228,8 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   model_destroy(&m);
   assert_int_equal(t.differ_elsewhere, 0);
   assert_true(t.agree >= 97 * CELLS * CELLS / 100);
-  /* If the whole grid were inside or outside of the region, prediction and observation would agree
-   * without any significance. */
+  /* If the whole grid were inside or outside of the region, the agreement of prediction and
+   * observation would prove nothing. */
   assert_true(t.stable > CELLS * CELLS / 10 && t.stable < CELLS * CELLS * 9 / 10);
 }
 

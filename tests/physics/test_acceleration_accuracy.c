@@ -14,7 +14,8 @@
 static const double PI = 3.14159265358979324;
 
 /* The limit for ordinary configurations. It is about ten times the error that remains after
- * refinement. The remaining error is rounding, amplified by condition numbers of a few hundred. */
+ * iterative refinement of the solution. The remaining error is rounding, amplified by condition
+ * numbers of a few hundred. */
 static const double ORDINARY = 1e-12;
 /* At a distance d [rad] from a singular configuration, the error of lambda is the error of J a
  * divided by d^2. If refinement used residuals in double precision, an error of 1e-16 / d^2 would
@@ -162,7 +163,8 @@ static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
   double want = -((N + 1) / 2.0 + N) / ((N + 1) / 3.0 + N) * 9.81 * cos(p.q[2]);
   assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
   for (int k = 0; k <= N; k++) {
-    /* The rounding errors of M, J and g are amplified by the condition number at 0.2 rad. */
+    /* The rounding errors of M, J and g are amplified by the condition number. It is largest when a
+     * crank is only 0.2 rad from the flat configuration. */
     assert_true(fabs(p.want_a[6 * k + 2] - want) <= 1e-12 * fabs(want));
   }
   unpose(&p);

@@ -42,7 +42,7 @@ static baum_simulation_options reference_options(double step)
   return options;
 }
 
-/* Returns options with h = 1e-3 s or rtol = 1e-7. */
+/* Returns options with the fixed step h = 1e-3 s, or with variable steps and rtol = 1e-7. */
 static baum_simulation_options method_options(step_mode mode, baum_formulation formulation)
 {
   baum_simulation_options options = step_mode_options(mode, 1e-3, 1e-7);
@@ -99,9 +99,9 @@ typedef struct method {
 
 /* Returns the limit of the error, of the violation and of the relative change of energy. The limits
  * are listed by the order of the method, and the first one is for variable steps. Each limit is at
- * least three times the largest measured value. For order 1, this value is 3e-2, after 500 steps of
- * a double pendulum. It falls by a factor of about 200 from each order to the next, until it
- * reaches the error of the reference. */
+ * least three times the largest measured value. For order 1, the largest measured value is 3e-2,
+ * after 500 steps of a double pendulum. This value falls by a factor of about 200 from each order
+ * to the next, until it reaches the error of the reference. */
 static double allowed(const method *with)
 {
   static const double by_order[] = {5e-5, 1.5e-1, 4e-4, 3e-6, 3e-8, 3e-10, 3e-11, 3e-11, 3e-11};

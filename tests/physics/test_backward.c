@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs the free and the driven slider-crank forward and then backward in time. The runs use
  * stabilization, or IDA at higher index. Violations must not grow in either direction. After the
- * backward run, the error at the start must be comparable with the error at the far end. */
+ * backward run, the error at the start must be comparable with the error at the far end, which is
+ * the end of the forward run. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -154,8 +154,9 @@ static void the_work_over_breaks_equals_the_energy(void **state)
     assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
     double rate = exact(2.0).rate;
-    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
-     * angular velocity times up to 6 rad/s. */
+    /* The error of the work is the error of the angle times a torque of at most 50 N m. The error
+     * of the energy is the error of the angular velocity times an angular momentum of at most 6 N m
+     * s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests a mechanism in which the choice of omitted rows changes during the motion. Two pins join
- * two bars rigidly. The bars make several revolutions with every integrator, formulation and
- * solver, and they must move as if they were welded. */
+/* Tests a mechanism with redundant rows. The solver omits some rows, and changes during the motion
+ * which rows it omits. Two pins join two bars rigidly. The bars make several revolutions with every
+ * integrator, formulation and solver, and they must move as if they were welded. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -128,8 +128,8 @@ static void index_3_methods_make_several_revolutions(void **state)
 
 /* ---- save and restore ---- */
 
-/* A buffer is restored in another run, which has chosen at its start which rows to omit. This run
- * must replace its choice by that of the saved run. */
+/* One run is saved, and the buffer is restored in another run. At its start, the other run has
+ * chosen which rows to omit. It must replace this choice by the choice of the saved run. */
 static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
 {
   (void)state;

@@ -3,7 +3,7 @@
  * difference is called the residual. With variable steps, the residual must be below 100 rtol. With
  * fixed steps, it must have the order of the method. The test covers all mechanisms of
  * account_scenes.h with every formulation. The residual is read at 8 times, and the largest value
- * counts. It is divided by the largest energy or work. */
+ * counts. This value is divided by the largest energy or work. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -99,7 +99,7 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
 
 /* Tells whether the order of a method can be observed in a scene. At index 3 it cannot be observed
  * if the start violates the constraints, because the first step then moves the state onto the
- * constraints. RATTLE supports neither dampers nor M(q). */
+ * constraints. RATTLE supports neither dampers nor mass matrices that depend on q. */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;

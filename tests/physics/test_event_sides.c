@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests on which side of zero events begin: after bounces off a stop, after starts at zero, where a
+/* A run stores for each event whether its value is above or below zero, which is called the side of
+ * the event. These tests check the side after bounces off a stop, after starts at zero, where a
  * function stays zero, after calls that fail, and at breaks. The motions are those of one particle,
  * whose events are known exactly. */
 #include <math.h>
@@ -79,7 +80,7 @@ static void add_function_event(const flight *f, baum_force_fn *function, int dir
 
 /* ---- bounces ---- */
 
-/* The height above the floor *user. */
+/* The height above the floor, which is at y = *user. */
 static int above(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -105,7 +106,8 @@ static void disturb(const flight *f, action what, int count)
 }
 
 /* Lets the particle fall 1 m onto a floor. Each impact leaves the fraction `rest` of its velocity.
- * Returns the number of impacts before the run fails. It must not fall through the floor. */
+ * Returns the number of impacts before the run fails or reaches 4 s. The particle must not fall
+ * through the floor. */
 static int bounce(step_mode mode, double step, double floor, double rest, double tolerance,
                   action what)
 {
@@ -129,7 +131,7 @@ static int bounce(step_mode mode, double step, double floor, double rest, double
   return count;
 }
 
-/* The velocity at the last impact of which the run takes notice. */
+/* The velocity after the last impact that the run finds. */
 static double slowest(int impacts, double rest)
 {
   return sqrt(2.0 * GRAVITY) * pow(rest, impacts);
@@ -140,8 +142,9 @@ static step_mode accurate(void)
   return (step_mode){baum_rk8(), false};
 }
 
-/* Calls between the impact and the next flight do not change the side, and the rounding of q far
- * from the origin does not matter before the flights themselves are as short. */
+/* Calls between the impact and the next flight must not change the side. If the floor is far from
+ * the origin, the rounding errors of q are larger. They may matter only when the flights are hardly
+ * higher than these errors. */
 static void slow_bounces_are_found_on_every_floor(void **state)
 {
   (void)state;
@@ -149,7 +152,8 @@ static void slow_bounces_are_found_on_every_floor(void **state)
   for (int what = 0; what < ACTIONS; what++) {
     for (int i = 0; i < 4; i++) {
       int count = bounce(accurate(), STEP, floors[i], 0.7, (double)NAN, (action)what);
-      /* the flight reaches speed^2 / (2 g), which must be above some rounding errors of q */
+      /* A flight reaches the height speed^2 / (2 g). All flights that are higher than 16 rounding
+       * errors of q must be found. */
       double rounding = 2.3e-16 * fmax(fabs(floors[i]), 1.0);
       assert_true(slowest(count, 0.7) < sqrt(2.0 * GRAVITY * 16.0 * rounding));
     }
@@ -163,7 +167,7 @@ static void a_bounce_may_begin_below_the_floor_by_its_tolerance(void **state)
     step_mode mode = {k == 0 ? baum_rk8() : baum_rk4(), k > 0};
     double tolerance = 1e-4;
     int count = bounce(mode, k == 1 ? 1e-4 : 1e-2, 0.0, 0.5, tolerance, NOTHING);
-    /* flights that last longer than 20 tolerances are found */
+    /* All flights that last longer than 20 tolerances must be found. */
     assert_true(2.0 * slowest(count, 0.5) / GRAVITY < 20.0 * tolerance);
   }
 }
@@ -199,7 +203,7 @@ static void motion_backward_from_a_start_at_zero_is_no_event(void **state)
   }
 }
 
-/* The slope of the path plus 1. It is not a number if the particle is at rest. */
+/* The slope of the path plus 1. The result is not a number if the particle is at rest. */
 static int slope(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
@@ -221,7 +225,8 @@ static void an_event_function_may_divide_by_a_velocity(void **state)
   flight_end(f);
 }
 
-/* The square root of the distance from the height 0.1 nm, minus 1. It is not a number above it. */
+/* The square root of the distance from the height 0.1 nm, minus 1. The result is not a number above
+ * this height. */
 static int root(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -233,7 +238,8 @@ static int root(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-/* The particle rises by 0.05 nm. The velocity at the start leads higher. */
+/* The particle rises by only 0.05 nm. A straight motion with the initial velocity, however, would
+ * lead to heights at which root() is not a number. */
 static void an_event_function_may_be_undefined_near_the_start(void **state)
 {
   (void)state;
@@ -277,7 +283,7 @@ static void a_function_that_stays_zero_is_reported_once_at_its_first_zero(void *
 
 /* ---- several events ---- */
 
-/* The displacement to the right of *user. */
+/* The displacement from x = *user to the right. */
 static int beyond(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user)
 {
@@ -314,7 +320,7 @@ static void an_unwanted_zero_before_a_stop_hides_no_later_event(void **state)
   flight_end(f);
 }
 
-/* A tolerant event passes zero just before or after an exact one. */
+/* An event with a large tolerance passes zero just before or after an event without one. */
 static void the_tolerance_of_one_event_does_not_delay_another(void **state)
 {
   (void)state;
@@ -327,7 +333,7 @@ static void the_tolerance_of_one_event_does_not_delay_another(void **state)
     add_function_event(&f, beyond, 0, false, 1e-2, &other);
     assert_int_equal(baum_simulation_advance_to(f.run, 1.0), BAUM_STOP_EVENT);
     ASSERT_NEAR(baum_simulation_time(f.run), at, 0.0, 1e-12);
-    if (other <= at) { /* it has been recorded at the stop */
+    if (other <= at) { /* the other event has been recorded at the stop */
       assert_int_equal(baum_simulation_event_count(f.run), 2);
       check(baum_simulation_set_state(f.run, baum_simulation_time(f.run), baum_simulation_q(f.run),
                                       baum_simulation_v(f.run)));
@@ -342,7 +348,8 @@ static void the_tolerance_of_one_event_does_not_delay_another(void **state)
   }
 }
 
-/* The displacement to the right of 0.35 m. The function fails near this place if *user is true. */
+/* The displacement from x = 0.35 m to the right. If *user is true, the function fails near this
+ * place. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
@@ -353,7 +360,8 @@ static int failing(double t, const double *q, const double *v, const double *inp
   return *(const bool *)user && fabs(out[0]) < 0.005 ? -1 : 0;
 }
 
-/* The search fails after it has located the first of two events. The run then starts elsewhere. */
+/* The search fails after it has located the first of two events. The run is then set to another
+ * state. */
 static void events_of_a_failed_search_are_forgotten(void **state)
 {
   (void)state;
@@ -387,7 +395,7 @@ static int pushed(double t, const double *q, const double *v, const double *inpu
   return 0;
 }
 
-/* The input passes 0.5 at two scheduled times. The last of them is the end of a call. */
+/* The input passes 0.5 at two scheduled times. Forward in time, a call ends at each of them. */
 static void a_scheduled_input_that_jumps_through_zero_is_an_event(void **state)
 {
   (void)state;
@@ -461,8 +469,9 @@ static int before(double t, const double *q, const double *v, const double *inpu
   return 0;
 }
 
-/* Also watches a position that the particle passes shortly after the break, within the tolerance of
- * this event. The event at the break must not hide it. */
+/* The value of one event jumps at the break. The particle reaches the position of a second event
+ * shortly after the break, within the tolerance of the second event. The first event must not hide
+ * the second one. */
 static void a_function_may_jump_through_zero_at_a_declared_break(void **state)
 {
   (void)state;

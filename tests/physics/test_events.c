@@ -75,7 +75,7 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
   return record;
 }
 
-/* Returns the largest allowed error of an event at about the time t. Events are located on the
+/* Returns the largest allowed error of the time of an event near t. Events are located on the
  * computed motion. The error of their times therefore comes from the error of this motion. */
 static double motion_error(step_mode mode, double t)
 {
@@ -380,7 +380,8 @@ static void reversing_at_an_event_does_not_report_it_again(void **state)
 /* ---- dips ---- */
 
 /* Two events watch the angle. Where the pendulum reverses, the angle is `depth` below the value of
- * the first event and `depth` above the value of the second. So it passes only the first value. */
+ * the first event and `depth` above the value of the second. The angle therefore passes only the
+ * first value. */
 static void check_dips(step_mode mode, double step, double depth)
 {
   static const int directions[] = {-1, 1, -1, 1};
@@ -392,7 +393,7 @@ static void check_dips(step_mode mode, double step, double depth)
   (void)add_angle(run, &s, -depth - angle, 0, false);
   assert_int_equal(baum_simulation_advance_to(run, 7.0 * s.quarter), BAUM_OK);
   assert_int_equal(baum_simulation_event_count(run), 4);
-  /* depth = rate^2 / 2 (t - turn)^2 */
+  /* depth = alpha / 2 (t - turn)^2, where alpha is the angular acceleration at the time `turn` */
   double half = sqrt(2.0 * depth / (9.81 / 1.25 * sin(angle)));
   for (int k = 0; k < 4; k++) {
     baum_event_record r = record_of(run, k);
@@ -405,7 +406,7 @@ static void check_dips(step_mode mode, double step, double depth)
 }
 
 /* Methods of order 3 and lower, and Adams-Bashforth methods, do not keep the amplitude of the swing
- * this accurately. The dips last much less than a quarter of a step. */
+ * accurately enough, and are not tested. The dips last much less than a quarter of a step. */
 static void an_angle_that_passes_a_value_and_returns_within_a_step_is_found(void **state)
 {
   (void)state;

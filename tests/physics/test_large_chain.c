@@ -139,9 +139,9 @@ static void degrees_of_freedom_are_counted(void **state)
 
 /* Each link must satisfy Newton's and Euler's equations. The pin at the start of link k carries
  * this link and all links after it. A link has the mass m and the moment of inertia J. The force of
- * this pin is F_k, the sum of m (a_j - g) over j >= k. Euler's equation is J alpha_k = -p x F_k - p
- * x F_(k+1), where p is the vector from the centre of the link to its end. The ends of adjacent
- * links must have the same acceleration. */
+ * the pin at the start of link k is F_k, the sum of m (a_j - g) over j >= k. Euler's equation is J
+ * alpha_k = -p x F_k - p x F_(k+1), where p is the vector from the centre of the link to its end.
+ * The ends of adjacent links must have the same acceleration. */
 typedef struct worst {
   double force;
   double moment; /* [N m] largest residual */

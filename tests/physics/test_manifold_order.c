@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests the order of every fixed-step integrator for mechanisms whose positions are on a manifold.
- * They are three tops, and a slider-crank whose bodies represent their angle by (cos, sin). The
- * step is halved repeatedly, and the errors are compared. The rule `auto` chooses the gains, which
- * are the same for all these steps. */
+ * The mechanisms are three tops, and a slider-crank whose bodies represent their angle by (cos,
+ * sin). The step is halved repeatedly, and the errors are compared. The rule `auto` chooses the
+ * gains, which are the same for all these steps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs mechanisms whose positions are on a manifold (support/manifold_scenes.c). Every integrator
  * of this build is used with all formulations that it offers. The results are compared with those
- * of a twin, which is the same mechanism made of the library's planar bodies. A mechanism without a
- * twin is compared with its known motion about a fixed point. */
+ * of a twin, which is the same mechanism with angles as coordinates. A mechanism without a twin is
+ * compared with a reference solution. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -52,7 +52,7 @@ static int for_each_method(const manifold_scene *scene, try_fn *try, const void 
   return tried;
 }
 
-/* Returns options with h = 1e-3 s or rtol = 1e-7. */
+/* Returns options with the fixed step h = 1e-3 s, or with variable steps and rtol = 1e-7. */
 static baum_simulation_options options_of(const method *with)
 {
   baum_simulation_options options = step_mode_options(with->mode, 1e-3, 1e-7);

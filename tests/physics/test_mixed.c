@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tests mechanisms of planar and spatial bodies. A planar slider-crank carries a spatial pendulum
- * on its rod. It is compared with the same mechanism of spatial bodies, with every integrator of
- * this build and all its formulations. Furthermore, accelerations and multipliers must satisfy the
- * equations of motion for every kind of spatial joint on a planar body or particle. */
+ * on its rod. This mechanism is compared with the same mechanism made only of spatial bodies, with
+ * every integrator of this build and all its formulations. Furthermore, accelerations and
+ * multipliers must satisfy the equations of motion for every kind of spatial joint on a planar body
+ * or particle. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -99,8 +100,8 @@ static void add_slide(baum_mechanism *m, bool spatial, baum_body_id b, const dou
   check(baum_mechanism_add_spatial_prismatic(m, &def, NULL));
 }
 
-/* Adds a bob with its centre below, behind and beside the point. If `rigid` is true, it is welded
- * to the body; otherwise it hangs on a spherical joint. */
+/* Adds a bob whose centre is below, behind and beside the point `at`. If `rigid` is true, it is
+ * welded to the body; otherwise it hangs on a spherical joint. */
 static void add_bob(assembly *s, baum_body_id on, const double at[2], bool rigid)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();
@@ -201,7 +202,7 @@ static double apart(int n, const double *x, const double *y)
 }
 
 /* Runs the mixed and the spatial model by the same method. Returns the difference of their
- * positions. The mixed model may not be much less accurate than the spatial one. */
+ * positions. The mixed model must not be much less accurate than the spatial one. */
 static double compare(const baum_simulation_options *options, const outcome *exact)
 {
   const outcome mixed = run_to(false, false, END, options);
@@ -211,7 +212,7 @@ static double compare(const baum_simulation_options *options, const outcome *exa
   return apart(NUMBERS, mixed.places, spatial.places);
 }
 
-/* With projection and with implicit methods, both models stay on the same constraints. Their
+/* With projection and with implicit methods, both models satisfy the same constraints. Their
  * results therefore differ only because the formulas for rotations differ. With other formulations,
  * each model drifts off the constraints in a different way. */
 static void planar_links_move_like_spatial_links(void **state)

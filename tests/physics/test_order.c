@@ -41,10 +41,11 @@ static const reference REFERENCES[] = {
     {.samples = 5, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
-/* Number of steps of the coarsest run, for each order. At order 4 with gains, fewer than 128 steps
- * would let the error term of order 5 dominate. The errors of the finest run are between 1e-12 and
- * 1e-3; the largest are those of order 1. Rounding errors are below 1e-13. Adams methods have
- * larger error terms of the next order, so their coarsest run has 4 times as many steps. */
+/* Number of steps of the coarsest run, for each order. At order 4 with gains, the error term of
+ * order 5 would dominate if there were fewer than 128 steps. The errors of the finest run are
+ * between 1e-12 and 1e-3; the largest are those of order 1. Rounding errors are below 1e-13. Adams
+ * methods have larger error terms of the next order, so their coarsest run has 4 times as many
+ * steps. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
 /* Series of runs for orders 5 and 8. Their errors reach rounding before error terms of the next

@@ -81,10 +81,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
 }
 
 /* Returns the largest allowed error. Methods of order 1 are too inaccurate at this step to be
- * judged. The errors of other fixed-step methods are the sum of (omega h)^p, which grows with the
- * number of revolutions, and rounding errors. With variable steps the limit is 1e5 rtol. BDF and
- * IDA restart whenever the omitted rows change, and have errors of about 1e4 rtol. The errors of
- * other methods are about 10 rtol. */
+ * judged. The errors of other fixed-step methods are the sum of two parts: a multiple of (omega
+ * h)^p, where p is the order, and rounding errors. The first part grows with the number of
+ * revolutions. With variable steps the limit is 1e5 rtol. BDF and IDA restart whenever the omitted
+ * rows change, and have errors of about 1e4 rtol. The errors of other methods are about 10 rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -111,9 +111,9 @@ static void go_round(step_mode mode, baum_formulation formulation, double want)
   model_destroy(&m);
 }
 
-/* The formulation UNSTABILIZED is tested as well. Its violation grows whenever the omitted rows
- * change (docs/limits.md). */
-static void every_stabilized_method_makes_full_revolutions(void **state)
+/* With the formulation UNSTABILIZED, the violation grows whenever the omitted rows change
+ * (docs/limits.md). */
+static void every_method_makes_full_revolutions(void **state)
 {
   (void)state;
   double want = swing(END);
@@ -219,8 +219,8 @@ static baum_simulation *start_with_account(const model *m, const baum_integrator
   return create_run(m->mechanism, &options);
 }
 
-/* A buffer is restored in a run that omits other rows than the saved run. This run must then omit
- * the same rows as the saved run. */
+/* One run is saved, and the buffer is restored in another run, which may omit other rows. After
+ * that, the other run must omit the same rows as the saved run. */
 static void a_restored_run_omits_the_same_rows_as_the_saved_run(void **state)
 {
   (void)state;
@@ -256,8 +256,9 @@ static void the_energy_residual_is_small(void **state)
   model_destroy(&m);
 }
 
-/* At every angle, the angular acceleration of the cranks is -weight cos(angle) / inertia. If two
- * cranks are in line with the coupler, the rows of these two cranks alone are singular. */
+/* At every angle, the angular acceleration of the cranks is -weight cos(angle) / inertia, with the
+ * same weight and inertia as in fall(). If two cranks are in line with the coupler, the rows of
+ * these two cranks alone are singular. */
 static void accelerations_are_right_where_the_initial_rows_are_singular(void **state)
 {
   (void)state;
@@ -294,7 +295,7 @@ static void accelerations_are_right_where_the_initial_rows_are_singular(void **s
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(every_stabilized_method_makes_full_revolutions),
+    cmocka_unit_test(every_method_makes_full_revolutions),
     cmocka_unit_test(every_solver_makes_full_revolutions),
     cmocka_unit_test(rows_that_fix_a_body_are_not_omitted),
     cmocka_unit_test(setting_a_state_chooses_again_which_rows_are_omitted),

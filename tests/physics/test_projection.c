@@ -7,9 +7,9 @@
  *
  * Here scale_j is the unit of coordinate j: the characteristic length, or 1 rad. The test covers
  * every integrator that offers this formulation, with fixed and variable steps. The mechanisms stay
- * away from singular configurations. For Phi_i, rounding is relative to the terms of this row. For
- * Phi'_i, it is relative to L_i times the largest |v_j| / scale_j of the mechanism, because all
- * velocities are solved together.
+ * away from singular configurations. The rounding error of Phi_i is relative to the terms of row i.
+ * The rounding error of Phi'_i is relative to L_i times the largest |v_j| / scale_j of the
+ * mechanism, because all velocities are solved together.
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -16,13 +16,13 @@
 #include "quad_saddle.h"
 #include "random_judge.h"
 
-/* Errors are relative to the largest element. An error may be at most ERROR, or at most AS_OTHERS
- * times the error of the other solver. The second limit applies to a few configurations in a
- * thousand. They are ill-conditioned, and lose several digits. */
+/* Errors are relative to the largest element. An error may be at most ERROR plus AS_OTHERS times
+ * the error of the solver of the whole system. The second term matters only in a few configurations
+ * in a thousand, which are ill-conditioned and lose several digits. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
-/* Rounding errors of Phi, Phi' and gamma. Each of these is a sum of about twelve terms with values
- * of about 10. */
+/* The limit for rounding errors of Phi, Phi' and gamma. Phi, Phi' and gamma are sums of about
+ * twelve terms, each with a value of about 10. */
 static const double ROUNDING = 1e-11;
 
 /* The kinds of random mechanisms that are tested. They contain rigid bodies, particles and user
@@ -304,9 +304,9 @@ static baum_mechanism *make_light(double mass)
   return m;
 }
 
-/* Without the weld, the acceleration of the light body would be 5 N / mass. The weld cancels almost
- * all of this acceleration. If the masses differ by more than a factor of 1e3, the cancellation
- * must not cost digits. */
+/* Without the weld, the acceleration of the light body would be about 6 N / mass. The weld cancels
+ * almost all of this acceleration. If the masses differ by more than a factor of 1e3, the
+ * cancellation must not cost digits. */
 static void loaded_light_bodies_keep_all_digits(void **state)
 {
   (void)state;

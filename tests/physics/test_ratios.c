@@ -26,8 +26,8 @@ static const double AMPLITUDE = 640.0;   /* [rad] more than 100 revolutions */
 static const double MOMENT = 0.5;        /* [kg m^2] of each body */
 static const double TRAVEL_MASS = 2.0;   /* [kg] of each body */
 
-/* A shaft on a spring drives another shaft through a constant-velocity joint, a wheel whose axis is
- * skew, and a screw by a belt. */
+/* A shaft on a spring drives three other parts: a second shaft through a constant-velocity joint, a
+ * wheel with a skew axis through a gear pair, and a screw by a belt. */
 typedef struct train {
   baum_mechanism *mechanism;
   baum_joint_id shaft, other, wheel, screw;

@@ -118,9 +118,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Returns the largest allowed difference. If different rows are omitted, the drift differs by a
- * fraction of the method's error, and so does the result of IDA's iteration. With a variable step,
- * this error is about as large as the tolerance. */
+/* Returns the largest allowed difference. If different rows are omitted, the drift and the result
+ * of IDA's iteration differ by a fraction of the error of the method. With a variable step, the
+ * error of the method is about as large as the tolerance. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;

@@ -129,7 +129,7 @@ static void jumps_are_crossed_accurately_forward_and_backward(void **state)
 }
 
 /* The torque is 0 before -0.1 s, then 2 N m, and -1 N m after 0.2 s. A run from rest at t = 0 turns
- * round at 0.3 s and goes back to -0.3 s. The angle there is 0.05 rad. */
+ * round at 0.3 s and goes back to -0.3 s. The angle at -0.3 s is 0.05 rad. */
 static void jumps_before_the_start_are_crossed_backward(void **state)
 {
   (void)state;
@@ -163,7 +163,8 @@ static void a_run_turns_round_after_an_input_has_ended_its_schedule(void **state
     assert_int_equal(baum_simulation_set_input(run, d.other, 0.0), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 0.4), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 0.2), BAUM_OK);
-    /* After 0.1 s the torque has changed the angular velocity to -0.4 rad/s in 0.2 s. */
+    /* From 0.1 s to 0.3 s, the torque changes the angular velocity to -0.4 rad/s and the angle to
+     * -0.04 rad. After that the torque is 0, even when the run goes back to 0.2 s. */
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 2.0 * allowed(mode));
     close_all(run, &d);
   }
@@ -264,8 +265,9 @@ static void the_energy_residual_is_small_over_jumps(void **state)
     double work = exact(2.0).work;
     printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
            mode.fixed ? "h" : " ", account.residual, account.loads - work);
-    /* The work contains errors of the angle times up to 50 N m. The energy contains errors of the
-     * angular velocity times up to 6 rad/s. */
+    /* The error of the work is the error of the angle times a torque of at most 50 N m. The error
+     * of the energy is the error of the angular velocity times an angular momentum of at most 6 N m
+     * s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
     ASSERT_NEAR(account.loads, work, 0.0, most);

@@ -39,7 +39,7 @@ static bool is_built(const singular_setting *setting)
   return BAUM_HAVE_SUNDIALS || !is_of_cvode(setting);
 }
 
-static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **state)
+static void every_wrong_run_warns_and_few_right_runs_have_a_branch_warning(void **state)
 {
   (void)state;
   int right = 0;
@@ -295,7 +295,7 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
 
 /* While the rod is perpendicular to the slot, the slot holds the bob only through the light rod.
  * Pivots then become as small as the ratio of the masses, although J keeps its rank. The run must
- * not treat this configuration as singular and step over it. */
+ * not treat this configuration as singular, and it must not step over it. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;
@@ -362,7 +362,7 @@ int main(void)
     cmocka_unit_test(mechanisms_away_from_singular_configurations_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),
     cmocka_unit_test(a_light_rod_that_drifts_is_not_singular),
-    cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),
+    cmocka_unit_test(every_wrong_run_warns_and_few_right_runs_have_a_branch_warning),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,7 +19,7 @@
  * a hundred thousand steps. */
 enum { MOST_TRIES = 1000 };
 
-/* [s] the cranks start with 3 rad/s and rotate by almost 1 rad until then */
+/* [s] the cranks start with 3 rad/s and rotate by almost 1 rad until this time */
 static const double END = 0.3;
 static const double TOLERANCES[] = {1e-5, 1e-7, 1e-9, 1e-11};
 

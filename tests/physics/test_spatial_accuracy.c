@@ -329,7 +329,8 @@ static void uneven_masses_keep_eleven_digits(void **state)
   assert_int_equal(failures, 0);
 }
 
-/* In chains, only masses and weights act, so a common factor of all masses does not matter. */
+/* The only forces in these chains are weights and inertia forces, so a common factor of all masses
+ * does not matter. */
 static void accelerations_do_not_depend_on_the_unit_of_mass(void **state)
 {
   (void)state;

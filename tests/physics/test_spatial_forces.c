@@ -349,9 +349,10 @@ static void every_method_makes_the_same_motion(void **state)
 
 /* ---- a bushing that rotates too far ---- */
 
-/* Rotates a body from the orientation of its axes for 5 s. Returns the code of the run's warning,
- * whose text must contain `text`, or 0. *first receives the time of the warning; it may be NULL.
- * Destroys the mechanism. */
+/* Runs for 5 s with the initial velocities v of a body. At the start, the axes of the body are
+ * parallel to those of ground. Returns the code of the run's warning, whose text must contain
+ * `text`, or 0 if there is no warning. *first receives the time of the warning; `first` may be
+ * NULL. Destroys the mechanism. */
 static int code_of_rotation(baum_mechanism *m, const baum_simulation_options *o,
                             const double v[SIX], const char *text, double *first)
 {

@@ -36,9 +36,9 @@ typedef struct motion {
   double rate; /* [rad/s] largest angular velocity */
 } motion;
 
-/* The pendulum starts horizontally with 3 m/s downwards, and reaches 5.4 rad/s. Gamma of its only
- * row is therefore never near zero. The crank rotates at up to 150 rad/s. In every run, the
- * pendulum or the crank rotates by more than 1 rad. */
+/* The pendulum starts in a horizontal position with a velocity of 3 m/s downwards, and reaches 5.4
+ * rad/s. Gamma of its only row is therefore never near zero. The crank rotates at up to 150 rad/s.
+ * In every run, the pendulum or the crank rotates by more than 1 rad. */
 static const model_pendulum THROWN = {.gravity = 9.81, .x = 1.0, .v = -3.0};
 static const motion MOTIONS[2] = {{PENDULUM, 1e-4, 5.4}, {FREE_CRANK, 1e-6, 150.0}};
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A double pendulum has two rods of 1 m and 1 kg. They are joined by a bushing, which has a spring
- * of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. Motion in the bushing decays with
- * 1e3 to 1e4 1/s, that is, within milliseconds. The rods swing at 3 to 7 rad/s, which is much
- * slower, so the problem is stiff. Adams methods need short steps for it. At the same tolerance,
- * BDF must need at most a twentieth of these steps. */
+ * of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. Motion in the bushing decays at
+ * rates of 1e3 to 1e4 1/s, that is, within milliseconds. The rods swing at 3 to 7 rad/s, which is
+ * much slower, so the problem is stiff. Adams methods therefore need short steps. At the same
+ * tolerance, the number of steps of BDF must be at most a twentieth of theirs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

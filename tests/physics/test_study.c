@@ -40,8 +40,8 @@ static void take_common(const baum_study *study, const baum_catalog_choice *choi
   assert_true(out->n > 0);
 }
 
-/* Runs a study of a catalogue entry. The study computes its own reference. Every study needs at
- * least one entry, but the results of this entry are not used. */
+/* Runs a study of a mechanism of the catalogue. The study computes its own reference. Every study
+ * needs at least one method to run, but the results of this method are not used. */
 static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_entry *entry)
 {
   baum_study *study = NULL;

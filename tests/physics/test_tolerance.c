@@ -18,14 +18,14 @@
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
 
-/* When rtol decreases by a factor of 10, the error must fall by at least this factor, in the
- * geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
+/* When rtol decreases by a factor of 10, the error must fall by at least the factor LEAST_FALL, in
+ * the geometric mean over all mechanisms. An error proportional to rtol would fall by a factor of
  * 10. */
 static const double LEAST_FALL = 7.0;
 /* The corresponding factor for BDF. At order p, the error is proportional to rtol^(p / (p + 1)). It
  * falls by a factor of 6.8 at the highest order, 5, and by 5.6 at order 3. The factors measured
  * were 7.0 for CVODE and 7.2 to 7.3 for IDA. With 40 other initial configurations or end times of
- * each mechanism, the mean factors are 6.5 and 6.4. */
+ * each mechanism, the mean factors are 6.5 for CVODE and 6.4 for IDA. */
 static const double LEAST_FALL_OF_BDF = 6.0;
 /* The same factor for a single mechanism. An error that is small by chance has more influence on it
  * than on a mean. */

@@ -26,10 +26,10 @@ static const reference SWING = {.name = "pendulum",
 static const double RTOL = 1e-5;
 static const double SMALL = 1e-3;
 static const double OUT_OF_THE_WAY = 1e6;
-/* If a tolerance is multiplied by SMALL = 1e-3, the error must fall by at least this factor. At
- * order p, the error falls by a factor of (1e3)^(p/(p+1)). For orders 2 to 8 this is 100 to 500.
- * Factors from 22 to 7e3 were measured, because the error of a single swing may be small by
- * chance. */
+/* If a tolerance is multiplied by SMALL = 1e-3, the error must fall by at least the factor
+ * LEAST_FALL. At order p, the error falls by a factor of (1e3)^(p/(p+1)). For orders 2 to 8 this is
+ * 100 to 500. Factors from 22 to 7e3 were measured, because the error of a single swing may be
+ * small by chance. */
 static const double LEAST_FALL = 10.0;
 
 typedef struct factors {

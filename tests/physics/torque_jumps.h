@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A torque acts on a body on a pin, without gravity. The torque jumps at three times. Between the
+/* A torque acts on a pinned body, without gravity. The torque jumps at three times. Between the
  * jumps the exact motion is a polynomial of degree 2. If no step crosses a jump, methods of order 2
  * and higher reproduce this motion to rounding. Generalized-alpha is an exception, see allowed().
  * Include after cmocka.h. */

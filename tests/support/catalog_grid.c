@@ -137,8 +137,9 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 
 /* ---- checks ---- */
 
-/* Tells whether the entry has fixed gains with which violations do not decay. Violations of
- * position constraints and of rows of velocity level decay differently, so both are checked. */
+/* Tells whether the given entry of a study has fixed gains with which violations do not decay.
+ * Violations of position constraints and of rows of velocity level decay differently, so both are
+ * checked. */
 static bool has_unstable_constants(const pair *p, const baum_study_entry *entry)
 {
   baum_amplification a = {.spectral_radius = 0.0};

@@ -7,7 +7,8 @@
 #include <baum/catalog.h>
 #include <baum/study.h>
 
-/* Counts of entries that have certain properties. */
+/* Counts of entries of studies that have certain properties. Each entry is a run with one
+ * setting. */
 typedef struct catalog_tally {
   int entries;
   int state[BAUM_STUDY_TIMED_OUT + 1]; /* number of entries in each state */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compares derivatives with five-point differences. A difference is (8 (f_1 - f_-1) - (f_2 - f_-2))
- * / 12 h, with h = 1e-3. The truncation error is h^4 f''''' / 30, which is 3e-14 times the fifth
+ * / (12 h), with h = 1e-3. The truncation error is h^4 f''''' / 30, which is 3e-14 times the fifth
  * derivative. Rounding errors are about 1e-12 f. At the states of test_point_random(), f and its
  * fifth derivative may be several thousand. The tolerance, absolute and relative, is therefore
  * 1e-8. */

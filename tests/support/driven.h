@@ -50,10 +50,10 @@ baum_mechanism *four_bar_make(const drive *motor);
 /* Returns the angle of the rocker, up to a multiple of 2 pi. */
 double four_bar_rocker(double angle);
 
-/* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a
- * redundant row ----
+/* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler ----
  *
- * q = (x, y, angle) of the coupler and of the three cranks. */
+ * q = (x, y, angle) of the coupler and of the three cranks. The first crank is driven. One row is
+ * redundant. */
 
 enum { PARALLELOGRAM_NV = 12 };
 

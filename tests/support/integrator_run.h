@@ -49,7 +49,7 @@ void integrator_run_close(integrator_run *run);
  * step includes a projection. If the step fails, the state stays unchanged. */
 baum_status integrator_run_step(integrator_run *run);
 
-/* Advances to t, and sets q and v to the values there. With a fixed step, t must be a multiple of
+/* Advances to t, and sets q and v to their values at t. With a fixed step, t must be a multiple of
  * the step. */
 baum_status integrator_run_to(integrator_run *run, double t);
 
@@ -61,8 +61,8 @@ baum_status integrator_run_restart(integrator_run *run, double t, const double *
 typedef void motion_fn(double t, double q[2], double v[2]);
 
 /* Returns the factor by which the largest motion_error() up to t decreases when rtol decreases by a
- * factor of 10. The factor is computed from the slope of log error over log rtol, with seven
- * tolerances from 1e-4 to 1e-10. */
+ * factor of 10. The factor is computed from the slope of the line through log error as a function
+ * of log rtol, for seven tolerances from 1e-4 to 1e-10. */
 double tolerance_factor(const integrator_setup *setup, double t, motion_fn *motion, double rate);
 
 /* ---- mechanisms, which the caller destroys ---- */

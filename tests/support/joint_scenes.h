@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Small mechanisms, one for each kind of joint. Each has gravity, initial velocities, and one or
- * two degrees of freedom. Tests that cover all joints use these mechanisms. */
+/* Small mechanisms, one for each kind of joint. Each has gravity, initial velocities, and one to
+ * three degrees of freedom. Tests that cover all joints use these mechanisms. */
 #ifndef BAUM_TEST_JOINT_SCENES_H
 #define BAUM_TEST_JOINT_SCENES_H
 

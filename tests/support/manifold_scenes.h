@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms with the bodies of manifold_bodies.h. Each planar mechanism has a twin. This is the
- * same mechanism, made of the library's planar bodies and joints. Tops have no twin. For them, the
- * tests integrate a reference solution. */
+/* Mechanisms whose positions are on a manifold. Most are made of the bodies of manifold_bodies.h,
+ * and the others are made of spatial elements. Some mechanisms have a twin, which is the same
+ * mechanism with angles as coordinates. The tops, the screw and the driven slider-crank have no
+ * twin. For them, the motion is known in closed form, or the tests integrate a reference
+ * solution. */
 #ifndef BAUM_TEST_MANIFOLD_SCENES_H
 #define BAUM_TEST_MANIFOLD_SCENES_H
 
@@ -9,7 +11,7 @@
 
 #include <baum/baum.h>
 
-enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 12 /* largest nq, nv and nc */ };
+enum { MANIFOLD_SIZE = 24 /* largest nq, nv and nc */, MANIFOLD_SCENES = 12 };
 
 typedef struct manifold_scene {
   const char *name;

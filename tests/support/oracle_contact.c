@@ -52,8 +52,8 @@ bool oracle_is_edge(const oracle_joint *joint)
   return joint->kind == ORACLE_KNIFE_EDGE || joint->kind == ORACLE_SPATIAL_EDGE;
 }
 
-/* The point of the rim nearest to the plane is below the centre in the direction n x (k x n), where
- * n is the axis of the disc and k is the normal of the plane. */
+/* The point of the rim nearest to the plane is reached from the centre in the direction -n x (k x
+ * n), where n is the axis of the disc and k is the normal of the plane. */
 void oracle_contact_point(const oracle_joint *joint, const motion *bodies, jet out[3])
 {
   const wide inner = (wide)joint->radius - (wide)joint->rim;

@@ -98,7 +98,8 @@ static void add_edge(random_spatial *r, int a, int b)
 
 /* ---- bodies and loops ---- */
 
-/* Adds a joint between two bodies with orientations. Its kind is not one of the basic kinds. */
+/* Adds a screw, a constant-velocity joint or a rolling disc between two bodies with
+ * orientations. */
 static void add_pair(random_spatial *r, int a, int b)
 {
   int kind = chance_below(&r->chance, 4);
@@ -466,7 +467,7 @@ static void add_curve(random_spatial *r, int a, int b)
 
 /* Adds a body or a particle. One in three of them is planar. A point of the new body moves on a
  * curve that is fixed on another body. If the new body has an orientation, the curve may instead be
- * fixed on the new body, and the point on the other. */
+ * fixed on the new body, and the point on the other body. */
 static void add_bead(random_spatial *r)
 {
   chance *c = &r->chance;

@@ -77,8 +77,8 @@ static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *
     return RANDOM_CONFLICT;
   }
   double error = error_of(s, rows);
-  /* The library and the oracle may omit different rows. Their results then differ by the conflict
-   * of these rows. */
+  /* The library and the oracle may omit different rows. Their results may then differ by the
+   * conflict of these rows divided by the smallest singular value of the independent rows. */
   double choice = dependent ? rows->conflict / rows->kept : 0.0;
   if (!(error <= RANDOM_ERROR + choice)) {
     return RANDOM_WRONG;
@@ -150,7 +150,7 @@ static void compare_mobility(scene *s, const baum_mobility *mobility)
   }
   free(skipped);
   bool clear = fmin(rows[0].kept, rows[1].kept) >= CLEAR && !mobility->near_singular;
-  if (!clear || mobility->conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
+  if (!clear || mobility->conflicting_rows > 0) { /* drivers may prescribe unreachable values */
     return;
   }
   int want[2] = {s->nv - rows[0].rank, s->nv - rows[1].rank};

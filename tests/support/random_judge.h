@@ -34,9 +34,10 @@ typedef struct random_tally {
 
 /* Makes the mechanism of a seed in `room`, and tests it with velocities. If `velocity_rows` is
  * true, rows of velocity level are added to the mechanism. It is tested in its design
- * configuration, and in another configuration on the constraints. In the second one, the ranks of
- * J must give the degrees of freedom that the library reports. If no rows are redundant, it is also
- * tested in a configuration off the constraints. Prints wrong results and false alarms. */
+ * configuration, and in another configuration on the constraints. In the second one, the ranks of J
+ * must give the degrees of freedom that the library reports. If no rows are redundant, the
+ * mechanism is also tested in a configuration off the constraints. Prints wrong results and false
+ * alarms. */
 void random_judge(random_mechanism *room, uint64_t seed, bool velocity_rows, random_tally *tally);
 
 /* Returns how many results were wrong or false alarms. */

@@ -25,9 +25,9 @@ int chance_below(chance *c, int count);
 typedef struct random_kind {
   int bodies;      /* at most RANDOM_BODIES */
   int joints;      /* number of attempts to add a joint, at most RANDOM_JOINTS */
-  int particles;   /* [%] of the bodies that are particles */
-  int coordinates; /* [%] of the bodies that have user coordinates */
-  int pins;        /* [%] of the joints that are pins */
+  int particles;   /* [%] of the bodies are particles */
+  int coordinates; /* [%] of the bodies have user coordinates */
+  int pins;        /* [%] of the joints are pins */
   bool constant;   /* user coordinates have constant masses */
   bool hub;        /* whether all joints involve body 1 */
   double span;     /* masses are from 1/span to span */

@@ -305,8 +305,8 @@ void random_spatial_add_joint(random_spatial *r, oracle_kind kind, int a, int b)
   add_joint_at(r, kind, bodies, point, axis);
 }
 
-/* Adds a joint. One joint in twelve is added a second time, with exchanged bodies or at another
- * point of its axis. This makes rows redundant. */
+/* Adds a joint. Of the joints between bodies with orientations, one in twelve is added a second
+ * time, with exchanged bodies or at another point of its axis. This makes rows redundant. */
 static void add_joint(random_spatial *r, int one, int other, bool loop)
 {
   chance *c = &r->chance;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with accurate, warned and refused entries. */
+/* A small study. Some of its entries are accurate, one has a warning, and one is refused. */
 #include "report_scene.h"
 
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with accurate, warned and refused entries. Names in the mechanism and the title
- * contain markup, which reports must escape. */
+/* A small study. Some of its entries are accurate, one has a warning, and one is refused. Names in
+ * the mechanism and the title contain markup, which reports must escape. */
 #ifndef BAUM_TEST_REPORT_SCENE_H
 #define BAUM_TEST_REPORT_SCENE_H
 

@@ -42,7 +42,7 @@ unsigned char *save_run(baum_simulation *run, size_t *size)
 void check_run_refused(const baum_mechanism *mechanism, const baum_simulation_options *options,
                        baum_status want, const char *parts)
 {
-  baum_simulation *run = (void *)(uintptr_t)16; /* garbage that must not stay */
+  baum_simulation *run = (void *)(uintptr_t)16; /* the call must replace this invalid pointer */
   ASSERT_SAYS(baum_simulation_create(mechanism, options, &run), want, parts);
   assert_null(run);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates and saves runs and reads their counters, which must not fail, and checks that wrong
- * options are refused. */
+/* Creates runs, saves them and reads their counters. If such a call fails, the test fails. This
+ * file also has a check that wrong options are refused. */
 #ifndef BAUM_TEST_RUNS_H
 #define BAUM_TEST_RUNS_H
 

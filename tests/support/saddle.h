@@ -62,7 +62,7 @@ void saddle_solve(const saddle *system, double *want);
 void saddle_write_dense(const saddle *system, double *matrix);
 
 /* Returns the largest componentwise backward error of x = (system->a, system->lambda): max |b - K
- * x| / (|K| |x| + |b|). */
+ * x| / (|K| |x| + |b|), where K is the matrix and b = (f, r) is the right side. */
 double saddle_backward_error(const saddle *system);
 
 #endif

@@ -33,7 +33,7 @@ typedef struct singular_scene {
   int count;                         /* how many angles in q are th or -th */
   int angle[SINGULAR_ANGLES];        /* the indices of these angles */
   double sign[SINGULAR_ANGLES];
-  /* Positions at the same times ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
+  /* Positions at the times of `want` ((SINGULAR_SAMPLES + 1) x nq), if there is no equation for th.
    * Otherwise NULL. */
   double *reference;
 } singular_scene;

@@ -30,7 +30,8 @@ static const double MANY = 1000.0;
 /* If joints prevent accelerations, errors are relative to this fraction of the accelerations that
  * the forces would cause without joints. */
 static const double HELD = 1e-2;
-static const double TINY = 1e-12; /* smallest acceleration for relative errors, as a fraction */
+/* Errors are relative to accelerations of at least this fraction of rods.acceleration. */
+static const double TINY = 1e-12;
 
 typedef struct rod {
   baum_body_id id;
@@ -50,7 +51,7 @@ typedef struct rods {
   double ratio; /* smallest ratio of the axial to the transverse moment of inertia of a rod */
   double mass[ISLANDS];
   double length[ISLANDS];
-  double acceleration[ISLANDS];
+  double acceleration[ISLANDS]; /* largest force of a load divided by the mass */
   double speed[MOST * 6];
 } rods;
 

@@ -2,8 +2,9 @@
 /* Random mechanisms of slender rods. Their accelerations are compared with a solution of the same
  * equations in quadruple precision. A mechanism consists of up to three islands whose masses,
  * lengths and accelerations differ by large factors. Joints lie on the axes of the rods or near
- * them, and half of the rods have full inertia tensors. The ratio of the axial moment of inertia to
- * the transverse one is 0, or between 1e-12 and 1e-3. */
+ * them, and half of the rods have full inertia tensors. Three quarters of the rods are slender: the
+ * ratio of their axial moment of inertia to the transverse one is 0, or between 1e-12 and 1e-3. The
+ * ratio of all other rods is between 0.5 and 1. */
 #ifndef BAUM_TEST_SLENDER_RODS_H
 #define BAUM_TEST_SLENDER_RODS_H
 
@@ -20,10 +21,10 @@ typedef enum slender_verdict {
 } slender_verdict;
 
 /* The largest permitted error. Errors in an island are relative to the largest acceleration in this
- * island. There is one exception: if the angular acceleration of a slender rod about its axis is
- * larger than that, the error of this angular acceleration is relative to its own size.
- * Accelerations of origins are divided by the length of the island. A thousand times the effect of
- * rounding is added to this limit. */
+ * island, without the angular accelerations of slender rods about their axes. If one of these
+ * angular accelerations is larger, its error is relative to its own size. Accelerations of origins
+ * are divided by the length of the island. A thousand times the effect of rounding is added to this
+ * limit. */
 static const double SLENDER_ERROR = 1e-9;
 
 /* Mechanisms are counted in classes, by the smallest ratio of the axial to the transverse moment of

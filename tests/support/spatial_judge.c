@@ -141,8 +141,8 @@ static void print(const scene *s, const char *verdict, const errors *e, const er
 static spatial_verdict verdict_of(const quad_rows *rows, const errors *e, const errors *own)
 {
   if (!(e->acceleration <= SPATIAL_ERROR + 100.0 * own->acceleration)) {
-    /* The library and the oracle may omit different rows. Their results then differ by the conflict
-     * of these rows. */
+    /* The library and the oracle may omit different rows. Their results may then differ by the
+     * conflict of these rows divided by the smallest singular value of the independent rows. */
     return e->acceleration <= rows->conflict / rows->kept ? SPATIAL_CONFLICT : SPATIAL_ACCELERATED;
   }
   if (!(e->reaction <= SPATIAL_ERROR + 100.0 * own->reaction)) {
@@ -165,7 +165,8 @@ static void count(scene *s, spatial_verdict verdict, const errors *e, const erro
   }
 }
 
-/* The reaction of a planar joint consists of two forces and a moment about z. */
+/* Reads the reaction of a joint from the library. For a planar knife edge, the library gives two
+ * components of the force and the moment about z. */
 static void read_reaction(scene *s, int n, const double *lambda)
 {
   const oracle_joint *joint = &s->random->oracle.joints[n];
@@ -243,7 +244,7 @@ static void compare_mobility(scene *s)
   assert_int_equal(baum_mechanism_mobility(s->random->mechanism, &mobility, sizeof mobility),
                    BAUM_OK);
   bool clear = fmin(want->rows.kept, want->position_rows.kept) >= CLEAR && !mobility.near_singular;
-  if (!clear || mobility.conflicting_rows > 0) { /* drivers may be unreachable at t = 0 */
+  if (!clear || mobility.conflicting_rows > 0) { /* drivers may prescribe unreachable values */
     return;
   }
   s->tally->mobilities++;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluates spatial mechanisms in quadruple precision. Its formulas differ from those of the
+/* Evaluates spatial mechanisms in quadruple precision. The formulas differ from those of the
  * library. A joint is defined only by Phi, which is a function of the positions and axes of its
  * bodies. J v and gamma follow from the first and second time derivatives of Phi along motions.
  * These derivatives are computed with truncated Taylor series. Coordinates of joints are computed

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists all pairs of an integrator and a kind of step (fixed or variable) that it has. Include
- * after cmocka.h. */
+/* Lists all pairs of an integrator and a kind of step (fixed or variable) that the integrator has.
+ * Include after cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
 
@@ -11,7 +11,7 @@
 #include <baum/baum.h>
 
 typedef struct step_mode {
-  const baum_integrator *integrator; /* NULL if there is no pair number k */
+  const baum_integrator *integrator; /* NULL after the last pair */
   bool fixed;
 } step_mode;
 
@@ -41,7 +41,8 @@ static inline bool step_mode_is_adams(step_mode mode)
 }
 
 /* Tells whether the method uses data of earlier steps. Such a method restarts if the motion has a
- * jump. This applies to variable steps, multistep methods and the generalized-alpha method. */
+ * jump. These are all methods with variable steps, the multistep methods, and the generalized-alpha
+ * method. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;

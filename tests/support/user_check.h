@@ -6,9 +6,9 @@
 #include "point.h"
 #include "user_models.h"
 
-/* These functions freeze the mechanism, check its derivatives and destroy it. user_check_right()
- * requires that the check finds no error. user_check_wrong() requires that the check fails with
- * this message. */
+/* These functions freeze the mechanism, check its derivatives and destroy the mechanism.
+ * user_check_right() requires that the check finds no error. user_check_wrong() requires that the
+ * check fails with this message. */
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
 void user_check_wrong(baum_mechanism *mechanism, const char *message);
