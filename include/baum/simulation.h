@@ -276,9 +276,10 @@ typedef struct baum_simulation_options {
    *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
    *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
    *  If the second integration fails, or takes more than ten times as many evaluations as the run,
-   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics has no such errors. Without
-   *  this option, a fixed-step run starts a second integration only if the sum of its local errors
-   *  becomes large enough to matter. Default: false. */
+   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics has no such errors.
+   *
+   *  Without this option, a fixed-step run starts a second integration only if the sum of its local
+   *  errors becomes large enough to matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 

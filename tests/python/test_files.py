@@ -104,7 +104,7 @@ class FilesTest(unittest.TestCase):
         whole = path.read_bytes()
         for wrong in (b"", b"x", whole[:100], whole[:-1], whole[:-20] + b"\1" + whole[-19:]):
             path.write_bytes(wrong)
-            with self.assertRaisesRegex(ValueError, "a.sweep: this file is damaged, or is not"):
+            with self.assertRaisesRegex(ValueError, "a.sweep: this is not the file of a sweep, or it is damaged"):
                 swept(path)
             self.assertEqual(path.read_bytes(), wrong)
         path.write_bytes(whole)

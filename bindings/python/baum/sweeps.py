@@ -425,7 +425,7 @@ class _File:
         whole = self._path.read_bytes()
         key, check, data = whole[:DIGITS], whole[DIGITS : 2 * DIGITS], whole[2 * DIGITS :]
         if check != _hash(data):
-            raise ValueError(f"{self._path}: this file is damaged, or is not the file of a sweep")
+            raise ValueError(f"{self._path}: this is not the file of a sweep, or it is damaged")
         if key != self._key:
             raise ValueError(f"{self._path}: this file is of another sweep")
         found: list[_Result | None] = pickle.loads(data)
