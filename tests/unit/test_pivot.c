@@ -10,6 +10,7 @@
 
 #include "catalog/parts.h"
 #include "check.h"
+#include "construct.h"
 #include "dynamics/dynamics.h"
 #include "models.h"
 #include "runs.h"
@@ -118,12 +119,65 @@ static void a_light_slider_causes_few_near_singular_intervals(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* Adds three rods that hinges join in a chain. A light rod is between two heavy ones. The last rod
+ * is slender, and its axis (2, 1, 2) / 3 is not an axis of its frame. */
+static baum_mechanism *make_uneven_chain(void)
+{
+  static const double axes[3][3] = {{-0.4, 1.2, 1.4}, {-0.9, -0.9, -1.0}, {-0.6, -1.1, -1.2}};
+  static const double rods[3][3] = {{0.1, 0.1, -0.1}, {0.2, 0.0, 0.0}, {-0.2, 0.1, 0.0}};
+  static const double masses[3] = {500.0, 0.01, 500.0};
+  const double axial = 1.0 - 1e-9; /* 1 minus the ratio of the moments of inertia */
+  const double slender[6] = {9.0 - 4.0 * axial, 9.0 - axial,  9.0 - 4.0 * axial,
+                             -2.0 * axial,      -4.0 * axial, -2.0 * axial};
+  baum_mechanism *m = create_mechanism();
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, -9.81));
+  baum_spatial_revolute_def hinge = baum_spatial_revolute_def_default();
+  hinge.body_a = BAUM_GROUND;
+  hinge.point[0] = hinge.point[1] = hinge.point[2] = 0.0;
+  for (int k = 0; k < 3; k++) {
+    baum_spatial_body_def rod = baum_spatial_body_def_default();
+    rod.mass = masses[k];
+    for (int i = 0; i < 6; i++) {
+      double compact = i < 3 ? 9.0 : 0.0;
+      rod.inertia[i] = 0.01 * masses[k] * (k == 2 ? slender[i] : compact) / 9.0;
+    }
+    for (int i = 0; i < 3; i++) {
+      rod.position[i] = hinge.point[i] + 0.5 * rods[k][i];
+      hinge.axis[i] = axes[k][i];
+    }
+    check(baum_mechanism_add_spatial_body(m, &rod, &hinge.body_b));
+    check(baum_mechanism_add_spatial_revolute(m, &hinge, NULL));
+    hinge.body_a = hinge.body_b;
+    for (int i = 0; i < 3; i++) {
+      hinge.point[i] += rods[k][i];
+    }
+  }
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* All pivots of the block solver are at rounding level, and it gives up at some of the states. */
+static void pivots_at_rounding_level_do_not_make_steps_short(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_uneven_chain();
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk8();
+  o.rtol = 1e-6;
+  baum_simulation *run = create_run(m, &o);
+  check(baum_simulation_advance_to(run, 2.0));
+  assert_in_range(counters_of(run).steps, 1, 300);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_pivot_of_a_pinned_rod_is_one_for_all_inertias_and_directions),
     cmocka_unit_test(pivots_fall_with_the_square_of_the_distance_to_a_singularity),
     cmocka_unit_test(a_light_slider_causes_few_near_singular_intervals),
+    cmocka_unit_test(pivots_at_rounding_level_do_not_make_steps_short),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
