@@ -157,6 +157,12 @@ class BinaryTest(FmuTest):
             wanted = loop_in_python(arm(), 50, method, **options)
             np.testing.assert_array_equal(fmu.loop(0, 50), wanted)
 
+    def test_single_names_need_no_list(self):
+        single = dict(outputs="pin.coordinate", inputs="torque", parameters="arm.mass")
+        listed = {name: [value] for name, value in single.items()}
+        files = [self.export(None, "rk8", step=1e-3, **given).read_bytes() for given in (single, listed)]
+        self.assertEqual(*files)
+
     def test_options_reach_the_run(self):
         options = dict(step=1e-3, formulation="baumgarte", gains=baum.fixed(20, 30), solver="klu")
         fmu = self.create("rk4", **options).initialize()

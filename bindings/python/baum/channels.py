@@ -86,6 +86,12 @@ class Layout:
         return np.empty((count, self.width))
 
 
+def several(given: Any) -> tuple[Any, ...]:
+    """Return names or objects as a tuple. A single one may be given without a list."""
+    is_one = isinstance(given, str) or not isinstance(given, Iterable)
+    return (given,) if is_one else tuple(given)
+
+
 def width(mechanism: Mechanism, channel: Channel) -> int:
     """Return the number of columns of a channel."""
     count = _width(mechanism, channel)

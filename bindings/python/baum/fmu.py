@@ -25,7 +25,7 @@ from ._lib import default, lib
 from ._lib import path as library
 from ._lib import version as library_version
 from ._values import there_are
-from .channels import Channel, Layout
+from .channels import Channel, Layout, several
 from .integrators import lookup
 
 if TYPE_CHECKING:
@@ -219,10 +219,10 @@ def _with_fixed_joints(mechanism: Mechanism, parameters: Sequence[str]) -> Mecha
     return mechanism.thawed(**changes)
 
 
-def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Sequence[Any] | None) -> list[Input]:
+def _inputs(mechanism: Mechanism, copy: Mechanism, wanted: Any) -> list[Input]:
     """Find inputs in the copy by their names, or by elements of the mechanism."""
     names = []
-    for one in mechanism.inputs if wanted is None else wanted:
+    for one in mechanism.inputs if wanted is None else several(wanted):
         own = mechanism.find("input", one if isinstance(one, str) else one.name)
         if not isinstance(one, str) and bytes(own.id) != bytes(one.id):
             raise ValueError(f'export_fmu: the input "{own.name}" belongs to another mechanism')
@@ -243,14 +243,15 @@ def export(
     mechanism: Mechanism,
     path: str | os.PathLike[str],
     method: Any,
-    outputs: Sequence[Any],
-    inputs: Sequence[Any] | None,
-    parameters: Sequence[str],
+    outputs: Any,
+    inputs: Any,
+    parameters: str | Sequence[str],
     options: Mapping[str, Any],
 ) -> None:
     """Write an FMU; see Mechanism.export_fmu()."""
     inside, binary = _binary()
     chosen = _options(method, options)
+    parameters = several(parameters)
     for name in parameters:
         list(_parameter(mechanism, name))  # refuse wrong names
     copy = _with_fixed_joints(mechanism, parameters)
@@ -259,7 +260,7 @@ def export(
         raise ValueError(f"export_fmu: an FMU cannot contain functions: {', '.join(functions)}")
     scene = copy.scene()
     copy.freeze()
-    layout = Layout(copy, [copy.channel(one) for one in outputs])
+    layout = Layout(copy, [copy.channel(one) for one in several(outputs)])
     with copy.simulation(method, **options) as run:
         run.get(*layout.channels.values())  # raises an error if the FMU could not run
     read = _inputs(mechanism, copy, inputs)

@@ -597,14 +597,15 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         path: str | os.PathLike[str],
         integrator: str | Integrator | None = None,
         *,
-        outputs: Sequence[ChannelLike],
-        inputs: Sequence[InputLike] | None = None,
-        parameters: Sequence[str] = (),
+        outputs: ChannelLike | Sequence[ChannelLike],
+        inputs: InputLike | Sequence[InputLike] | None = None,
+        parameters: str | Sequence[str] = (),
         **options: Unpack[SimulationOptions],
     ) -> None:
         """Write the mechanism as an FMU for co-simulation by FMI 3.0. No compiler is needed.
 
-        outputs: channels, such as "slider.pose"; each of their columns is an output of the FMU.
+        outputs: one channel or several channels, such as "slider.pose"; each of their columns is an
+            output of the FMU.
         inputs: inputs of the mechanism that are inputs of the FMU, by default all.
         parameters: numbers that users of the FMU can change, written as "element.field", such as
             "rod.mass". They may also be positions and velocities of bodies at the start.

@@ -27,7 +27,7 @@ from ._lib import default, lib, text
 from ._motion import TraceLike
 from ._values import address, integer, number, there_are, truth, vector, word
 from .callbacks import event_function
-from .channels import Channel, Layout
+from .channels import Channel, Layout, several
 from .channels import q as ALL_Q
 from .channels import v as ALL_V
 from .definitions import COORDINATES
@@ -370,10 +370,8 @@ class Simulation(_calls.Closing):
         """
         given = vector(np.atleast_1d(times), None, "times")
         counts: list[ctypes.c_int64] = []
-        is_one = isinstance(record, str) or not isinstance(record, Iterable)
-        channels: Any = [record] if is_one else record
         layout = self._layout(
-            [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in channels)]
+            [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in several(record))]
         )
         rows = layout.rows(len(given))
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from . import _abi, _files
 from ._values import there_are, vector
-from .channels import Channel
+from .channels import Channel, several
 from .errors import Error, Status
 from .gains import Gains
 from .progress import Line, stream
@@ -320,7 +320,7 @@ def sweep(
     rows = _rows(columns, samples, count)
     first = vector(np.atleast_1d(times), None, "times")
     frozen = mechanism if mechanism.frozen else mechanism.copy().freeze()
-    listed = tuple(record) if isinstance(record, (list, tuple)) else (record,)
+    listed = several(record)
     task = _Task(frozen, tuple(columns), first, method, listed, reduce, options)
     # Wrong names raise their exceptions here. Values that the library refuses are ignored here,
     # because they only make their own run fail.
