@@ -349,7 +349,7 @@ static const baum_i_method *method_of_velocities(const baum_i_method *method)
 
 double baum_i_velocity_limit(const baum_i_method *method)
 {
-  /* with the damping ratio 1, mu = -A is a double root, so the limit is the same */
+  /* A row of position level with the damping ratio 1 has the root -alpha h of this row twice. */
   return baum_i_stability_limit(method_of_velocities(method), 1.0);
 }
 
