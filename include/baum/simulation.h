@@ -28,9 +28,9 @@ typedef struct baum_simulation baum_simulation;
 
 /* ---- integrators ----------------------------------------------------------------------------- */
 
-/* Each comment ends with the list of formulations that the integrator offers. The first formulation
- * of the list is the default. If BAUMGARTE is in the list, the rule in parentheses chooses its
- * gains by default. */
+/* Each comment lists the formulations that the integrator offers. The first formulation in the list
+ * is the default. If BAUMGARTE is in the list, the rule in parentheses chooses its gains by
+ * default. baum_kinematics() has no formulations. */
 
 /** @return explicit Euler, order 1, fixed step. Formulations: BAUMGARTE (dead-beat), UNSTABILIZED,
  *          PROJECTION */
@@ -57,8 +57,8 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           evaluations per step, and three more if the step is interpolated. Formulations: as for
  *           baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** A method that uses past steps. Where there are no past steps that it can use, it takes its first
- *  steps with a Runge-Kutta method. This happens at the start, after baum_simulation_set_state(),
+/** A method that uses past steps. As long as it does not have enough past steps, it takes steps
+ *  with a Runge-Kutta method instead. This happens at the start, after baum_simulation_set_state(),
  *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
  *  in time, and after a requested time that is not on the grid of steps.
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
@@ -72,13 +72,13 @@ BAUM_API const baum_integrator *baum_ab4(void);
 /** A method for long runs without dissipation. The error of the energy stays within a band of width
  *  O(h^2), where h is the step. The angular momentum of a free rigid body in space is conserved to
  *  rounding. After every step, Phi = 0 and Phi' = 0 are satisfied to rounding. The method refuses
- *  mass matrices that vary, and forces that depend on velocities, such as dampers and gyroscopic
- *  moments of user coordinates. To find out whether the forces of user functions depend on
- *  velocities, a run calls the functions at a few states when it is created.
+ *  mass matrices that vary, and forces that depend on velocities, such as the forces of dampers and
+ *  the gyroscopic moments of user coordinates. To find out whether the forces of user functions
+ *  depend on velocities, a run calls the functions at a few states when it is created.
  *  @return  RATTLE, order 2, fixed step, symplectic. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_rattle(void);
-/** A method for stiff forces, and for comparisons of methods with index 3. After every step, Phi =
- *  0 is satisfied to rounding, and |Phi'| is of second order in the step.
+/** A method for stiff forces, and for comparisons of methods with index 3. After every step, the
+ *  constraints Phi = 0 are satisfied to rounding, and |Phi'| is of second order in the step.
  *  @return  generalized-alpha method with spectral radius 0.8 at infinite frequency, order 2, fixed
  *           step, implicit. Formulation: INDEX3 */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
@@ -164,16 +164,17 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 typedef enum baum_start {
   /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
    *  the characteristic length, or by more than 1 rad. If the initial values of drivers differ from
-   *  the design configuration, the run is not refused at once. Instead, the mechanism is assembled
-   *  with the drivers as in the design configuration, and the drivers are then moved to their
-   *  initial values in small steps. */
+   *  their values in the design configuration, a second attempt is made before the run is refused.
+   *  The second attempt assembles the mechanism with the drivers at their values in the design
+   *  configuration, and then moves the drivers to their initial values in small steps. The two
+   *  limits apply to each of these steps. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse the run if the design configuration or the initial velocities violate the
    *  constraints. */
   BAUM_START_EXACT = 1,
-  /** Start from the design configuration and the initial velocities as they are. Free velocities
-   *  are zero. The only bodies that are moved are those welded to ground, because the welds
-   *  determine their poses. */
+  /** Start from the design configuration and the initial velocities as they are. Velocities that
+   *  are not given are zero. The only bodies that are moved are those welded to ground, because the
+   *  welds determine their poses. */
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
@@ -235,12 +236,15 @@ typedef struct baum_simulation_options {
   double start_time;  /**< [s] Default: 0. */
   baum_start start;   /**< Default: BAUM_START_ASSEMBLE. */
   baum_solver solver; /**< Default: BAUM_SOLVER_AUTO. */
-  /** Check the derivatives of user functions, first as baum_mechanism_check_derivatives() does.
-   *  During the run they are checked again after 32, 96, 224, 480, ... steps, and at the end of a
-   *  call that has advanced the run by enough steps since the last check. These checks call the
-   *  functions at states near those of the run. If a derivative is wrong there, the run warns with
+  /** Check the derivatives of user functions. When the run is created,
+   *  baum_mechanism_check_derivatives() checks them. During the run they are checked again after
+   *  32, 96, 224, 480, ... steps. They are also checked at the end of a call that advances the run,
+   *  unless the last check is too recent: the number of steps since the last check must be more
+   *  than half of the number of steps before it. The checks during the run call the functions at
+   *  states near those of the run. If a derivative is wrong there, the run warns with
    *  BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last good
-   *  state, even without this option, and the message names a wrong one. Default: true. */
+   *  state, even without this option, and if one of them is wrong, the message names it. Default:
+   *  true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
@@ -258,11 +262,12 @@ typedef struct baum_simulation_options {
    *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
    *  multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the largest
    *  present |lambda_k| n_k, and the largest M_jj s_j^2 r^2, where r [1/s] is the rate of the
-   *  motion at the start. This rate is the largest of |v_i| / s_i and sqrt(|a_i| / s_i) over all
-   *  coordinates i, with the velocities v and the accelerations a. In an equilibrium at rest, r is
-   *  sqrt(g/L) instead, with gravity g and the characteristic length L, or 1 1/s without gravity.
-   *  baum_simulation_explain() states r with the tolerances. Default: infinity, the error of
-   *  multipliers is not tested. */
+   *  motion at the start. This rate is the largest of |v_j| / s_j and sqrt(|a_j| / s_j) over all
+   *  coordinates j, where v are the velocities and a the accelerations. In an equilibrium at rest,
+   *  r is sqrt(g/L) instead, where g is the acceleration of gravity and L the characteristic
+   *  length. In an equilibrium at rest without gravity, r is 1 per second.
+   *  baum_simulation_explain() states r with the tolerances.
+   *  Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
   /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
    *  this option. Default: false. */
@@ -276,7 +281,8 @@ typedef struct baum_simulation_options {
    *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
    *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
    *  If the second integration fails, or takes more than ten times as many evaluations as the run,
-   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics has no such errors.
+   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics refuses this option,
+   *  because it does not integrate.
    *
    *  Without this option, a fixed-step run starts a second integration only if the sum of its local
    *  errors becomes large enough to matter. Default: false. */
@@ -367,8 +373,9 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
  *  and the new state violates the constraints by at most counters.max_phi and
  *  counters.max_phi_rate, it is used as it is. Otherwise the option `start` decides whether the new
  *  state is assembled, refused or used as it is. q determines angles of spatial joints only up to
- *  whole revolutions. Each such angle takes the possible value nearest to its last one or, if a
- *  driver acts on it and t differs from the time of the run, nearest to the value of the driver.
+ *  whole revolutions. Each such angle takes the possible value that is nearest to its last value.
+ *  There is one exception: if a driver prescribes the angle, and t differs from the time of the
+ *  run, the angle takes the possible value that is nearest to the value of the driver.
  *  baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
@@ -394,8 +401,8 @@ BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
  *  laws of drivers of the other run. The options, counters and warnings of the present run do not
  *  change. A run with another integrator, formulation, tolerance or solver can thus continue where
- *  the other run has failed. q and v are changed by the least amount that satisfies the
- *  constraints, unless the option `start` is BAUM_START_AS_GIVEN.
+ *  the other run has failed. q and v are changed only as much as is necessary to satisfy the
+ *  constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
  *  @param from        the other run. Its mechanism must be the same, or another one with the same
  *                     elements and the same numbers in their definitions
@@ -474,8 +481,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  @param[out] buffer      (capacity) of any alignment. If it is NULL, the function writes only
  *                          size, and does not change the run.
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
- *                          constant during a run, except that each time of a schedule adds 32
- *                          bytes.
+ *                          constant during a run, except that every scheduled change of an input
+ *                          adds 32 bytes.
  *  @param[out] size        [byte] number of bytes written; if buffer is NULL, a number of bytes
  *                          that is sufficient
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback); unchanged on failure
@@ -755,7 +762,8 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  inputs and drivers does not reset it. Work is positive if it adds energy to the mechanism.
  *
  *  The residual is the part of the energy that no work explains; it is the energy error of the
- *  method. It decreases with the step at the order of the method, or with the tolerance. If an
+ *  method. With a fixed step h, the residual is proportional to h^p for small h, where p is the
+ *  order of the method. With variable steps, the residual decreases with the tolerance. If an
  *  evaluation for the account fails, the account ends with a warning. Its work terms and the
  *  residual are then NaN. The account does not change the motion.
  *
@@ -814,19 +822,21 @@ typedef enum baum_branch {
 } baum_branch;
 
 /** A near-singular interval: an interval of time in which a run was near a singular configuration.
- *  To detect it, a run monitors p, the smallest pivot of the equations of motion divided by the
- *  largest value that this pivot has had in the run so far. Close to a singular configuration, p is
- *  proportional to the square of the distance from this configuration. The interval consists of the
- *  times at which p is below 0.02, and may lie inside one step. When the run has left the interval,
- *  it adds the interval to its list if p has fallen below 1e-3, or if p would have done so without
- *  the constraint violation. */
+ *  To detect such intervals, a run computes the smallest pivot of the equations of motion at each
+ *  state. Let p be this smallest pivot, divided by the largest value that the smallest pivot has
+ *  had at any state of the run so far. Close to a singular configuration, p is proportional to the
+ *  square of the distance from this configuration. The interval consists of the times at which p is
+ *  below 0.02, and may lie inside one step. When the run has left the interval, it adds the
+ *  interval to its list if the Jacobian J of the constraints loses rank in the interval and p has
+ *  fallen below 1e-3. If J loses rank, and only a constraint violation has kept p above 1e-3, the
+ *  run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of the last step before the interval. */
   double end;         /**< [s] end of the first step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval. p is the smallest pivot, divided by the largest value that
-   *  this pivot has had in the run so far. */
+  /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
+   *  largest value that the smallest pivot has had at any state of the run so far. */
   double pivot;
   /** [-] by how much the velocity after the interval differs from a smooth continuation of the
    *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
@@ -868,7 +878,8 @@ typedef enum baum_warning_code {
   /** Several motions may start from the initial configuration. */
   BAUM_WARNING_SINGULAR_START = 104,
   /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion
-   *  spring nearly pointed in opposite directions, and a step was too long for its angle there. */
+   *  spring nearly pointed in opposite directions, and a step was too long to follow the angle of
+   *  the spring. */
   BAUM_WARNING_BUSHING = 105,
   /** A user function returned a wrong derivative at a state of the run. */
   BAUM_WARNING_WRONG_DERIVATIVE = 106
@@ -889,8 +900,8 @@ typedef struct baum_warning {
   double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
   /** Message of the first warning, followed by the number of warnings. The text ends with the code
-   *  and the name, such as "[warning 104 singular_start]". Under this heading,
-   *  docs/cookbook/warnings.md explains the warning and says what to do. */
+   *  and the name, such as "[warning 104 singular_start]". In docs/cookbook/warnings.md, the
+   *  section with the same code and name explains the warning and says what to do. */
   char text[400];
 } baum_warning;
 
@@ -904,8 +915,8 @@ typedef struct baum_warning {
 BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k,
                                              baum_warning *out, size_t caller_size);
 
-/** Explain a run in words: its formulation and integrator, its gains, why they were chosen and
- *  whether they are stable, its solver, redundant rows and tolerances.
+/** Explain a run in words: its formulation and integrator; its gains, why these gains were chosen
+ *  and whether they are stable; its solver, redundant rows and tolerances.
  *  @param simulation  may be NULL
  *  @return  text owned by the run; NULL if the argument is NULL */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);

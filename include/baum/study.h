@@ -138,8 +138,11 @@ typedef struct baum_study_grid {
   baum_formulation formulation;
   int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
   /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
-   *  integrator's default rule and to automatic gains. The first gain is the angular velocity of
-   *  the motion; each further gain is ten times the gain before it. Default: 2. */
+   *  integrator's default rule and to automatic gains. The first gain is the rate of the motion
+   *  [1/s]. This rate is the larger of two numbers: the rate r at the start, which the description
+   *  of the run option tolerance_lambda defines, and the mean of the largest |v_j| / s_j over a
+   *  trial run, where s_j is the scale of coordinate j. Each further gain is ten times the gain
+   *  before it. Default: 2. */
   int32_t constants;
   /** [s] > 0, longest step of methods of the orders 3 to 5. The longest steps of methods of the
    *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, chosen from the time scale
@@ -149,10 +152,10 @@ typedef struct baum_study_grid {
    *  user constraint has neither jacobian nor gamma, NaN means 1e-11, because finite differences
    *  are not more accurate than this. */
   double finest;
-  /** A smaller grid for a first answer. It costs about a 25th of the default grid. It contains
-   *  every integrator with its default gains and its default formulation, or with `formulation` if
-   *  this field is set. Each integrator has at most 5 settings, and `constants` is ignored.
-   *  Default: false. */
+  /** A smaller grid for a first answer. Its cost is approximately 1/25 of the cost of the default
+   *  grid. It contains every integrator with its default gains and its default formulation, or with
+   *  `formulation` if this field is set. Each integrator has at most 5 settings, and `constants` is
+   *  ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -258,11 +261,11 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *
  *  If the option file is set, the study appends every result to this file as a line of text as soon
  *  as the result is known. When this function returns, all results are on the disk. Another study
- *  can continue with this file if it has the same mechanism, initial positions, velocities and
- *  inputs, span, samples, error, reference and option energy_account, and runs with the same
- *  version of the library. It then reads the results of its entries from the file; a last line that
- *  is cut off does no harm. The study does not compare user functions. Only one process at a time
- *  may use the file.
+ *  can continue with this file if both studies have the same mechanism, the same initial positions,
+ *  velocities and inputs, and the same span, samples, error, reference and option energy_account,
+ *  and if both run with the same version of the library. The other study then reads the results of
+ *  its entries from the file; a last line that is cut off does no harm. The library does not check
+ *  whether the user functions are the same. Only one process at a time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -343,8 +346,9 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
  *  those of BAUM_STUDY_ENTRY_LIST. A result that is not known is NaN. error_validated is infinite
- *  if the setting fails in the validation. It is NaN for entries that are not validated because
- *  they cost far more than other entries of the same accuracy. */
+ *  if the setting fails in the validation. It is NaN for entries that are not validated. The study
+ *  does not validate an entry if its work is much larger than the work of another entry that is at
+ *  least as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
   const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
@@ -398,8 +402,8 @@ typedef enum baum_study_origin {
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
   baum_study_origin origin; /**< Where the reference comes from. */
-  /** False if the study has computed the reference itself, and its reference runs agree to fewer
-   *  than three digits or have met a singular configuration. */
+  /** False if the study has computed the reference itself, but the runs that compute it agree to
+   *  fewer than three digits or pass near a singular configuration. */
   bool trusted;
   /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is
    *  computed. */
@@ -410,8 +414,8 @@ typedef struct baum_study_reference {
   double uncertainty_lambda; /**< [-] uncertainty of error_lambda. */
   double uncertainty_energy; /**< [J] uncertainty of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  /** A text that says to how many digits the reference runs agree, or why the reference is not
-   *  trusted. */
+  /** A text that says to how many digits the runs that compute the reference agree, or why the
+   *  reference is not trusted. */
   const char *text;
 } baum_study_reference;
 
@@ -454,8 +458,8 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /** A measure of cost. */
 typedef enum baum_study_cost {
-  /** [-] number of evaluations, plus the number of factorizations and iterations of implicit
-   *  methods. It is the same on every machine. */
+  /** [-] number of evaluations, plus number of factorizations, plus number of iterations of
+   *  implicit methods. It is the same on every machine. */
   BAUM_STUDY_WORK = 0,
   BAUM_STUDY_CPU = 1 /**< [s] measured CPU time. */
 } baum_study_cost;
@@ -464,8 +468,8 @@ typedef enum baum_study_cost {
  *  or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size; /**< Set by baum_study_method_at(). */
-  /** Such as "rk8 projection". Methods with fixed and with variable steps have the same name;
-   *  fixed_step tells them apart. */
+  /** Such as "rk8 projection". If an integrator can use fixed and variable steps, two of its
+   *  methods have the same name; fixed_step tells them apart. */
   const char *name;
   const baum_integrator *integrator; /**< Integrator of its entries. */
   baum_formulation formulation;      /**< Formulation of its entries. */
@@ -481,8 +485,8 @@ typedef struct baum_study_method {
   double work_per_digit;
   /** [-] factor by which the CPU time grows for one more correct digit; NaN: unknown. */
   double cpu_per_digit;
-  /** [-] geometric mean of error_validated / error over its entries; NaN if the validation of no
-   *  entry was completed. */
+  /** [-] geometric mean of error_validated / error over those of its entries for which
+   *  error_validated is finite; NaN if there are none. */
   double growth;
 } baum_study_method;
 
@@ -504,16 +508,17 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] size of `entries`; >= 0
  *  @param[out] entries   (capacity) numbers of the entries on the front, from the cheapest to the
- *                        most accurate; only the first ones if there are more than capacity. NULL
- *                        if capacity is 0.
+ *                        most accurate; if the front has more than `capacity` entries, only the
+ *                        cheapest ones. NULL if capacity is 0.
  *  @param[out] count     [-] number of entries on the front, which may exceed the capacity
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
 /** Compute what a method costs for a given error. The cost is interpolated between entries,
- *  linearly in the logarithms of error and cost. Beyond the first and the last entry the cost is
- *  extrapolated, but not farther than the distance of two neighbouring entries.
+ *  linearly in the logarithms of error and cost. Before the first entry, the cost is extrapolated
+ *  by at most the distance between the first two entries. After the last entry, it is extrapolated
+ *  by at most the distance between the last two entries.
  *  @param      study   the study
  *  @param      method  0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0
@@ -538,7 +543,7 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *  lie between those of two entries. The function uses a safety margin and the errors of the
  *  validation (error_validated), so that the setting is also accurate enough for similar starts and
  *  for twice the span. If no entry is accurate enough with this margin, the result is a setting
- *  whose measured error is small enough without it, and `why` says so.
+ *  whose measured error is small enough without the margin, and `why` says so.
  *  @param      study        after baum_study_run(); unchanged
  *  @param      error        [-] > 0, largest error that you accept; see baum_study_set_error()
  *  @param      cost         how cost is measured

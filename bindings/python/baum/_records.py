@@ -237,8 +237,8 @@ class NearSingular(NamedTuple):
     begin: [s] end of the last step before the interval.
     end: [s] end of the first step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] the smallest p in the interval. p is the smallest pivot, divided by the largest
-        value that this pivot has had in the run so far.
+    pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot, divided
+        by the largest value that the smallest pivot has had at any state of the run so far.
     jump: [-] by how much the velocity after the interval differs from a smooth continuation of
         the motion before the interval, relative to the size of the velocity. NaN: unknown.
     jump_error: [-] estimated error of jump; NaN: unknown.
@@ -363,8 +363,8 @@ class StudyEntry(NamedTuple):
 class StudyMethod(NamedTuple):
     """Entries of a study with the same integrator, formulation and gains.
 
-    name: Such as "rk8 projection". Methods with fixed and with variable steps have the same
-        name; fixed_step tells them apart.
+    name: Such as "rk8 projection". If an integrator can use fixed and variable steps, two of
+        its methods have the same name; fixed_step tells them apart.
     integrator: Integrator of its entries.
     formulation: Formulation of its entries.
     gains: Gain rule of its entries.
@@ -377,8 +377,8 @@ class StudyMethod(NamedTuple):
     work_per_digit: [-] factor by which the work grows for one more correct digit; NaN: unknown.
     cpu_per_digit: [-] factor by which the CPU time grows for one more correct digit; NaN:
         unknown.
-    growth: [-] geometric mean of error_validated / error over its entries; NaN if the
-        validation of no entry was completed.
+    growth: [-] geometric mean of error_validated / error over those of its entries for which
+        error_validated is finite; NaN if there are none.
     """
 
     name: str
@@ -399,8 +399,8 @@ class StudyReference(NamedTuple):
     """How far the reference of a study can be trusted.
 
     origin: Where the reference comes from.
-    trusted: False if the study has computed the reference itself, and its reference runs agree
-        to fewer than three digits or have met a singular configuration.
+    trusted: False if the study has computed the reference itself, but the runs that compute it
+        agree to fewer than three digits or pass near a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
         reference is computed.
     uncertainty: [-] uncertainty of `error`.
@@ -409,8 +409,8 @@ class StudyReference(NamedTuple):
     uncertainty_lambda: [-] uncertainty of error_lambda.
     uncertainty_energy: [J] uncertainty of energy_error.
     samples: [-] number of samples.
-    text: A text that says to how many digits the reference runs agree, or why the reference is
-        not trusted.
+    text: A text that says to how many digits the runs that compute the reference agree, or why
+        the reference is not trusted.
     """
 
     origin: str
