@@ -18,13 +18,13 @@ extern "C" {
  *  that it has after the break.
  *
  *  No step crosses a break time (in short, a break), whether the run goes forward or backward in
- *  time. In a forward run, one step ends a few rounding errors of the time before the break, and
+ *  time. In a forward run, one step ends just before the break (a few rounding errors earlier), and
  *  the next step begins at the break. Methods that use past steps restart at the break
  *  (baum_counters.restarts counts this). If a break is not on the grid of a fixed-step method, the
  *  method shortens the step before the break (baum_counters.short_steps counts this) and begins a
- *  new grid at the break. Breaks do not change the times of outputs, with one exception: if a
- *  requested time differs from a break only by rounding, the output is moved to the time of the
- *  break.
+ *  new grid at the break. Breaks do not change the times of outputs, with one exception: if the
+ *  requested time of an output differs from a break only by rounding, the output is moved to the
+ *  time of the break.
  *
  *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
  *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()

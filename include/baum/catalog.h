@@ -50,7 +50,7 @@ typedef struct baum_catalog_entry {
   const char *provenance;
   const char *note;        /**< Advice for simulating the mechanism; may be "". */
   int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
-  int32_t sample_count;    /**< [-] number of stored samples; 0 if there are none. */
+  int32_t sample_count;    /**< [-] number of sample times; 0 if there is no reference. */
   double start_time;       /**< [s] start of the motion and of its reference. */
   double end_time;         /**< [s] end of the motion and of its reference. */
   /** [-] number of correct digits of the reference positions: the error of a position q is at most
@@ -128,7 +128,8 @@ BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choic
 
 /* ---- references ------------------------------------------------------------------------------ */
 
-/** Read the times of the samples of a reference.
+/** Read the times of the samples of a reference. If the reference consists of formulas, these are
+ *  times at equal distances.
  *  @param[in]  name   name of the entry
  *  @param[out] times  (sample_count) [s] rising, from start_time to end_time
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (the entry has no reference) */

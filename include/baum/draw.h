@@ -230,10 +230,10 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
 BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum_page *page,
                                      char *text, size_t capacity, size_t *size);
 
-/** Draw one sample of a page as an SVG picture. The picture contains the paths of the traces up to
- *  this sample, and reactions as arrows. It does not contain the plots, the marks and the title of
- *  the page. Its frame is large enough for the whole motion, so that pictures of several samples
- *  have the same scale.
+/** Draw one sample of a page as an SVG picture. The picture contains the paths of the points in
+ *  `traces` up to this sample, and reactions as arrows. It does not contain the plots, the marks
+ *  and the title of the page. Its frame is large enough for the whole motion, so that pictures of
+ *  several samples have the same scale.
  *  @param      mechanism  frozen
  *  @param[in]  page       what the page shows
  *  @param      sample     [-] >= 0, < count of the page

@@ -32,7 +32,7 @@ extern "C" {
 typedef struct baum_workspace baum_workspace;
 
 /** Create a workspace. The mechanism stays in memory as long as the workspace exists. This call
- *  also determines the redundant rows, starting from the design configuration at t = 0.
+ *  also determines the redundant constraint rows, starting from the design configuration at t = 0.
  *  @param      mechanism  frozen
  *  @param[out] out        receives the workspace, NULL on failure; release it with
  *                         baum_workspace_destroy()
@@ -161,10 +161,10 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  accelerations a and the multipliers lambda. With alpha = beta = 0, this is equation 5, without
  *  stabilization.
  *
- *  The solution omits redundant rows. Where multipliers are not unique, the function returns the
- *  multipliers of least norm. This norm weights each lambda_i with the length of row i of J
- *  M^(-1/2). These multipliers balance the forces with a relative error of at most 1e-9. If the
- *  rows that are not omitted become nearly dependent on each other, the workspace chooses other
+ *  The solution omits redundant constraint rows. Where multipliers are not unique, the function
+ *  returns the multipliers of least norm. This norm weights each lambda_i with the length of row i
+ *  of J M^(-1/2). These multipliers balance the forces with a relative error of at most 1e-9. If
+ *  the rows that are not omitted become nearly dependent on each other, the workspace chooses other
  *  rows to omit, which allocates memory. From then on, baum_workspace_residual() omits the same
  *  rows.
  *  @param      workspace,t,q,v  see the top of this file
@@ -199,7 +199,7 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
  *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
  *  is a constant diagonal matrix. Its diagonal is the diagonal of M in the design configuration at
- *  t = 0, but very small entries are raised: an entry is at least m / s_k^2, where s_k is the scale
+ *  t = 0, but very small entries are raised: entry k is at least m / s_k^2, where s_k is the scale
  *  of coordinate k, and m is a millionth of the largest M_jj s_j^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
@@ -211,8 +211,8 @@ typedef enum baum_residual {
 /** The equations to evaluate: their form and their gains. */
 typedef struct baum_dae {
   baum_residual index; /**< Form of the constraints. */
-  double alpha;        /**< [1/s] finite; used only by index 1. */
-  double beta;         /**< [1/s] finite; used only by index 1. */
+  double alpha;        /**< [1/s] finite; used only by BAUM_RESIDUAL_INDEX1. */
+  double beta;         /**< [1/s] finite; used only by BAUM_RESIDUAL_INDEX1. */
 } baum_dae;
 
 /** A sparse square matrix in compressed-column form. Its size is the number of unknowns y. Within a

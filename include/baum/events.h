@@ -10,29 +10,31 @@
  *  methods interpolate the step, and fixed-step methods take shorter steps from its start. A joint
  *  coordinate may pass its value and return between two evaluations. The run usually detects both
  *  events, because it also knows the rate of the coordinate. If an event function passes zero twice
- *  between two evaluations, the run detects neither event. If this can happen, reduce max_step or
- *  the step.
+ *  between two evaluations, the run detects neither event. To avoid this, reduce max_step for
+ *  variable-step methods, or the step for fixed-step methods.
  *
  *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
- *  input changes (baum/breaks.h). This is an event at the time of the break. In a backward run, its
- *  time is a few rounding errors before the break.
+ *  input changes (baum/breaks.h). This jump is an event at the time of the break. In a backward
+ *  run, the time of the event is a few rounding errors before the break.
  *
  *  Zero at the start: an event function may be zero at the start of a run, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
- *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not
- *  an event, either, because rounding errors of the start may be the cause. Every later zero is an
- *  event. "Shortly" means within 1e-10 T, or within the tolerance of the event if that is longer. T
- *  is 1/r, where r is the rate of the motion, which baum_simulation_explain() states. For the
- *  method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state onto
- *  the constraints. To find the side of zero to which the motion starts, the run also evaluates
- *  event functions for other velocities than those of the state, and at times up to 2e-5 T after
- *  the start, with q moved along v.
+ *  then leaves zero, this is not an event. If it returns to zero shortly afterwards, this is not an
+ *  event, either, because rounding errors of the starting state may be the cause. Every later zero
+ *  is an event. "Shortly" means within 1e-10 T, or within the tolerance of the event if that is
+ *  longer. T is 1/r, where r is the rate of the motion, which baum_simulation_explain() states. For
+ *  the method IDA, "shortly" means 10 rtol T instead of 1e-10 T, because IDA first moves the state
+ *  onto the constraints. To find the sign that an event function takes when the motion starts, the
+ *  run also evaluates the function for other velocities than those of the state, and at times up to
+ *  2e-5 T after the start, with q moved along v.
  *
- *  Impacts: the impacts of a bouncing body may follow each other ever faster. In the end, a
- *  terminal event happens again shortly after it was recorded, although the new velocities moved
- *  its value away from zero. Or the method computes the velocities at the next impact with the
- *  wrong sign. In both cases the run fails with BAUM_ERR_STEP, because the body would otherwise
- *  fall through its stop. Let such a body rest once it is slow (docs/cookbook/stop.md).
+ *  Impacts: a program may model the impacts of a body on a stop by a terminal event, and reverse
+ *  the velocities at each impact. The impacts may follow each other ever faster. In the end, one of
+ *  two cases occurs: the event happens again shortly after the last impact, although the reversed
+ *  velocities move the event function away from zero; or the method computes velocities with the
+ *  wrong sign at the next impact. In both cases the run fails with BAUM_ERR_STEP, because the body
+ *  would otherwise fall through its stop. Let such a body rest once it is slow
+ *  (docs/cookbook/stop.md).
  *
  *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no
  *  event. If such a call changes the sign of an event function, the run continues with the new
@@ -84,10 +86,10 @@ static inline baum_event_def baum_event_def_default(void)
 
 /** Add an event to a run. The run looks for the event from the present state on. When a run stops
  *  at an event, the call that advances the run returns BAUM_STOP_EVENT, and the state of the run is
- *  the state at the event. The next call continues the run. If the call was
- *  baum_simulation_sample(), it has filled the rows of the times before the event. If several
- *  events happen at the same time, the run records all of them before it stops. If an event happens
- *  exactly at the time at which a call ends, that call records it.
+ *  the state at the event. The next call continues the run. If baum_simulation_sample() returns
+ *  BAUM_STOP_EVENT, it has filled the rows of the times before the event. If several events happen
+ *  at the same time, the run records all of them before it stops. If an event happens exactly at
+ *  the time at which a call ends, that call records it.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives the number of the event; events are numbered 0, 1, ... in the

@@ -45,12 +45,12 @@
  *  Versions: new versions of the library add fields only at the end of a struct. `struct_size`
  *  tells the library which fields a program knows. A program that was compiled with an older
  *  version passes a smaller struct; the fields that it does not know then have their defaults. Any
- *  other size is refused (BAUM_ERR_STRUCT), such as 0 in an all-zero struct, or the size in a newer
- *  version. If the library fills a struct, it writes only the first caller_size bytes, and at most
- *  as many as its own struct has; the struct_size that it writes is that of its own struct.
+ *  other size is refused (BAUM_ERR_STRUCT), such as 0 in an all-zero struct, or the larger size of
+ *  a newer version. A function that fills a struct writes at most caller_size bytes, and at most
+ *  the size that the struct has in the library. It sets struct_size to the size in the library.
  *
- *  Elements cannot be removed from a mechanism. Every object is destroyed once; to destroy it again
- *  is an error that the library cannot detect.
+ *  Elements cannot be removed from a mechanism. Destroy every object only once, because the library
+ *  cannot detect that an object has already been destroyed.
  *
  *  Callbacks are functions of yours that the library calls. Their arguments q and v hold the
  *  coordinates of the bodies that the definition names, one body after the other. Matrices are
@@ -161,10 +161,11 @@ typedef void baum_normalize_fn(double *q, void *user);
  *
  *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
  *  quaternion, set position_scale and the fields below it; the time derivative of q is then N(q) v.
- *  In this case every function except `rate` receives a normalized q. Derivatives with respect to
- *  q, such as force_q, are then derivatives along the `size` components of a displacement. This
- *  also applies to constraints on these coordinates: their Jacobian is Phi_q N, not Phi_q. The
- *  functions rate, move, difference and normalize report a failure by writing NaN. */
+ *  In this case every function except `rate` and `normalize` receives a normalized q. Derivatives
+ *  with respect to q, such as force_q, are then derivatives along the `size` components of a
+ *  displacement. This also applies to constraints on these coordinates: their Jacobian is the
+ *  product of dPhi/dq and N. The functions rate, move, difference and normalize report a failure by
+ *  writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
@@ -346,9 +347,9 @@ typedef enum baum_joint_coordinate {
 /* ---- drivers --------------------------------------------------------------------------------- */
 
 /** A driver prescribes a coordinate of a joint as a function of time. It adds one row,
- *  coordinate(q) - s(t) = 0. The function s(t) is the polynomial value + rate t + acceleration t^2
- *  / 2, or a law of your own. Whole revolutions of an angle of a spatial joint do not change this
- *  row. */
+ *  coordinate(q) - s(t) = 0. The function s(t) is value + rate * t + acceleration * t^2 / 2, where
+ *  value, rate and acceleration are fields of the definition, or it is a law of your own. Whole
+ *  revolutions of an angle of a spatial joint do not change the value of this row. */
 typedef struct baum_driver_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -356,7 +357,7 @@ typedef struct baum_driver_def {
   double value;        /**< [rad or m] s at t = 0. Default: 0. */
   double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
   double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
-  /** A law that replaces the polynomial, whose three numbers must then be 0. Default: NULL. */
+  /** A law that replaces value, rate and acceleration, which must then be 0. Default: NULL. */
   baum_law_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
@@ -394,9 +395,9 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
- *  f(coordinate_a) = 0, where f(x) is ratio x + offset, or a law of your own. A coupling with a law
- *  can model a cam whose follower moves along coordinate_b. The two joints may share a body: for
- *  example, both may be joints to ground. A coupling of the angle and the displacement of one
+ *  f(coordinate_a) = 0, where f(x) is ratio * x + offset, or a law of your own. A coupling with a
+ *  law can model a cam whose follower moves along coordinate_b. The two joints may share a body:
+ *  for example, both may be joints to ground. A coupling of the angle and the displacement of one
  *  cylindrical joint is a screw.
  *
  *  Angles of spatial joints are known only up to whole revolutions. Without a law, the row
@@ -712,8 +713,8 @@ typedef struct baum_mobility {
   int32_t conflicting_rows; /**< [-] rows that contradict the other rows. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
   /** True if the initial configuration is singular, which means that J has a lower rank there than
-   *  at nearby configurations. Also true if the initial configuration is within 1e-5 of a singular
-   *  one, relative to the scales. */
+   *  at nearby configurations. Also true if a row of J is nearly dependent only there, which means
+   *  that its distance from the span of the other rows is less than 1e-5 of its length. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< The joint whose row has the violation worst_phi. */
@@ -748,7 +749,7 @@ typedef struct baum_report {
   /** [-] nv minus the rank of J; -1 if it is not known, see baum_mechanism_mobility(). */
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
-  int32_t constant_rows;  /**< [-] rows that do not depend on time. */
+  int32_t constant_rows;  /**< [-] rows that do not depend explicitly on time. */
   /** [-] groups of bodies that joints connect with each other. Fixed bodies do not count. */
   int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
@@ -757,12 +758,12 @@ typedef struct baum_report {
   bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
   bool constant_force; /**< True if all forces are constant. */
   bool blocks;         /**< True if BAUM_SOLVER_BLOCK solves the equations, false if KLU does. */
-  /** [-] nodes of the block solver (a node is a pair of rows); 0 for KLU. */
+  /** [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism has
+   *  spatial bodies but no user coordinates; otherwise it is a pair of rows. */
   int32_t nodes;
   int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
   int32_t fill; /**< [-] pairs of nodes that become coupled only by the elimination; 0 for KLU. */
-  /** [-] largest number of later eliminated nodes with which a single node is coupled; 0 for
-   *  KLU. */
+  /** [-] largest number of couplings that a node has when it is eliminated; 0 for KLU. */
   int32_t most_couplings;
   int32_t most_joints; /**< [-] number of joints of the body most_joined. */
   /** The body with the most joints, among bodies that are not fixed; none if there are no joints.

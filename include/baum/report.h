@@ -45,7 +45,7 @@ typedef enum baum_report_form {
  *  @param     form   form of the report
  *  @param[in] title  title of the report; CSV has none. NULL: "Study".
  *  @param[in] path   path of the file
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message has the system's reason),
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message gives the reason),
  *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form form,
                                       const char *title, const char *path);

@@ -15,8 +15,8 @@
  *  Reaction of a joint: the force [N] and the moment [N m] that the joint exerts on body_b, in
  *  ground axes. The moment is about the joint's point on body_b. If a driver acts on the joint, the
  *  reaction does not include the force or torque of the driver. If a body is planar, the reaction
- *  includes the force across the plane z = 0 and the moments about x and y. These parts do not move
- *  the body, which stays in this plane.
+ *  includes a force perpendicular to the plane z = 0 and moments about x and y. These parts do not
+ *  move the body, which stays in this plane.
  */
 #ifndef BAUM_SPATIAL_H
 #define BAUM_SPATIAL_H
@@ -236,8 +236,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  counts the revolutions of this angle. The bodies need not be connected by a joint. If the spring
  *  should act on a coordinate of a joint, use a joint spring instead. If axis and axis_b point in
  *  opposite directions, the angle is undefined and the torque is zero. Near this position, a small
- *  rotation changes the angle by up to 2 pi. A run whose steps are too long for this warns with
- *  BAUM_WARNING_BUSHING. */
+ *  rotation changes the angle by up to 2 pi. If the steps of a run are too long to follow this
+ *  change of the angle, the run warns with BAUM_WARNING_BUSHING. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */

@@ -342,7 +342,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
 
 /* ---- screw ----------------------------------------------------------------------------------- */
 
-/** A screw joint: a cylindrical joint whose displacement is offset + pitch angle / (2 pi). The
+/** A screw joint: a cylindrical joint whose displacement is offset + pitch * angle / (2 pi). The
  *  joint has five rows: two make the axes of both bodies parallel [-], two keep body_b's point on
  *  the line through body_a's point along the axis [m], and the last describes the thread [m]. This
  *  last row is evaluated modulo the pitch, so it does not depend on the number of revolutions. The
@@ -397,7 +397,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 /** A constant-velocity joint, such as a Rzeppa joint: two shafts meet at a point and rotate with
  *  equal angular velocities about their axes, at any angle between the axes. The joint has four
  *  rows: three make the points of both bodies coincide [m], and one [-] keeps the twist of body_b
- *  relative to body_a (their relative rotation about the shaft axis) at 0. The angle between the
+ *  relative to body_a (their relative rotation about the shaft axes) at 0. The angle between the
  *  axes must stay below 180 degrees. The derivatives of the fourth row are proportional to the
  *  cosine of half this angle, so the joint is ill-conditioned close to 180 degrees. */
 typedef struct baum_spatial_constant_velocity_def {

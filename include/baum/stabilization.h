@@ -66,8 +66,8 @@ typedef struct baum_gains {
  *
  *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
  *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
- *  and the steady |Phi| is about h |gamma| / alpha. With other methods the violation decreases with
- *  h at the order of the method.
+ *  and the steady |Phi| is about h |gamma| / alpha. With other methods, a steady violation is
+ *  approximately proportional to h^p, where p is the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
  *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
@@ -102,12 +102,12 @@ BAUM_API baum_gains baum_gains_taylor(void);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Dead-beat gains, for which both roots z are zero. No gains decay faster: a violation vanishes
- *  after at most two steps. For explicit Euler these gains are alpha = beta = 1/h, for
- *  semi-implicit Euler alpha = 1/(2h) and beta = 1/h, and for RK2 alpha = 1/h and beta = sqrt(2)/h.
- *  For other Runge-Kutta methods they follow from a zero of the stability polynomial. With explicit
- *  Euler, the steady violations are |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma|. With
- *  semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
+/** Dead-beat gains, for which both roots z are zero. No other gains make violations decay faster: a
+ *  violation vanishes after at most two steps. For explicit Euler these gains are alpha = beta =
+ *  1/h, for semi-implicit Euler alpha = 1/(2h) and beta = 1/h, and for RK2 alpha = 1/h and beta =
+ *  sqrt(2)/h. For other Runge-Kutta methods they follow from a zero of the stability polynomial.
+ *  With explicit Euler, the steady violations are |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma|.
+ *  With semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
  *
  *  With these gains Runge-Kutta methods lose order, because the gains grow when the step is
  *  reduced: the orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2. Errors are larger than without gains, by
@@ -134,17 +134,18 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *    longer than fixed steps. If drivers prescribe the whole motion, it is 2.
  *
  *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
- *  method. The gains are therefore always stable. The steady violation is about the local error of
- *  a step, and violations decay over some radians of the motion. The method keeps its order, and
- *  the run costs as much as a run without gains.
+ *  method. The gains are therefore always stable. The steady violation is approximately as large as
+ *  the local error of a step, and violations decay over some radians of the motion. The method
+ *  keeps its order, and the run costs as much as a run without gains.
  *
  *  When a run is created, a short pilot run determines the angular velocity. It takes 5 steps and
  *  14 evaluations, which the counters of the run include. If the pilot run fails, the library uses
  *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
- *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), the angular frequency of
- *  a pendulum of length L. For a mechanism at rest in equilibrium without gravity, alpha is 0.01/h
- *  with a fixed step. With variable steps, alpha is then 1 per second, which only suits machines
- *  with time scales of seconds. docs/theory/gain_rules.md compares other factors.
+ *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), where g is the magnitude
+ *  of gravity; this is the angular frequency of a pendulum of length L. For a mechanism at rest in
+ *  equilibrium without gravity, alpha is 0.01/h with a fixed step. With variable steps, alpha is
+ *  then 1 per second, which only suits machines with time scales of seconds.
+ *  docs/theory/gain_rules.md compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 

@@ -21,8 +21,9 @@ class Mobility(NamedTuple):
     conflicting_rows: [-] rows that contradict the other rows.
     free_bodies: [-] bodies without a joint.
     near_singular: True if the initial configuration is singular, which means that J has a lower
-        rank there than at nearby configurations. Also true if the initial configuration is
-        within 1e-5 of a singular one, relative to the scales.
+        rank there than at nearby configurations. Also true if a row of J is nearly dependent
+        only there, which means that its distance from the span of the other rows is less than
+        1e-5 of its length.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: The joint whose row has the violation worst_phi.
     text: The results in words, with the names of elements.
@@ -54,7 +55,7 @@ class Report(NamedTuple):
     rows: [-] nc.
     degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
     redundant_rows: [-] rows omitted from every solution.
-    constant_rows: [-] rows that do not depend on time.
+    constant_rows: [-] rows that do not depend explicitly on time.
     islands: [-] groups of bodies that joints connect with each other. Fixed bodies do not
         count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
@@ -62,11 +63,12 @@ class Report(NamedTuple):
     constant_mass: True if the mass matrix is constant; it is then inverted only once.
     constant_force: True if all forces are constant.
     blocks: True if "block" solves the equations, false if KLU does.
-    nodes: [-] nodes of the block solver (a node is a pair of rows); 0 for KLU.
+    nodes: [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism
+        has spatial bodies but no user coordinates; otherwise it is a pair of rows.
     couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
     fill: [-] pairs of nodes that become coupled only by the elimination; 0 for KLU.
-    most_couplings: [-] largest number of later eliminated nodes with which a single node is
-        coupled; 0 for KLU.
+    most_couplings: [-] largest number of couplings that a node has when it is eliminated; 0 for
+        KLU.
     most_joints: [-] number of joints of the body most_joined.
     most_joined: The body with the most joints, among bodies that are not fixed; none if there
         are no joints.
@@ -454,7 +456,7 @@ class CatalogEntry(NamedTuple):
         reference.
     note: Advice for simulating the mechanism; may be "".
     parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
-    sample_count: [-] number of stored samples; 0 if there are none.
+    sample_count: [-] number of sample times; 0 if there is no reference.
     start_time: [s] start of the motion and of its reference.
     end_time: [s] end of the motion and of its reference.
     digits_q: [-] number of correct digits of the reference positions: the error of a position q
