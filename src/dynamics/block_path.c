@@ -16,8 +16,8 @@ enum { MOST_REFINEMENTS = 3 };
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 /* In space, the accelerations also contribute to the change. A refinement that converges gains at
- * least four digits, so no further refinement is necessary after a change this small. If
- * refinements gain fewer digits, their changes stay large. */
+ * least four digits, so no further refinement is necessary after a change this small. Refinements
+ * that gain fewer digits do not reach this limit. */
 static const double SETTLED_IN_SPACE = 1e-9;
 /* A refinement with a residual in working precision leaves an error of up to the size of its
  * change. */

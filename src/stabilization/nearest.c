@@ -54,8 +54,8 @@ static bool is_good_node(const lattice *l, int i, int j, double at[2])
   return baum_i_chart_within(l->method, at, GOOD_GROWTH);
 }
 
-/* Examines all lines of the lattice. The lattice has one more node on every side. The border of the
- * chart thus counts as an edge of the region. */
+/* Examines all lines of the lattice, and also one node beyond both ends of each line. Nodes outside
+ * the chart are not good, so the border of the chart counts as an edge of the region. */
 static void cross_all(lattice *l)
 {
   bool column[CELLS + 3] = {false}; /* whether each node of the previous column is good */

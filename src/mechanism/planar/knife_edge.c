@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Knife edge, planar: relative to body_b, a point of body_a moves only along a blade that is fixed
- * in body_a. The point has the arm p. The row is of velocity level. With the unit vector t along
+/* Knife edge, planar: body_a has a blade. Relative to body_b, a point of the blade has no velocity
+ * across the blade. The point has the arm p. The row is of velocity level. With the unit vector t along
  * the blade, the unit vector k along z, n = k x t, R = r_a - r_b and D = R + p, the velocity of the
  * point relative to body_b across the blade is
  *
