@@ -30,8 +30,9 @@ double saddle_random(uint64_t *seed);
 
 /* Makes a chain of bodies, each with 3 or 6 velocities and a dense positive definite mass matrix.
  * Its joints have 1 to 3 rows. Some additional rows close loops. The rows of J are independent.
- * Blocks and columns are listed out of order, with gaps between their values. f and r contain
- * random numbers. There is no shift, and no row is omitted. */
+ * Blocks and columns are listed out of order, and `mass` and `jacobian` have unused entries between
+ * the entries of the blocks. f and r contain random numbers. There is no shift, and no row is
+ * omitted. */
 saddle saddle_make_random(uint64_t seed, int bodies);
 
 /* Makes N coupled planar four-bars. They consist of N + 1 parallel rods of 1 m, which are pinned to

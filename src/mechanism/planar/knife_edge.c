@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Knife edge, planar: body_a has a blade. Relative to body_b, a point of the blade has no velocity
- * across the blade. The point has the arm p. The row is of velocity level. With the unit vector t along
- * the blade, the unit vector k along z, n = k x t, R = r_a - r_b and D = R + p, the velocity of the
- * point relative to body_b across the blade is
+ * across the blade. The point has the arm p. The row is of velocity level. With the unit vector t
+ * along the blade, the unit vector k along z, n = k x t, R = r_a - r_b and D = R + p, the velocity
+ * of the point relative to body_b across the blade is
  *
  *   J v = n . (r_a' + w_a k x p - r_b' - w_b k x D),   nu = 0
  *   J   = [ n   c   -n   -(t . R + c) ],   c = t . p                       (6 columns)
