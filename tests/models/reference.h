@@ -18,8 +18,8 @@ typedef struct reference {
   const char *entry;   /* name of the catalogue's entry, if q is NULL */
   const char *lengths; /* (width) 'm' for each length, 'r' for each angle */
   void (*columns)(const double *q,
-                  /* (width) computes the columns from all coordinates; if it is NULL, the columns
-                   * are the coordinates. */
+                  /* (width) receives the columns, which are computed from all coordinates; if
+                   * `columns` is NULL, the columns are the coordinates. */
                   double *out);
 } reference;
 
