@@ -35,7 +35,7 @@ typedef struct reference_run {
 reference_run reference_compare(const reference *with, const baum_mechanism *mechanism,
                                 const baum_simulation_options *options);
 
-/* Runs with tolerances from 1e-4 to 1e-12. */
+/* The results of runs with the tolerances 1e-4, 1e-5, ..., 1e-12. */
 enum { REFERENCE_RUNGS = 9 };
 typedef struct reference_ladder {
   reference_run runs[REFERENCE_RUNGS]; /* rtol = 1e-(4 + k) */
