@@ -52,8 +52,8 @@ endif()
 
 check_linker_flag(C LINKER:-z,defs BAUM_KNOWS_z_defs)
 
-# If a symbol is nowhere defined, the linker fails here, and not when a user links the library. With
-# sanitizers this is impossible, because their symbols remain undefined in the library.
+# If a symbol is nowhere defined, the linker fails here, and not when a user links the library. The
+# option cannot be used with sanitizers, because their symbols remain undefined in the library.
 if(BAUM_KNOWS_z_defs AND NOT BAUM_SANITIZE)
   set(BAUM_NO_UNDEFINED LINKER:-z,defs)
 endif()

@@ -6,9 +6,10 @@
  * usage: bench_catalog [MECHANISM]
  *
  * The grid is small. It contains every integrator with each of its formulations, at three steps or
- * tolerances. If the formulation has gains, they are chosen by the integrator's default rule, by
- * the rule `auto`, and as two constants. Runs that take more than 0.05 s are stopped. Each run is
- * an entry of the study. tests/support/catalog_grid.h defines which entries are considered wrong.
+ * tolerances. If the formulation has gains, there is a run with the integrator's default rule for
+ * gains, a run with the rule `auto`, and runs with two constant gains. Runs that take more than
+ * 0.05 s are stopped. Each run is an entry of the study. tests/support/catalog_grid.h defines which
+ * entries are considered wrong.
  */
 #include <stdio.h>
 #include <string.h>

@@ -6,9 +6,9 @@
  *        bench_create SCENE METHOD COUNT run also advances each run to the end of the scene
  *
  * The first column of the table is the time of baum_simulation_create() and
- * baum_simulation_destroy(). In the second column, the run is also advanced to the end of the
- * scene. The last columns are the steps, rejected steps and evaluations of this run. parts/timing.h
- * defines how times are measured.
+ * baum_simulation_destroy(). The second column is the same time for a run that is also advanced to
+ * the end of the scene. The last columns are the steps, rejected steps and evaluations of this run.
+ * parts/timing.h defines how times are measured.
  */
 #include <stdio.h>
 #include <stdlib.h>

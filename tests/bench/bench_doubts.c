@@ -20,9 +20,9 @@
  *
  * The program fails if more than 3 % of the right runs of a setting are doubted. It also fails if
  * too many wrong fixed-step runs are silent, which means that no warning doubts their motion. If
- * the growth is at most 30, no wrong run may be silent. If the growth is at most 1000, at most 1 %
- * of the wrong runs may be silent. With the option error_check, no wrong run may be silent up to a
- * growth of 1e4.
+ * the growth is at most 30, no wrong run may be silent. If the growth is between 30 and 1000, at
+ * most 1 % of the wrong runs may be silent. With the option error_check, no wrong run may be silent
+ * up to a growth of 1e4.
  */
 #include <math.h>
 #include <pthread.h>

@@ -6,7 +6,7 @@
  *
  * All solvers run in this process, on the same scene and with the same code for the geometry, in
  * alternating rounds. parts/timing.h defines how times are measured. With --json, the program
- * prints one object a line.
+ * prints one JSON object per line.
  */
 #include <math.h>
 #include <stdint.h>

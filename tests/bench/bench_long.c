@@ -8,10 +8,10 @@
  *
  * The program prints a line for every decade of steps. At every sample in this decade, the energy
  * is compared with the initial energy. The line contains the smallest and the largest of these
- * differences, relative to the largest kinetic energy. The next number is the exponent p if the
- * difference grows like t^p. It is computed from this decade and the one before. The last numbers
- * are the largest violations since the start, the heap in use, and the computing time in seconds.
- * If a run fails, its message is printed.
+ * differences, relative to the largest kinetic energy. The next number is the exponent p of a
+ * difference that grows like t^p. It is computed from this decade and the one before. The last
+ * numbers are the largest violations since the start, the heap in use, and the computing time in
+ * seconds. If a run fails, its message is printed.
  */
 #include <malloc.h>
 #include <math.h>

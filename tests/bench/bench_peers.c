@@ -100,9 +100,9 @@ static baum_status give_end(baum_study *study, const baum_mechanism *mechanism,
   return status;
 }
 
-/* Gives a reference of the catalogue to the study. For spatial problems, this is the state at the
- * end. For planar problems, it is the exact solution. If there is no exact solution, the study
- * computes a reference. */
+/* Gives a reference of the catalogue to the study. For spatial problems, the reference consists of
+ * the positions at the end. For planar problems, it is the exact solution. If there is no exact
+ * solution, the study computes a reference. */
 static baum_status give_reference(baum_study *study, const baum_mechanism *mechanism,
                                   baum_catalog_choice *choice, const peer *at)
 {

@@ -9,9 +9,9 @@ overhead is the time of a call without the time of the function itself.
 With `quick` or `full`, the program also measures a study of the pendulum over 2 s. The study uses
 the grid of this name.
 
-To find the overhead, the program compares with a run whose functions compute the same values in C.
-This needs a C compiler. Times of short runs are wall times, and all other times are CPU times. Each
-time is the smallest one of several runs.
+To find the overhead, the program also makes a run whose functions compute the same values in C, and
+compares the times of both runs. This needs a C compiler. Times of short runs are wall times, and
+all other times are CPU times. Each time is the smallest one of several runs.
 """
 import ctypes
 import sys

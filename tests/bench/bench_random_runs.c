@@ -11,13 +11,13 @@
  * characteristic length. The growth of a motion is the factor by which it amplifies small
  * perturbations of the start. With a variable step, the allowed error is about PROMISE times rtol
  * times the growth. With a fixed step, the allowed error is the step times the growth, but at least
- * WRONG. A run without a warning is called met if its error is allowed. If its error is larger, the
- * run is called poor, and if its error is also above WRONG, silently wrong. However, a fixed-step
- * run is called poor, and not silently wrong, if a step four times shorter halves its error. Errors
- * that arise during the motion may grow more than perturbations of the start. If a run is called
- * silently wrong, one should therefore first check whether such errors have grown. The program
- * prints runs that are silently wrong, runs that fail although the reference succeeds, and warnings
- * that are not justified.
+ * WRONG. A run without a warning is called met if its error is allowed. If its error is larger than
+ * allowed, the run is called poor up to an error of WRONG, and silently wrong above WRONG. However,
+ * a fixed-step run is called poor, and not silently wrong, if a step four times shorter halves its
+ * error. Errors that arise during the motion may grow more than perturbations of the start. If a
+ * run is called silently wrong, one should therefore first check whether such errors have grown.
+ * The program prints runs that are silently wrong, runs that fail although the reference succeeds,
+ * and warnings that are not justified.
  */
 #include <math.h>
 #include <setjmp.h>

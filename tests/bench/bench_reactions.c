@@ -3,10 +3,11 @@
  *
  *   bench_reactions [COUNT [FIRST_SEED]]     1000 mechanisms from seed 0 by default
  *
- * Each mechanism is evaluated on its constraints, and with violations of 1e-6 and 1e-3. It is
- * evaluated both by a workspace and by a run. The program prints and counts the results in which
- * forces are out of balance by more than 1e-9 of their size. It fails if there are any. It also
- * prints the reaction of a bracket for mass ratios of up to 1e14.
+ * The reactions of each mechanism are computed in a configuration that satisfies the constraints,
+ * and in configurations that violate them by 1e-6 and 1e-3. They are computed both by a workspace
+ * and by a run. The program prints and counts the results in which forces are out of balance by
+ * more than 1e-9 of their size. It fails if there are any. It also prints the reaction of a bracket
+ * for mass ratios of up to 1e14.
  */
 #include <math.h>
 #include <stdio.h>

@@ -107,7 +107,7 @@ static void measure(const mechanism *m, int starts, uint64_t seed, counts *sum)
     print(SINGULAR_SETTINGS[i].name, &c[i]);
     add(&all, &c[i]);
   }
-  print("all of it", &all);
+  print("all settings", &all);
   add(sum, &all);
 }
 

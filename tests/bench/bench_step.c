@@ -131,7 +131,7 @@ static bool evaluate(bench *b)
 }
 
 /* Every cost is measured this many times, and the smallest result is used. The resolution of CPU
- * times is better than a tenth of a measurement. */
+ * times is better than a tenth of each measured time. */
 enum { REPETITIONS = 5 };
 
 typedef struct cost {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tests the settings that a study recommends. In other runs, their errors should also be as small
- * as requested. The program also shows how much they cost compared with the cheapest setting.
+/* Tests the settings that a study recommends. The errors of these settings should be as small as
+ * requested in runs from other starts, too. The program also shows how much these settings cost
+ * compared with the cheapest one.
  *
  * usage: bench_study [PROBLEM]
  *
  * A study with the standard grid recommends a setting for each error. A second study runs the
  * recommended settings and the whole grid from perturbed starts over twice the span. An entry is
  * good enough if its error in the second study is at most the requested one. A recommendation is
- * met if it is good enough. Its price is its cost divided by the cost of the cheapest entry of the
- * grid that is good enough.
+ * met if the entry with the recommended setting is good enough. The price of a recommendation is
+ * the cost of this entry divided by the cost of the cheapest entry of the grid that is good enough.
  */
 #include <math.h>
 #include <stdio.h>
@@ -192,8 +193,9 @@ static void judge(const baum_study *study, const advice *given, int grid, tally 
       t->priced++;
     }
     if (!met || price > 1.5) {
-      printf("    %.0e: %s has %.2e for %.0f; cheapest %.0f, %s\n", TARGET[k], entry.name,
-             entry.error, cost_of(&entry), least, name);
+      printf(
+        "    %.0e: %s has the error %.2e at the cost %.0f; the cheapest has the cost %.0f: %s\n",
+        TARGET[k], entry.name, entry.error, cost_of(&entry), least, name);
     }
   }
 }

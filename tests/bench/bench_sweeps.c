@@ -17,8 +17,9 @@
  * is right if its error is below 0.01, grey if it is below 0.1, and otherwise wrong. Some warnings
  * doubt the motion: they say that it may be wrong. A false alarm is a right run with such a
  * warning. A silent run is a wrong run without such a warning. The last table is the sum of all
- * parts. With --full, every linkage is run with and without gravity, and with more steps. With
- * --csv, a line is written for each run. The program fails if a run is silently wrong.
+ * parts. With --full, every linkage is run both with and without gravity, and the sweeps contain
+ * more values of the step. With --csv, a line is written for each run. The program fails if a run
+ * is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>

@@ -78,8 +78,8 @@ def spend(work, s, steps):
 
 
 def measure(label, mechanism, work, pairs):
-    """Print the costs of a view. Two runs are used, because access to the memory of one may be faster.
-    Each is measured both with and without the view."""
+    """Print the costs of a view. Two runs are used, because access to the memory of one of them may
+    be faster. Each run is measured both with and without the view."""
     runs = [mechanism.simulation("rk4", step=1e-5) for _ in range(2)]
     work(runs[0], 1000)
     steps = max(int(1000 * WORK / spend(work, runs[0], 1000)[0]), 1)
@@ -90,8 +90,8 @@ def measure(label, mechanism, work, pairs):
 
 
 def compare(work, steps, plain, seen, pairs):
-    """Return the medians of two costs: the relative cost of calls, and the times [s] that a frame
-    takes."""
+    """Return the median of the relative cost of calls, and the medians of the CPU times [s] that a
+    frame costs the thread of the run and the other threads."""
     found = []
     with seen.view(browser=False) as view, pages(view):
         for k in range(pairs):

@@ -10,7 +10,8 @@ enum { STEPS = 40, CHANNELS = 14, WIDTH = 400, LOOKS = 6, MECHANISMS = 2 };
 
 /* ---- mechanisms, made once for all inputs ---- */
 
-/* Makes a particle on a massless rod. Without user functions, every formulation can be used. */
+/* Makes a particle on a massless rod. This mechanism has no user functions, so that every
+ * formulation can be used. */
 static baum_mechanism *make_pendulum(every_element *parts)
 {
   baum_mechanism *m = NULL;

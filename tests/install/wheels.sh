@@ -52,9 +52,9 @@ compile() {
 }
 
 # compare TARGET prints the largest differences from the results on Linux x86-64. The differences in
-# runs with CVODE and IDA are listed separately. On a processor with AVX2, the results on aarch64
-# and WebAssembly must differ in the last digits from those on Linux x86-64. If they do not, the
-# library on Linux x86-64 did not use AVX2.
+# runs with CVODE and IDA are listed separately. If the processor of this machine has AVX2, the
+# results on aarch64 and WebAssembly must differ in the last digits from those on Linux x86-64. If
+# they do not, the library on Linux x86-64 did not use AVX2.
 compare() {
   case $1 in
     *aarch64 | wasm*)

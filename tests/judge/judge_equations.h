@@ -51,8 +51,8 @@ void judge_null_vector(const judge_factors *f, int k, double *out);
 bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
                         double *a);
 
-/** Replaces q and v by the nearest values that satisfy the constraints, in the same metric as
- * judge_nearest(). */
+/** Replaces q and v by the nearest values that satisfy the constraints. The distance is measured in
+ * the metric M if `weighted` is set, and in the Euclidean metric otherwise. */
 bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
 
 double judge_kinetic(const judge_scene *s, const double *v);

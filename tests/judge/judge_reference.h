@@ -29,7 +29,7 @@ typedef struct judge_reference {
   const char *failed; /* why there is no reference, or NULL if there is one */
 } judge_reference;
 
-/** Integrates twice from (q, v) at t = 0 to the end of the scene. (q, v) must satisfy the
+/** Integrates twice from (q, v) at t = 0 to the end of the scene. The start (q, v) must satisfy the
  * constraints up to rounding errors. Differences of lengths are divided by `length`. Returns true
  * if both runs agree to 1e-6 and the growth of perturbations is known. */
 bool judge_find_reference(const judge_scene *s, const double *q, const double *v, double length,

@@ -193,7 +193,8 @@ static void from_polar(const double from[2], double radius, double angle, double
 
 /* ---- springs ---- */
 
-/* Returns the smaller mass or inertia of two bodies. The ground does not count. */
+/* Returns the smaller one of the masses or moments of inertia of two bodies. If one of them is the
+ * ground, returns the value of the other body. */
 static double lighter(const judge_scene *s, int a, int b, bool inertia)
 {
   double least = INFINITY;

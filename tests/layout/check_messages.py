@@ -22,7 +22,8 @@ from pathlib import Path
 SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
 MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
-# What the end of a C expression stands for in a message. Other texts are "...".
+# What stands in the list for a text of a message, by the name at the end of the C expression that
+# gives the text. All other texts are "...".
 PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "joint_label": "JOINT", "row_label": "ROW", "name": "NAME", "names": "NAMES",
                 "integrator": "INTEGRATOR", "integrator->name": "INTEGRATOR", "method->name": "INTEGRATOR",
                 "pair->name": "INTEGRATOR", "field": "FIELD", "key": "KEY", "unit": "UNIT", "unit_of": "UNIT", "kind": "KIND",
@@ -108,7 +109,8 @@ class Source:
 
     def expanded(self, template, values):
         """Return the variants of a format. If the texts that replace a %s are known and consist of
-        several words, each of these texts gives a variant. Otherwise a placeholder replaces it."""
+        several words, each of these texts gives a variant. Otherwise a placeholder replaces the
+        %s."""
         done = [template]
         for spec, value in zip([s for s in SPEC.finditer(template) if s[0] != "%%"], values):
             texts = [t for t in self.literals(value) if len(t) > 0]
@@ -141,8 +143,9 @@ class Source:
         return self.messages
 
     def wrapper_of(self, start, values):
-        """Find the function that contains a call. If its callers pass texts to this function, and
-        it passes them on in the call, return its name and the parameters that are these texts."""
+        """Find the function that contains a call. If the callers of this function give it texts,
+        and it passes these texts on in the call, return its name and the parameters that are the
+        texts."""
         for name, parameters, body in self.functions:
             at = self.text.find(body)
             if at <= start < at + len(body) and name not in SINKS:

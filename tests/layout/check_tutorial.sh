@@ -25,8 +25,8 @@ holds() {
     END { exit !found }' "$1" "$2"
 }
 
-# check DOCUMENT LANGUAGE FOLDER checks every block of the document that is marked with the
-# language. Some file in the folder must contain the block.
+# check DOCUMENT LANGUAGE FOLDER checks every code block in LANGUAGE of the DOCUMENT. Some file in
+# the FOLDER must contain the block.
 check() {
   blocks=$scratch/$(basename "$1").$2
   mkdir "$blocks"

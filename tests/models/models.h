@@ -95,7 +95,7 @@ baum_status model_slider_crank_build(model_slider_crank options, model *out);
 enum { MODEL_ANDREWS_ANGLES = 7 };
 
 /* Makes Andrews' mechanism in the 7 angles of the Bari test set. A user function gives its 6 rows.
- * `with_jacobian` tells whether a second one gives their Jacobian. */
+ * `with_jacobian` tells whether a second user function gives the Jacobian of these rows. */
 baum_status model_andrews_angles(bool with_jacobian, model *out);
 /* Makes Andrews' mechanism of 7 planar bodies (K1 to K7) and 10 pins. It has 21 coordinates and 20
  * rows. */

@@ -18,8 +18,8 @@ typedef struct reference {
   const char *entry;   /* name of the catalogue's entry, if q is NULL */
   const char *lengths; /* (width) 'm' for each length, 'r' for each angle */
   void (*columns)(const double *q,
-                  /* (width) computes the columns from all coordinates; if it is NULL, the columns
-                   * are the coordinates. */
+                  /* (width) receives the columns, which are computed from all coordinates; if
+                   * `columns` is NULL, the columns are the coordinates. */
                   double *out);
 } reference;
 
@@ -35,7 +35,7 @@ typedef struct reference_run {
 reference_run reference_compare(const reference *with, const baum_mechanism *mechanism,
                                 const baum_simulation_options *options);
 
-/* Runs with tolerances from 1e-4 to 1e-12. */
+/* The results of runs with the tolerances 1e-4, 1e-5, ..., 1e-12. */
 enum { REFERENCE_RUNGS = 9 };
 typedef struct reference_ladder {
   reference_run runs[REFERENCE_RUNGS]; /* rtol = 1e-(4 + k) */

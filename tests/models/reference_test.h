@@ -42,7 +42,7 @@ static inline void assert_reached(const reference *with, const baum_mechanism *m
   printf("error %.0e needs rtol %.0e\n", wanted, needed);
 }
 
-/* Checks the same reference by RK4 with projection, which does not use SUNDIALS. */
+/* Checks that RK4 with projection, which does not use SUNDIALS, has at most the error `wanted`. */
 static inline void assert_reached_by_rk4(const reference *with, const baum_mechanism *mechanism,
                                          double step, double wanted)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Variants of the eccentric slider-crank of the catalogue. If the rod is as long as the crank and
- * there is no eccentricity, rod and crank coincide when the crank angle is pi / 2. There J loses
- * rank. */
+ * there is no eccentricity, rod and crank coincide when the crank angle is pi / 2. There the
+ * Jacobian J loses rank. */
 #include "models.h"
 
 #include <math.h>

@@ -97,8 +97,8 @@ class Abi(unittest.TestCase):
 
 
 class Changes(unittest.TestCase):
-    """Tests tools/compare_abi.py, which finds changes that break compiled programs. It is run for
-    every release."""
+    """Tests tools/compare_abi.py, which finds changes that break compiled programs. This tool is
+    run for every release."""
 
     def found_after(self, *replacements):
         """Return the changes that are found after replacements in the text of _abi.py."""

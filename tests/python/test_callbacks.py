@@ -197,7 +197,7 @@ class Values(unittest.TestCase):
 
 class Costs(unittest.TestCase):
     def calls(self, **functions):
-        """Return how many calls of these functions of a pendulum a step of rk4 makes."""
+        """Return how often a step of rk4 calls the given functions of a pendulum."""
         calls = []
 
         def counted(function):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the catalogue of known mechanisms. The tests cover what the binding adds to the C
-interface, and C tests cover the interface itself."""
+"""Tests the catalogue of known mechanisms. These tests cover what the binding adds to the C
+interface. C tests cover the C interface itself."""
 
 import math
 import unittest

@@ -34,7 +34,7 @@ class Events(unittest.TestCase):
             s = turning().simulation("rk8", **method)
             self.assertEqual(s.event("pin", 1.0, name="one"), 0)
             self.assertEqual(s.advance_to(2), baum.Status.STOP_EVENT)
-            # the motion is a straight line, so only rounding errors remain
+            # the angle is a linear function of time, so only rounding errors remain
             self.assertAlmostEqual(s.time, 0.5, 13)
             self.assertIn('event 0 "one", rising', s.message)
             self.assertEqual(s.advance_to(2), baum.Status.OK)
@@ -156,8 +156,8 @@ class Schedules(unittest.TestCase):
 
 class GoingBack(unittest.TestCase):
     def test_a_controller_tries_and_goes_back(self):
-        """Find the torque with which the angular velocity of the wheel is nearest to a given one
-        after ten steps of 0.1 s."""
+        """Find the angular velocity of the wheel after ten steps of 0.1 s for each of three
+        torques. The run goes back to the start after each torque."""
         s = wheel(inertia=0.5).simulation("rk4", step=0.1)
         found = {}
         saved = s.save()

@@ -56,7 +56,7 @@ class FilesTest(unittest.TestCase):
         before = resource.getrlimit(resource.RLIMIT_FSIZE)
         for name, write in self.writers().items():
             path = self.folder / name
-            write(path)  # the file of a sweep must be one
+            write(path)  # a sweep refuses an existing file that no sweep has written
             old = path.read_bytes()
             resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
             try:

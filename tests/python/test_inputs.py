@@ -129,8 +129,8 @@ class Runs(unittest.TestCase):
 
 
 def several(**functions):
-    """A mechanism with two coordinates and three inputs. Its functions receive the third input and
-    then the first one."""
+    """A mechanism with two coordinates and the inputs a, b and c. `functions` are fields of the
+    coordinates, such as a force that receives some of the inputs."""
     m = baum.Mechanism()
     for k, name in enumerate("abc"):
         m.input(name, 10.0**k)

@@ -110,7 +110,7 @@ class Shown(unittest.TestCase):
         out, now = io.StringIO(), [0.0]
         with mock.patch.object(progress.time, "monotonic", lambda: now[0]):
             # The errors are computed from coarse to fine, at the costs 1 1 2 2 4 4. Then the times
-            # are measured in the order of adding, at the costs 1 2 4 1 2 4.
+            # are measured in the order in which the entries were added, at the costs 1 2 4 1 2 4.
             line = progress.StudyLine(out, [0, 0, 0, 1, 1, 1])
             for done, t in (1, 1.0), (2, 2.0), (6, 14.0), (12, 28.0):
                 now[0] = t

@@ -191,7 +191,8 @@ class Solids(unittest.TestCase):
 
 
 class FreeBody(unittest.TestCase):
-    """A body without forces rotates about its middle axis. This rotation is unstable."""
+    """A body without forces rotates about the axis of its intermediate principal moment of inertia.
+    This rotation is unstable."""
 
     @classmethod
     def setUpClass(cls):

@@ -220,7 +220,7 @@ class Tasks(unittest.TestCase):
         self.assertEqual(made, [1])
 
 
-# A shell starts background programs so that they ignore SIGINT. The program therefore sets a
+# Programs that a shell starts in the background ignore SIGINT. The program below therefore sets a
 # handler.
 INTERRUPTED = """
 import signal, sys, threading, time

@@ -294,7 +294,8 @@ class Views(unittest.TestCase):
         self.assertEqual(self.s.time, 0.01)
 
     def test_ctrl_c_ends_the_waiting(self):
-        # A shell starts background programs, and thus this test, so that they ignore SIGINT.
+        # Programs that a shell starts in the background ignore SIGINT, and this test may be one of
+        # them.
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         self.addCleanup(signal.signal, signal.SIGINT, before)
         self.view(paused=True)

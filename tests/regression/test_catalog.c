@@ -126,8 +126,8 @@ static void look_at_constraints(const known *k)
     off_rate = fmax(off_rate, worst_of(rate, k->nc));
   }
   printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
-  /* The limit allows for rounding errors of coordinates as large as 30 m or rad, and of sums of a
-   * few sines and cosines. */
+  /* Coordinates are at most 30 m or 30 rad. The limit allows for the rounding errors of such
+   * coordinates, and of sums of a few sines and cosines. */
   assert_true(off <= 1e-14);
   assert_true(off_rate <= 1e-14 * fmax(1.0, fast));
   free(phi);

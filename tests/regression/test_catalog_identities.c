@@ -131,7 +131,8 @@ static double random_number(uint64_t *seed)
   return (double)(*seed >> 11) * 0x1p-52 - 1.0; /* from -1 to 1 */
 }
 
-/* Returns by how much the legs differ from the lengths that the drivers give them at time t. */
+/* Returns the largest difference between the lengths of the legs and the lengths that the drivers
+ * prescribe at time t. */
 static double length_error(double t, const double *q)
 {
   double pose[Q];
@@ -330,8 +331,9 @@ static void the_quadruped_keeps_its_momenta(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* With less spin the axis of the gyroscope nods, and its precession varies. Gravity does not change
- * the angular momentum about z, and no torque acts on the rotor about its axis. */
+/* The spin of the rotor is half of that in the catalogue, so that the axis of the gyroscope nods
+ * and its precession varies. Gravity does not change the angular momentum about z, and no torque
+ * acts on the rotor about its axis. */
 static void a_nodding_gyroscope_keeps_its_momenta_and_its_energy(void **state)
 {
   (void)state;

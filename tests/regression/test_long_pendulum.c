@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pendulum A01 is released level with its pivot and swings for 2000 s, which are 981 swings.
+/* The pendulum A01 is released level with its pivot and swings for 2000 s, which are 845 periods.
  * Its motion is known in closed form:
  *
  *   sin(angle / 2) = k sn(w t + K),   k^2 = 1/2,   w^2 = g / L,   x = -sin angle,   y = -cos angle

@@ -311,8 +311,8 @@ static void sweep_bodies(cell_list *list)
   }
 }
 
-/* Adds cells with redundant joints. For scenes in space it skips every second value of OFF and the
- * largest value of SPARES, to save time. */
+/* Adds cells with redundant joints. To save time, the axes "space" and "elements" skip every second
+ * value of OFF and the largest value of SPARES. */
 static void sweep_redundancy(cell_list *list, const char *axis, scene_kind kind)
 {
   static const int SPARES[] = {0, 1, 5, 20};

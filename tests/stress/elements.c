@@ -13,9 +13,10 @@
  *   (A - I_t) cos p W^2 - A x' W + m g R cot p = 0
  *
  * The bushing has the same stiffness k and the same damping d in all directions. Its points are at
- * the distance b from the axis of the revolute joint. At the start, the angle is larger by RELAXED
- * than the angle at which the bushing is relaxed. If h is the angle of the pendulum minus this
- * relaxed angle, the torque of the bushing is -k (b^2 sin h + h) - d (b^2 + 1) x'.
+ * the distance b from the axis of the revolute joint. At the start, the angle of the pendulum is
+ * larger by RELAXED than the angle at which the bushing is relaxed. If h is the angle of the
+ * pendulum minus this relaxed angle, the torque of the bushing is -k (b^2 sin h + h) - d (b^2 + 1)
+ * x'.
  *
  * The bead is at (r cos x, r sin x, c x) and does not rotate. The cable has the stiffness k and the
  * damping d. It runs from the bead to the point (0, 0, h), and from there over the length SIDE to

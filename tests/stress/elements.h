@@ -8,7 +8,7 @@
  *   screw    an unbalanced spindle moves a nut
  *   shafts   a constant-velocity joint connects an unbalanced shaft and an inclined shaft
  *   bushing  a pendulum on a revolute joint, with a bushing between it and the ground
- *   bead     a bead on a helix, and a cable from the bead over a point of the ground
+ *   bead     a bead on a helix, pulled by a cable that runs over a point of the ground
  */
 #ifndef BAUM_TEST_ELEMENTS_H
 #define BAUM_TEST_ELEMENTS_H

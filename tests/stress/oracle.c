@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Integrates by extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard,
- * Numerische Mathematik 41 (1983) 373). Its error is a series in h^2 even if the Jacobian is
- * inaccurate. A Jacobian by differences is therefore sufficient. If the Jacobian is zero, the
- * method is that of Gragg, Bulirsch and Stoer.
+ * Numerische Mathematik 41 (1983) 373). The error of this rule is a series in h^2, where h is the
+ * step, even if the Jacobian is inaccurate. A Jacobian by differences is therefore sufficient. If
+ * the Jacobian is zero, the method is that of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 

@@ -126,7 +126,7 @@ static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
   if (rod == CRANK) {
-    /* This branch is smooth where rod and crank coincide. */
+    /* This branch of the motion is smooth where rod and crank coincide. */
     return (turn){-x, -1, 0};
   }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
@@ -391,7 +391,8 @@ static void pin_four_bar(baum_i_parts *parts, const baum_body_id *b)
   pin(parts, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
 }
 
-/* Adds a pin between body k and the body before it, or ground. Returns the first pin of body k. */
+/* Adds joints between body k and the body before it or ground. Returns the first pin of body k, if
+ * it has one. */
 static baum_joint_id hang(baum_i_parts *parts, const scene *s, baum_body_id before,
                           baum_body_id body, int k)
 {

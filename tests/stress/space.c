@@ -96,7 +96,8 @@ static carried crank_body(int body, jets x)
 }
 
 /* The angle b of the rocker is the solution of d[1] cos b + d[2] sin b = c. Here d is the vector
- * from the tip of the crank to the pivot of the rocker. */
+ * from the tip of the crank to the pivot of the rocker, and c follows from d and the lengths of
+ * coupler and rocker. */
 static carried rssr_body(int body, jets x)
 {
   carried tip = carried_at(0, 0, 0);

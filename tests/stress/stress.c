@@ -3,8 +3,8 @@
  *
  *   stress [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
  *
- * With --thin, only every K-th cell is run. The program fails if a run is silently wrong, or if
- * more than one cell in twenty is a false alarm.
+ * A cell of the grid is one run of one scene. With --thin, only every K-th cell is run. The program
+ * fails if a run is silently wrong, or if more than one cell in twenty is a false alarm.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -139,7 +139,8 @@ int main(int argc, char **argv)
     print_json(&all);
   }
   /* At most one cell in twenty may be a false alarm. A thinned grid has only about a hundred cells,
-   * in which the share may be twice as large by chance. Then one in ten is permitted. */
+   * in which the share may be twice as large by chance. In a thinned grid, one cell in ten is
+   * therefore permitted. */
   int cells_to_an_alarm = w.thin > 1 ? 10 : 20;
   bool fine = all.of[WRONG] == 0 && cells_to_an_alarm * all.false_alarms <= all.cells;
   return fine ? EXIT_SUCCESS : EXIT_FAILURE;

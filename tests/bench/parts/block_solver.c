@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Evaluates accelerations with the library's block solver. For PHASE_WHOLE, this file calls
- * baum_i_acceleration(). For the other phases, it makes the same calls as this function, in the
- * same order. */
+ * baum_i_acceleration(). For the other phases, it makes the calls that baum_i_acceleration() makes,
+ * in the same order. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -24,7 +24,7 @@ typedef struct gain_problem {
   const double *t;     /* (samples) [s] times, all after the start */
   const double *scale; /* (nq) a length [m] or 1 rad; `kept` owns this memory */
   gain_start starts[GAIN_STARTS];
-  /* Each reference is also computed with twice the step. This is the largest difference. */
+  /* Largest difference between the references and the same motions computed with twice the step. */
   double apart;
   baum_simulation *kept;
 } gain_problem;

@@ -24,8 +24,8 @@ static baum_status window(model *out)
   return model_n_four_bar_build(&data, out);
 }
 
-/* The angle of the cranks of the N-four-bar with N = 1. It was computed from (5/3) th'' = -2 g cos
- * th by Taylor series with 30 digits (odefun of mpmath). Results with two tolerances agree to
+/* The angle th of the cranks of the N-four-bar with N = 1. It was computed from (5/3) th'' = -2 g
+ * cos th by Taylor series with 30 digits (odefun of mpmath). Results with two tolerances agree to
  * 7e-20. */
 enum { WINDOW_SAMPLES = 10 };
 static const double WINDOW_T[WINDOW_SAMPLES] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0};

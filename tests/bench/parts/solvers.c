@@ -94,7 +94,7 @@ static void read_common(const common *c, double *a, double *lambda)
   memcpy(lambda, c->x + c->nv, (size_t)(c->n - c->nv) * sizeof *lambda);
 }
 
-/* ---- KLU alone: one refactorization with the same pivots and one solution, no checks ---- */
+/* ---- KLU alone: each evaluation reuses the pivots of the first factorization; no checks ---- */
 
 typedef struct klu_solver {
   common c;

@@ -3,8 +3,9 @@
  * directions. Row d of A_k is the effect of direction d at time k, from central differences. It
  * contains the change of q and the change of v / rate, where `rate` is the initial angular velocity
  * of the crank. Let G_j = A_j A_j^T. Let P_k be the same product for time k, but only with the
- * columns that belong to q. From time j to time k, a perturbation of the positions grows at most by
- * the square root of trace(G_j^-1 P_k), which is a Frobenius norm. */
+ * columns that belong to q. The growth from time j to time k is the change of q at time k divided
+ * by the change of q and v / rate at time j. It is at most the square root of trace(G_j^-1 P_k),
+ * which is a Frobenius norm. */
 #include "sweep_motion.h"
 
 #include <math.h>

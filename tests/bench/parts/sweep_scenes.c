@@ -143,7 +143,7 @@ static long double linkage_energy(const linkage *k, const long double *y)
   return inertia(k, y, n) * y[3] * y[3] / 2.0L + potential(k, y);
 }
 
-/* Returns the largest of the two violations and the relative change of energy. */
+/* Returns the largest of three numbers: the two violations, and the relative change of energy. */
 static long double linkage_fault(const linkage *k, const long double *y, long double energy,
                                  long double size)
 {

@@ -28,7 +28,7 @@ static double time_calls(timing_fn *function, void *self, int part, long calls)
   return timing_now() - start;
 }
 
-/* Finds how many calls fill a window. *one is set to the time of one call. */
+/* Returns how many calls fill a window of WINDOW seconds. *one is set to the time of one call. */
 static long find_calls(timing_fn *function, void *self, int part, double *one)
 {
   long calls = 1;
