@@ -467,8 +467,8 @@ int main(int argc, char **argv)
   if (!freopen("/dev/null", "w", stderr)) {
     return EXIT_FAILURE;
   }
-  printf("%-24s %6s %8s %8s %8s %8s %8s\n", "", "cells", "met", "refused", "stopped", "warned",
-         "wrong");
+  printf("%-24s %6s %8s %8s %8s %8s %8s %8s\n", "", "cells", "met", "refused", "stopped", "warned",
+         "crossed", "wrong");
   for (int k = 0; k < BARE_WAYS; k++) {
     compare(&list, (bare_way)k, tell);
   }
