@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compares accelerations of random mechanisms that the library computes with accelerations that are
+/* For random mechanisms, compares the accelerations from the library with accelerations that are
  * computed in quadruple precision. */
 #ifndef BAUM_TEST_RANDOM_JUDGE_H
 #define BAUM_TEST_RANDOM_JUDGE_H
