@@ -14,8 +14,8 @@
  *  The reference of a mechanism is its known motion. This motion is given either as stored samples
  *  or by formulas (the field `exact` says which). Samples are valid for the default parameters
  *  only. Formulas are valid for all parameters, and for all times at which their rounding errors
- *  stay below the accuracy that `digits_q` and `digits_v` promise. The library refuses to compare a
- *  motion with a reference that is not valid for its parameters or times.
+ *  stay below the accuracy that `digits_q` and `digits_v` promise. If the reference is not valid
+ *  for the parameters or the times of a motion, the library refuses to compare the motion with it.
  *
  *  Threads: every function may be called from any thread. */
 #ifndef BAUM_CATALOG_H

@@ -15,7 +15,7 @@
  *
  *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
  *  input changes (baum/breaks.h). This jump is an event at the time of the break. In a backward
- *  run, the time of the event is a few rounding errors before the break.
+ *  run, the time of the event is smaller than that of the break by a few rounding errors.
  *
  *  Zero at the start: an event function may be zero at the start of a run, after
  *  baum_simulation_set_state(), or where a run reverses its direction in time. When the function
@@ -33,7 +33,7 @@
  *  two cases occurs: the event happens again shortly after the last impact, although the reversed
  *  velocities move the event function away from zero; or the method computes velocities with the
  *  wrong sign at the next impact. In both cases the run fails with BAUM_ERR_STEP, because the body
- *  would otherwise fall through its stop. Let such a body rest once it is slow
+ *  would otherwise fall through the stop. Let such a body rest once it is slow
  *  (docs/cookbook/stop.md).
  *
  *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no

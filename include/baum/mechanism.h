@@ -15,10 +15,10 @@
  *  If you want to simulate equations of your own, without predefined elements, use one body of user
  *  coordinates and one user constraint.
  *
- *  Equations: the constraints are Phi(q, t) = 0 (1). Their first time derivative is Phi' = J v - nu
- *  = 0 (3), and their second time derivative is Phi'' = J a - gamma = 0 (4). The equations of
- *  motion are M a + J^T lambda = g (2). The numbers in parentheses are the equation numbers of
- *  Flores et al. 2008. docs/notation.md lists all symbols.
+ *  Equations (the numbers in parentheses are those of Flores et al. 2008): the constraints are
+ *  Phi(q, t) = 0 (1). Their first time derivative is Phi' = J v - nu = 0 (3), and their second time
+ *  derivative is Phi'' = J a - gamma = 0 (4). The equations of motion are M a + J^T lambda = g (2).
+ *  docs/notation.md lists all symbols.
  *
  *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
@@ -26,12 +26,12 @@
  *
  *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
  *  characteristic length of the mechanism, and the scale of an angle is 1. For user coordinates,
- *  the field `scale` gives it.
+ *  the field `scale` gives the scale.
  *
  *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
  *  rows and lambda are in the order in which the joints were added.
  *
- *  NULL: pointers must not be NULL unless their comment says so.
+ *  NULL: pointers must not be NULL unless their comment allows it.
  *
  *  Names: messages contain the names of elements, inputs and events. If a name is NULL, the library
  *  chooses a default name. Empty names and names with control characters are refused.
@@ -264,7 +264,7 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
  *  those of a wheel that does not slip. For such constraints, jacobian is required and phi must be
- *  NULL. With Baumgarte's gains (stabilization.h), their equation of accelerations is J a = gamma -
+ *  NULL. With Baumgarte's gain alpha (stabilization.h), their accelerations satisfy J a = gamma -
  *  alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
@@ -790,15 +790,15 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
  *  baum_simulation_create() makes this check, too.
  *
  *  The check evaluates the functions in the design configuration at t = 0, and in three
- *  configurations near it at the times 0, 0.37 and 1.3. It rejects an entry of a derivative if the
- *  error of the entry exceeds the sum of 1e-6 times the entry and 1e-9 times the largest entry of
- *  the row. Before the entries of a row are compared, each is multiplied by the scale of its
- *  coordinate. The call also checks the function mass() of user coordinates: the matrix must be
- *  symmetric, its diagonal must not contain negative numbers in the design configuration, and it
- *  must be constant if constant_mass is true. Kinks of a function are allowed. The check skips
- *  configurations and times at which a function fails. If a function fails in all configurations,
- *  the check returns this failure. Laws of drivers are an exception: they may fail in all
- *  configurations.
+ *  configurations near it at the times 0, 0.37 and 1.3. A derivative is a matrix. The check rejects
+ *  an entry of the matrix if the error of the entry exceeds the sum of 1e-6 times the entry and
+ *  1e-9 times the largest entry of the same row. Before the entries of a row are compared, each is
+ *  multiplied by the scale of its coordinate. The call also checks the function mass() of user
+ *  coordinates: the matrix must be symmetric, its diagonal must not contain negative numbers in the
+ *  design configuration, and it must be constant if constant_mass is true. Kinks of a function are
+ *  allowed. The check skips configurations and times at which a function fails. If a function fails
+ *  in all configurations, the check returns this failure. Laws of drivers are an exception: they
+ *  may fail in all configurations.
  *  @param mechanism  frozen
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
  *           values), BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,

@@ -3,7 +3,7 @@
  *  Planar bodies, joints and forces. More joints are in planar_joints.h.
  *
  *  Coordinates: a planar body has three coordinates (x, y, angle), and a particle has two (x, y).
- *  Their velocities are the time derivatives of these coordinates. x and y are the position of the
+ *  The velocities are the time derivatives of these coordinates. x and y are the position of the
  *  centre of mass in ground axes. Angles are counter-clockwise; they grow continuously over several
  *  revolutions.
  *

@@ -66,7 +66,8 @@ BAUM_API baum_status baum_mechanism_set_planar_pin_in_slot(baum_mechanism *mecha
  *  the centre of the pinion at a constant distance from the rack. A pinion with a positive radius
  *  moves forward along the axis when it rotates counter-clockwise. Its rack is then to the left of
  *  the pinion, seen in the direction of the axis. With a negative radius, the rack is to the right
- *  of the pinion; for the axis (1, 0) this means below it. Both bodies must have an angle. */
+ *  of the pinion; for the axis (1, 0), the rack is below the pinion. Both bodies must have an
+ *  angle. */
 typedef struct baum_planar_rack_and_pinion_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -116,12 +117,12 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  + radius_b (angle_b - angle_c) - offset, where angle_c is the angle of the carrier.
  *
  *  If both radii are positive, both wheels have external teeth and rotate in opposite directions
- *  relative to the carrier. If one radius is negative, this wheel is a ring with internal teeth,
- *  and both wheels rotate in the same direction. The motion depends only on the ratio of the radii,
- *  so you may give numbers of teeth instead of radii. Other joints, such as pins, must keep the
- *  wheels on the carrier. A planetary gear consists of two of these joints, one between sun and
- *  planet and one between planet and ring. The carrier of both joints is the arm of the planets. If
- *  the ring does not move, it is BAUM_GROUND. All bodies must have an angle.
+ *  relative to the carrier. If the radius of one wheel is negative, this wheel is a ring with
+ *  internal teeth, and both wheels rotate in the same direction. The motion depends only on the
+ *  ratio of the radii, so you may give numbers of teeth instead of radii. Other joints, such as
+ *  pins, must keep the wheels on the carrier. A planetary gear consists of two of these joints, one
+ *  between sun and planet and one between planet and ring. The carrier of both joints is the arm of
+ *  the planets. If the ring does not move, it is BAUM_GROUND. All bodies must have an angle.
  *
  *  The reaction of a gear pair is the generalized force -J^T lambda of its row, with one number for
  *  each velocity of body_a, body_b and the carrier; ground is omitted. It contains only torques:

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Reports of a study, which compares integration methods on one mechanism (study.h). A report
- *  lists the entries of the study, its Pareto front, its recommendations and its reference. It also
- *  describes the machine that ran the study.
+ *  lists the entries of the study (its settings and their results), its Pareto front, its
+ *  recommendations and its reference. It also describes the machine that ran the study.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *

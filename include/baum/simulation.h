@@ -179,8 +179,8 @@ typedef enum baum_start {
 } baum_start;
 
 /** Solver of the linear equations of motion (7). baum_simulation_explain() states which solver a
- *  run uses, and why. The choice does not affect assembly or the multipliers of redundant rows,
- *  which are always computed with KLU and QR. */
+ *  run uses, and why. This option does not affect assembly and the multipliers of redundant rows:
+ *  both are always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
    *  configurations where BLOCK is not accurate. */
@@ -740,12 +740,13 @@ typedef struct baum_counters {
   double energy_residual;
   int64_t doubts; /**< [-] kinds of warnings that put the motion in doubt. */
   /** [-] estimate of the largest global error of the positions since the start. Errors of lengths
-   *  are relative to the characteristic length, and errors of angles are in radians. Without the
-   *  option error_check it shows only whether the error is large: values up to 0.01 may be errors
-   *  of the estimate itself. With a fixed step, it is 0 as long as the local errors are negligible.
-   *  It is NaN, which means unknown, if inputs change every few steps, or if the estimate failed or
-   *  would cost too much. With variable steps it is known only with the option error_check, or
-   *  after a singularity crossing at a loose tolerance; otherwise it is NaN. */
+   *  are relative to the characteristic length, and errors of angles are in radians. NaN means that
+   *  the error is unknown, for example because the estimate failed or would cost too much. Without
+   *  the option error_check, the estimate shows only whether the error is large: values up to 0.01
+   *  may be errors of the estimate itself. In this case, a run with a fixed step has the estimate 0
+   *  as long as its local errors are negligible, and NaN if inputs change every few steps. A run
+   *  with variable steps has the estimate NaN, except after a singularity crossing at a loose
+   *  tolerance. */
   double error_estimate;
 } baum_counters;
 
@@ -832,8 +833,8 @@ typedef enum baum_branch {
  *  run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] end of the last step before the interval. */
-  double end;         /**< [s] end of the first step after the interval. */
+  double begin;       /**< [s] time of the last state at the end of a step before the interval. */
+  double end;         /**< [s] time of the first state at the end of a step after the interval. */
   double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
   /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
    *  largest value that the smallest pivot has had at any state of the run so far. */

@@ -354,7 +354,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_bushing(baum_mechanism *mechanis
 /* ---- load ------------------------------------------------------------------------------------ */
 
 /** A force at a point of a body, and a moment on the body. If `input` names an input, the value of
- *  this input multiplies both. */
+ *  this input multiplies the force and the moment. */
 typedef struct baum_spatial_load_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */

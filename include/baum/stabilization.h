@@ -8,10 +8,10 @@
  *  violation is a sum of modes. In each step of length h, each mode is multiplied by a number z,
  *  which is a root of the characteristic equation of the integrator. The *spectral radius* is the
  *  largest |z|; violations decay if it is below 1. The spectral radius depends on the integrator
- *  and on the two products alpha h and beta^2 h^2, which are a point in a plane. The points where
- *  violations decay form the *region of stability* of the integrator. The functions below compute
- *  spectral radii and regions. They need no mechanism, allocate no memory and may be called from
- *  any thread.
+ *  and on the two products alpha h and beta^2 h^2, which are the coordinates of a point in a plane.
+ *  The points where violations decay form the *region of stability* of the integrator. The
+ *  functions below compute spectral radii and regions. They need no mechanism, allocate no memory
+ *  and may be called from any thread.
  *
  *  Two kinds of integrators have no region of stability: those that always choose their step
  *  themselves (CVODE and IDA), and those that need no gains. Below, "no region" means that an

@@ -63,8 +63,8 @@ BAUM_API const char *baum_status_text(baum_status status);
 
 /** Message of the last call in this thread that returned a status other than 0. The message names
  *  the element, the field, its value and its unit. The message of a run also names the time.
- *  @return  text owned by the library, never NULL, initially ""; valid until this thread's next
- *           failing call */
+ *  @return  text owned by the library, never NULL, initially ""; valid until the next call in this
+ *           thread that returns a status other than 0 */
 BAUM_API const char *baum_message(void);
 
 /** Set the message of this thread. This function is for libraries that are built on this one, and

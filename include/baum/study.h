@@ -63,7 +63,8 @@ BAUM_API void baum_study_destroy(baum_study *study);
  *  one thread at a time calls it, but this thread may differ from the one that called
  *  baum_study_run().
  *  @param study  the study
- *  @param done   number of entries whose error is known, plus number of entries whose time is known
+ *  @param done   number of entries whose error is known, plus number of entries whose CPU time is
+ *                known
  *  @param total  2 x number of entries
  *  @param user   the option `user`
  *  @return  non-zero to cancel */
@@ -82,8 +83,8 @@ typedef struct baum_study_options {
   /** [-] 1 to 1e6, largest number of runs that measure the time of an entry. Entries with long runs
    *  are measured by fewer runs. Default: 5. */
   int32_t repeats;
-  /** [s] > 0, largest CPU time of a run; may be infinite. A run of the reference may take five
-   *  times this limit. Default: 10. */
+  /** [s] > 0, largest CPU time of a run; may be infinite. A run that computes the reference may
+   *  take five times this limit. Default: 10. */
   double entry_limit;
   /** [s] > 0, largest wall time of one call of baum_study_run(); may be infinite.
    *  Default: infinity. */
@@ -177,8 +178,8 @@ static inline baum_study_grid baum_study_grid_default(void)
  *  follow from the time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
  *  @param[in] grid   NULL: the default
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build fits integrator and
- *           formulation of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build fits the integrator and
+ *           the formulation of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
  *           BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
  *           baum_simulation_create() */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
@@ -345,10 +346,11 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
- *  those of BAUM_STUDY_ENTRY_LIST. A result that is not known is NaN. error_validated is infinite
- *  if the setting fails in the validation. It is NaN for entries that are not validated. The study
- *  does not validate an entry if its work is much larger than the work of another entry that is at
- *  least as accurate. */
+ *  those of BAUM_STUDY_ENTRY_LIST. A result of type double that is not known is NaN. Do not use the
+ *  counts (such as `steps`) of an entry that is not done. error_validated is infinite if the
+ *  setting fails in the validation. It is NaN for entries that are not validated. The study does
+ *  not validate an entry if its work is much larger than the work of another entry that is at least
+ *  as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
   const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */

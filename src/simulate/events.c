@@ -246,9 +246,10 @@ baum_status baum_i_events_find_rate(baum_simulation *run, int number, const baum
   }
   double value = event->next;
   event->rate = 0.0;
+  baum_i_kept_message kept = baum_i_message_keep();
   baum_status status = difference(run, number, state);
   event->next = value;
-  return status == BAUM_ERR_NOT_FINITE ? BAUM_OK : status;
+  return baum_i_message_settle(status == BAUM_ERR_NOT_FINITE ? BAUM_OK : status, &kept);
 }
 
 baum_status baum_i_events_evaluate_start(baum_simulation *run, const baum_i_state *state)

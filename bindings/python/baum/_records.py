@@ -151,12 +151,12 @@ class Counters(NamedTuple):
     doubts: [-] kinds of warnings that put the motion in doubt.
     error_estimate: [-] estimate of the largest global error of the positions since the start.
         Errors of lengths are relative to the characteristic length, and errors of angles are in
-        radians. Without the option error_check it shows only whether the error is large: values
-        up to 0.01 may be errors of the estimate itself. With a fixed step, it is 0 as long as
-        the local errors are negligible. It is NaN, which means unknown, if inputs change every
-        few steps, or if the estimate failed or would cost too much. With variable steps it is
-        known only with the option error_check, or after a singularity crossing at a loose
-        tolerance; otherwise it is NaN.
+        radians. NaN means that the error is unknown, for example because the estimate failed or
+        would cost too much. Without the option error_check, the estimate shows only whether the
+        error is large: values up to 0.01 may be errors of the estimate itself. In this case, a
+        run with a fixed step has the estimate 0 as long as its local errors are negligible, and
+        NaN if inputs change every few steps. A run with variable steps has the estimate NaN,
+        except after a singularity crossing at a loose tolerance.
     """
 
     steps: int
@@ -236,8 +236,8 @@ class NearSingular(NamedTuple):
     """An interval in which a run was near a singular configuration. branch is "continued", "left"
     or "unknown". The joint is a handle or None, and a name after unpickling.
 
-    begin: [s] end of the last step before the interval.
-    end: [s] end of the first step after the interval.
+    begin: [s] time of the last state at the end of a step before the interval.
+    end: [s] time of the first state at the end of a step after the interval.
     t: [s] time of the smallest pivot, which may be inside a step.
     pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot, divided
         by the largest value that the smallest pivot has had at any state of the run so far.
