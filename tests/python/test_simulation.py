@@ -367,6 +367,14 @@ class StepByStep(unittest.TestCase):
         # projection removes the violation that Euler's method has caused
         np.testing.assert_allclose(other.q, run.q, atol=1e-2)
 
+    def test_a_run_may_continue_from_itself(self):
+        run = slider_crank(omega=20).simulation("rk4", step=1e-3)
+        run.advance_to(0.01)
+        q = run.q.copy()
+        run.continue_from(run)
+        np.testing.assert_allclose(run.q, q, rtol=0, atol=1e-12)
+        self.assertEqual(run.time, 0.01)
+
     def test_a_run_in_the_middle_of_a_call_is_not_continued(self):
         m, found = baum.Mechanism(), []
         bob = m.planar_particle("bob", mass=1)
