@@ -37,7 +37,8 @@ def part(path: str | os.PathLike[str]) -> Iterator[Path]:
         return
     new = place.with_name(f".baum-{secrets.token_hex(8)}.part{place.suffix}")
     try:
-        new.touch(permissions, exist_ok=False)  # only those who may read the old file may read it
+        # Only users who may read the old file may read the new one, while it is written, too.
+        new.touch(permissions | stat.S_IRUSR | stat.S_IWUSR, exist_ok=False)
     except OSError as error:  # it names the part
         raise OSError(error.errno, error.strerror, os.fspath(path)) from None
     try:
