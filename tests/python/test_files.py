@@ -90,6 +90,19 @@ class FilesTest(unittest.TestCase):
             _files.write(self.folder / "no" / "a.json", "x")
         self.assertTrue(caught.exception.filename.endswith("a.json"))
 
+    @unittest.skipUnless(os.name == "posix", "the system has no such permissions")
+    def test_a_private_file_is_private_while_it_is_written(self):
+        path = self.folder / "a.json"
+        path.touch(0o600)
+        with _files.part(path) as part:
+            self.assertEqual(part.stat().st_mode & 0o777, 0o600)
+
+    def test_messages_do_not_name_the_part(self):
+        path = self.folder / "no" / "a.gif"
+        with self.assertRaises(FileNotFoundError) as caught, _files.part(path):
+            self.fail("there is no such folder")
+        self.assertEqual(caught.exception.filename, str(path))
+
     def test_names_with_commas_stay_in_one_column(self):
         run = arm().freeze().simulate([0, 0.1], "rk4", step=0.01, record=f"{NAME}.pose")
         _write_csv(run, self.folder / "a.csv")

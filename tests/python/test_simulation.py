@@ -282,6 +282,24 @@ class Warned(unittest.TestCase):
             s.advance_to(0.01)
         self.assertEqual(len(caught), len(s.warnings))
 
+    def test_a_second_integration_that_fails_is_reported(self):
+        """The force is defined only at the times of rk4, not at those of the second integration."""
+
+        def force(t, q, v):
+            if abs(20 * t - round(20 * t)) > 1e-6:
+                raise baum.Retry
+            return 0, 0, 0
+
+        m = baum.Mechanism()
+        m.planar_body("rod", mass=1, inertia=0.1, position=(0.5, 0))
+        m.revolute("pin", "ground", "rod", point=(0, 0))
+        m.force("never", "rod", force)
+        m.freeze()
+        for requested in (False, True):
+            with self.assertWarnsRegex(baum.ErrorUnknownWarning, "estimates it has failed"):
+                run = m.simulate([1.0], "rk4", step=0.1, error_check=requested)
+            self.assertTrue(np.isnan(run.counters.error_estimate))
+
     def test_they_can_be_made_errors(self):
         with warnings.catch_warnings():
             warnings.simplefilter("error", baum.Warning)
@@ -366,6 +384,14 @@ class StepByStep(unittest.TestCase):
         self.assertEqual(other.time, run.time)
         # projection removes the violation that Euler's method has caused
         np.testing.assert_allclose(other.q, run.q, atol=1e-2)
+
+    def test_a_run_may_continue_from_itself(self):
+        run = slider_crank(omega=20).simulation("rk4", step=1e-3)
+        run.advance_to(0.01)
+        q = run.q.copy()
+        run.continue_from(run)
+        np.testing.assert_allclose(run.q, q, rtol=0, atol=1e-12)
+        self.assertEqual(run.time, 0.01)
 
     def test_a_run_in_the_middle_of_a_call_is_not_continued(self):
         m, found = baum.Mechanism(), []

@@ -12,16 +12,18 @@ from pathlib import Path
 from typing import Iterator
 
 
-def _is_replaceable(path: Path) -> bool:
-    """Tell whether a new file can take the place of this one. Other paths, such as devices, links
-    and files that must not be written, are opened as they are."""
+def _permissions(path: Path) -> int | None:
+    """Return the permissions of a new file that takes the place of this one. Return None if no file
+    can take its place. Such paths, for example devices, links and files that must not be written,
+    are opened as they are."""
     try:
         found = path.lstat()
     except OSError:
-        return True  # there is no file yet
+        return 0o666  # there is no file yet
     is_own = not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
     is_single = stat.S_ISREG(found.st_mode) and found.st_nlink == 1
-    return is_single and is_own and os.access(path, os.W_OK)
+    is_replaceable = is_single and is_own and os.access(path, os.W_OK)
+    return stat.S_IMODE(found.st_mode) if is_replaceable else None
 
 
 @contextlib.contextmanager
@@ -29,10 +31,16 @@ def part(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give the path of a new file, which replaces the file `path` when the block ends. If the block
     raises an exception, the new file is deleted, and the old file stays."""
     place = Path(path)
-    if not _is_replaceable(place):
+    permissions = _permissions(place)
+    if permissions is None:
         yield place
         return
     new = place.with_name(f".baum-{secrets.token_hex(8)}.part{place.suffix}")
+    try:
+        # Only users who may read the old file may read the new one, while it is written, too.
+        new.touch(permissions | stat.S_IRUSR | stat.S_IWUSR, exist_ok=False)
+    except OSError as error:  # it names the part
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
     try:
         yield new
         with open(new, "rb+") as file:

@@ -577,8 +577,10 @@ class Simulation(_calls.Closing):
         and keeps its own options."""
         if not isinstance(other, Simulation):
             raise TypeError(f"a simulation is wanted, not {other!r}")
-        # other._owner.call() refuses a run that another call is advancing
-        other._owner.call(lambda from_: self._call(lib.baum_simulation_continue, from_))
+        if other is self:
+            self._call(lib.baum_simulation_continue, self._owner.address)
+        else:  # other._owner.call() refuses a run that another call is advancing
+            other._owner.call(lambda from_: self._call(lib.baum_simulation_continue, from_))
         self._warn()
 
     def cancel(self) -> None:
