@@ -30,28 +30,39 @@ typedef baum_i_space_column column;
 /* ---- bodies ---- */
 
 /* Normalizes a quaternion unless its length is 1 up to rounding. */
-BAUM_I_INLINE void unit(const double *from, double p[4])
+BAUM_I_INLINE four unit(four p)
 {
-  double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2] + from[3] * from[3];
-  double length = fabs(square - 1.0) <= 8.0 * DBL_EPSILON ? 1.0 : sqrt(square);
-  for (int i = 0; i < 4; i++) {
-    p[i] = length == 1.0 ? from[i] : from[i] / length;
-  }
+  double square = baum_i_four_sum(baum_i_four_times(p, p));
+  bool is_unit = fabs(square - 1.0) <= 8.0 * DBL_EPSILON;
+  return is_unit ? p : baum_i_four_over(p, baum_i_four_all(sqrt(square)));
 }
 
-/* Computes A of a unit quaternion. Writes the columns of A to a, and its rows to `rows`. */
-BAUM_I_INLINE void set_axes(const double p[4], four a[3], double rows[9])
+/* Sets m to the vectors (x_0, y_1, z_2), (z_0, x_1, y_2) and (y_0, z_1, x_2), each followed by
+ * x_3. */
+BAUM_I_INLINE void mix(four x, four y, four z, four m[3])
 {
-  const double w = p[0], x = p[1], y = p[2], z = p[3];
-  const double s[9] = {
-    1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
-    2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
-    2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    a[c] = baum_i_four_set(s[c], s[3 + c], s[6 + c], 0.0);
-  }
-  memcpy(rows, s, sizeof s);
+  m[0] = baum_i_four_move(baum_i_four_move(x, 1, y, 1), 2, z, 2);
+  m[1] = baum_i_four_move(baum_i_four_move(x, 2, y, 2), 0, z, 0);
+  m[2] = baum_i_four_move(baum_i_four_move(x, 0, y, 0), 1, z, 1);
+}
+
+/* Computes the columns and the rows of A of a unit quaternion. */
+BAUM_I_INLINE void set_axes(four p, four columns[3], four rows[3])
+{
+  const four one = baum_i_four_set(1.0, 1.0, 1.0, 0.0);
+  four x = baum_i_four_set(baum_i_four_get(p, 1), baum_i_four_get(p, 2), baum_i_four_get(p, 3), 0);
+  four twice = baum_i_four_plus(x, x);
+  four squares = baum_i_four_times(x, twice);
+  four next = baum_i_four_rotated(x);
+  four last = baum_i_four_times(baum_i_four_rotated(next), baum_i_four_all(baum_i_four_get(p, 0)));
+  squares = baum_i_four_rotated(baum_i_four_plus(squares, baum_i_four_rotated(squares)));
+  four diagonal = baum_i_four_minus(one, squares);
+  four products = baum_i_four_times(twice, next);
+  last = baum_i_four_plus(last, last);
+  four below = baum_i_four_plus(products, last);  /* A_10, A_21, A_02 */
+  four above = baum_i_four_minus(products, last); /* A_01, A_12, A_20 */
+  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(below)), above, columns);
+  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(above)), below, rows);
 }
 
 BAUM_I_INLINE four three(const double *from)
@@ -90,10 +101,13 @@ BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const 
     baum_i_store(pass->force + first + 3, baum_i_four_low(turn));
     pass->force[first + 5] = baum_i_four_high(turn)[0];
   }
+  if (own->fixed) {
+    return;
+  }
   double moment[4];
   baum_i_four_store(moment, turn);
   four white = turned(own->whiten, moment);
-  baum_i_four_store(f, baum_i_four_times(push, baum_i_four_all(own->mass > 0.0 ? 1.0 : 0.0)));
+  baum_i_four_store(f, push);
   baum_i_four_store(a0, baum_i_four_times(push, baum_i_four_load(own->weight)));
   baum_i_four_store(f + 4, white);
   baum_i_four_store(a0 + 4, white);
@@ -108,17 +122,19 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
   baum_i_space_frame *to = &pass->joints.frames[body];
   baum_i_spatial_frame *other = &pass->spatial[body];
-  double p[4] = {1.0, 0.0, 0.0, 0.0};
-  if (rigid) {
-    unit(q + 3, p);
-  }
+  four p = rigid ? unit(baum_i_four_load(q + 3)) : baum_i_four_set(1.0, 0.0, 0.0, 0.0);
+  four r = three(q);
   if (pass->normalized) {
-    memcpy(pass->normalized + place->q, q, 3 * sizeof *q);
-    memcpy(pass->normalized + place->q + 3, p, (rigid ? sizeof p : 0));
+    double *copy = pass->normalized + place->q;
+    baum_i_store(copy, baum_i_four_low(r));
+    copy[2] = baum_i_four_high(r)[0];
+    if (rigid) {
+      baum_i_four_store(copy + 3, p);
+    }
   }
   four a[3];
-  set_axes(p, a, other->axes);
-  four r = three(q);
+  four rows[3];
+  set_axes(p, a, rows);
   four w = baum_i_four_zero();
   four velocity = three(v);
   BAUM_I_UNROLL(3)
@@ -137,8 +153,11 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   /* each store writes one number too many, which the next store overwrites */
   baum_i_four_store(other->r, r);
   baum_i_four_store(other->v, velocity);
-  baum_i_store(other->w, baum_i_four_low(w));
-  other->w[2] = baum_i_four_high(w)[0];
+  baum_i_four_store(other->w, w);
+  baum_i_four_store(other->axes, rows[0]);
+  baum_i_four_store(other->axes + 3, rows[1]);
+  baum_i_store(other->axes + 6, baum_i_four_low(rows[2]));
+  other->axes[8] = baum_i_four_high(rows[2])[0];
   if (pass->gravity) {
     set_force(b, body, rigid, v ? v + 3 : NULL, pass);
   }
