@@ -15,6 +15,9 @@
 
 typedef __m256d baum_i_four;
 
+/* See baum_i_pair_in_array. */
+typedef double baum_i_four_in_array __attribute__((vector_size(32), aligned(8)));
+
 /* Load one pair from each of the two addresses. */
 BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *high)
 {
@@ -191,7 +194,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_larger(baum_i_four x, baum_i_four y)
 BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
 {
 #ifdef BAUM_I_WIDE
-  return _mm256_loadu_pd(from);
+  return *(const baum_i_four_in_array *)from;
 #else
   return baum_i_four_gathered(from, from + 2);
 #endif
@@ -200,7 +203,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_load(const double *from)
 BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
 {
 #ifdef BAUM_I_WIDE
-  _mm256_storeu_pd(to, x);
+  *(baum_i_four_in_array *)to = x;
 #else
   baum_i_store(to, x.low);
   baum_i_store(to + 2, x.high);

@@ -3,20 +3,21 @@
 #ifndef BAUM_I_BASE_PAIR_H
 #define BAUM_I_BASE_PAIR_H
 
-#include <string.h>
-
 typedef double baum_i_pair __attribute__((vector_size(16)));
+
+/* A pair in an array of doubles. Unlike memcpy() and the functions of immintrin.h, stores of this
+ * type tell the compiler that they change no integers and pointers, so that it need not load these
+ * again. */
+typedef double baum_i_pair_in_array __attribute__((vector_size(16), aligned(8)));
 
 static inline baum_i_pair baum_i_load(const double *from)
 {
-  baum_i_pair x;
-  memcpy(&x, from, sizeof x);
-  return x;
+  return *(const baum_i_pair_in_array *)from;
 }
 
 static inline void baum_i_store(double *to, baum_i_pair x)
 {
-  memcpy(to, &x, sizeof x);
+  *(baum_i_pair_in_array *)to = x;
 }
 
 static inline baum_i_pair baum_i_both(double x)

@@ -63,7 +63,9 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   const double *numbers = w->point.parameters + of->element.parameter;
   bool pin = of->type->is_pin; /* its points have two numbers, body_b comes first */
   double *axes = out + BAUM_I_JOINT_AXES;
+  const double *weights[2];
   for (int k = 0; k < 2; k++) {
+    weights[k] = space->bodies[joint->body[k]].weight;
     double *s = out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k;
     memcpy(s, numbers + (pin ? 2 - 2 * k : BAUM_I_SPATIAL_POINTS + 3 * k),
            (pin ? 2 : 3) * sizeof *s);
@@ -71,8 +73,11 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
              out + BAUM_I_JOINT_ARMS + (ptrdiff_t)12 * k);
   }
   for (int i = 0; i < node->rows; i++) {
-    out[BAUM_I_JOINT_KEEP + i] = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
-    if (!pin && rows[i].x < BAUM_I_X_B) {
+    bool point = SHAPES[joint->shape][i] == 'p';
+    double keep = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
+    out[BAUM_I_JOINT_KEEP + i] = keep;
+    out[BAUM_I_JOINT_DIAGONAL + i] = 1.0 - keep + (point ? weights[0][i] + weights[1][i] : 0.0);
+    if (!point) {
       memcpy(axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)3 * (int)(rows[i].x - BAUM_I_X_A),
              3 * sizeof *axes);
       if (rows[i].y < BAUM_I_X_GROUND) {
@@ -94,14 +99,19 @@ static int32_t count_numbers(int shape)
   return count;
 }
 
-static int32_t side_on(const baum_i_space *space, const baum_i_space_node *node, int32_t body)
+static void find_sides(const baum_i_space *space, const baum_i_space_node *node,
+                       baum_i_space_joint *joint)
 {
-  for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
-    if (space->side_list[s].body == body) {
-      return s;
+  for (int k = 0; k < 2; k++) {
+    joint->move[k] = -1;
+    joint->turn[k] = -1;
+    for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
+      if (space->side_list[s].body == joint->body[k]) {
+        joint->move[k] = space->side_list[s].move;
+        joint->turn[k] = space->side_list[s].turn;
+      }
     }
   }
-  return -1;
 }
 
 /* Compares joints by shape, then by the order of elimination. */
@@ -133,12 +143,9 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
       is_done[node->row_block] = 1;
       int first = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 1 : 0];
       int second = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 0 : 1];
-      out->list[out->count++] =
-        (baum_i_space_joint){.shape = (int32_t)shape,
-                             .node = k,
-                             .row = joint->row,
-                             .body = {first, second},
-                             .side = {side_on(space, node, first), side_on(space, node, second)}};
+      out->list[out->count] = (baum_i_space_joint){
+        .shape = (int32_t)shape, .node = k, .row = joint->row, .body = {first, second}};
+      find_sides(space, node, &out->list[out->count++]);
     }
   }
   qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);

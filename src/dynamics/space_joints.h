@@ -43,8 +43,11 @@ enum {
   BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
   BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
   BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
+  /* constant part of the diagonal of D: the terms E E^T / m of rows p, and the pivots 1 of omitted
+   * rows; eight numbers */
+  BAUM_I_JOINT_DIAGONAL = 40,
   BAUM_I_JOINT_AXES =
-    40 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a */
+    48 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a */
 };
 
 typedef struct baum_i_space_joint {
@@ -54,7 +57,10 @@ typedef struct baum_i_space_joint {
   /* The bodies in the order for which Phi is x_1 - x_0, where x_k is the joint's point on body[k].
    * Phi of a pin is x_a - x_b, so its first body is body_b. */
   int32_t body[2];
-  int32_t side[2]; /* the node's sides for these bodies; -1: the body is ground */
+  /* starts of E and R of the node's sides for these bodies in baum_i_space.sides; -1: the body is
+   * ground */
+  int32_t move[2];
+  int32_t turn[2];
   int32_t numbers; /* index of its first constant in baum_i_space_joints.numbers */
 } baum_i_space_joint;
 

@@ -30,28 +30,39 @@ typedef baum_i_space_column column;
 /* ---- bodies ---- */
 
 /* Normalizes a quaternion unless its length is 1 up to rounding. */
-BAUM_I_INLINE void unit(const double *from, double p[4])
+BAUM_I_INLINE four unit(four p)
 {
-  double square = from[0] * from[0] + from[1] * from[1] + from[2] * from[2] + from[3] * from[3];
-  double length = fabs(square - 1.0) <= 8.0 * DBL_EPSILON ? 1.0 : sqrt(square);
-  for (int i = 0; i < 4; i++) {
-    p[i] = length == 1.0 ? from[i] : from[i] / length;
-  }
+  double square = baum_i_four_sum(baum_i_four_times(p, p));
+  bool is_unit = fabs(square - 1.0) <= 8.0 * DBL_EPSILON;
+  return is_unit ? p : baum_i_four_over(p, baum_i_four_all(sqrt(square)));
 }
 
-/* Computes A of a unit quaternion. Writes the columns of A to a, and its rows to `rows`. */
-BAUM_I_INLINE void set_axes(const double p[4], four a[3], double rows[9])
+/* Sets m to the vectors (x_0, y_1, z_2), (z_0, x_1, y_2) and (y_0, z_1, x_2), each followed by
+ * x_3. */
+BAUM_I_INLINE void mix(four x, four y, four z, four m[3])
 {
-  const double w = p[0], x = p[1], y = p[2], z = p[3];
-  const double s[9] = {
-    1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z),       2.0 * (x * z + w * y),
-    2.0 * (x * y + w * z),       1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),
-    2.0 * (x * z - w * y),       2.0 * (y * z + w * x),       1.0 - 2.0 * (x * x + y * y)};
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    a[c] = baum_i_four_set(s[c], s[3 + c], s[6 + c], 0.0);
-  }
-  memcpy(rows, s, sizeof s);
+  m[0] = baum_i_four_move(baum_i_four_move(x, 1, y, 1), 2, z, 2);
+  m[1] = baum_i_four_move(baum_i_four_move(x, 2, y, 2), 0, z, 0);
+  m[2] = baum_i_four_move(baum_i_four_move(x, 0, y, 0), 1, z, 1);
+}
+
+/* Computes the columns and the rows of A of a unit quaternion. */
+BAUM_I_INLINE void set_axes(four p, four columns[3], four rows[3])
+{
+  const four one = baum_i_four_set(1.0, 1.0, 1.0, 0.0);
+  four x = baum_i_four_set(baum_i_four_get(p, 1), baum_i_four_get(p, 2), baum_i_four_get(p, 3), 0);
+  four twice = baum_i_four_plus(x, x);
+  four squares = baum_i_four_times(x, twice);
+  four next = baum_i_four_rotated(x);
+  four last = baum_i_four_times(baum_i_four_rotated(next), baum_i_four_all(baum_i_four_get(p, 0)));
+  squares = baum_i_four_rotated(baum_i_four_plus(squares, baum_i_four_rotated(squares)));
+  four diagonal = baum_i_four_minus(one, squares);
+  four products = baum_i_four_times(twice, next);
+  last = baum_i_four_plus(last, last);
+  four below = baum_i_four_plus(products, last);  /* A_10, A_21, A_02 */
+  four above = baum_i_four_minus(products, last); /* A_01, A_12, A_20 */
+  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(below)), above, columns);
+  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(above)), below, rows);
 }
 
 BAUM_I_INLINE four three(const double *from)
@@ -90,10 +101,13 @@ BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const 
     baum_i_store(pass->force + first + 3, baum_i_four_low(turn));
     pass->force[first + 5] = baum_i_four_high(turn)[0];
   }
+  if (own->fixed) {
+    return;
+  }
   double moment[4];
   baum_i_four_store(moment, turn);
   four white = turned(own->whiten, moment);
-  baum_i_four_store(f, baum_i_four_times(push, baum_i_four_all(own->mass > 0.0 ? 1.0 : 0.0)));
+  baum_i_four_store(f, push);
   baum_i_four_store(a0, baum_i_four_times(push, baum_i_four_load(own->weight)));
   baum_i_four_store(f + 4, white);
   baum_i_four_store(a0 + 4, white);
@@ -108,17 +122,19 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
   baum_i_space_frame *to = &pass->joints.frames[body];
   baum_i_spatial_frame *other = &pass->spatial[body];
-  double p[4] = {1.0, 0.0, 0.0, 0.0};
-  if (rigid) {
-    unit(q + 3, p);
-  }
+  four p = rigid ? unit(baum_i_four_load(q + 3)) : baum_i_four_set(1.0, 0.0, 0.0, 0.0);
+  four r = three(q);
   if (pass->normalized) {
-    memcpy(pass->normalized + place->q, q, 3 * sizeof *q);
-    memcpy(pass->normalized + place->q + 3, p, (rigid ? sizeof p : 0));
+    double *copy = pass->normalized + place->q;
+    baum_i_store(copy, baum_i_four_low(r));
+    copy[2] = baum_i_four_high(r)[0];
+    if (rigid) {
+      baum_i_four_store(copy + 3, p);
+    }
   }
   four a[3];
-  set_axes(p, a, other->axes);
-  four r = three(q);
+  four rows[3];
+  set_axes(p, a, rows);
   four w = baum_i_four_zero();
   four velocity = three(v);
   BAUM_I_UNROLL(3)
@@ -137,8 +153,11 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   /* each store writes one number too many, which the next store overwrites */
   baum_i_four_store(other->r, r);
   baum_i_four_store(other->v, velocity);
-  baum_i_store(other->w, baum_i_four_low(w));
-  other->w[2] = baum_i_four_high(w)[0];
+  baum_i_four_store(other->w, w);
+  baum_i_four_store(other->axes, rows[0]);
+  baum_i_four_store(other->axes + 3, rows[1]);
+  baum_i_store(other->axes + 6, baum_i_four_low(rows[2]));
+  other->axes[8] = baum_i_four_high(rows[2])[0];
   if (pass->gravity) {
     set_force(b, body, rigid, v ? v + 3 : NULL, pass);
   }
@@ -202,10 +221,10 @@ BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
   return m;
 }
 
-/* All rows of a joint: columns of R and E of both sides, and Phi, Phi' and gamma. */
+/* All rows of a joint. */
 typedef struct rows {
-  column turn[2][3];
-  column move[3]; /* columns of E_b = -E_a, set only in rows s */
+  four turn[2][BAUM_I_SPACE_ROWS]; /* rows of R of both sides, except for rows p */
+  column move[3];                  /* columns of E_b = -E_a, set only in rows s */
   column phi;
   column rate;
   column gamma;
@@ -257,12 +276,8 @@ BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame
       sums[k][c] = baum_i_four_times(t[k], baum_i_four_load(b + 4 * c));
     }
     sums[k][3] = terms[k];
-    four row = baum_i_four_sums(sums[k]);
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      put(&out->turn[k][c], i, row, c);
-    }
-    put(k == 0 ? &out->phi : &out->rate, i, row, 3);
+    out->turn[k][i] = baum_i_four_sums(sums[k]);
+    put(k == 0 ? &out->phi : &out->rate, i, out->turn[k][i], 3);
   }
   put(&out->gamma, i, baum_i_four_all(-baum_i_four_sum(terms[2])), 0);
 }
@@ -325,79 +340,89 @@ BAUM_I_INLINE void store_rows(double *to, column x, int n)
   }
 }
 
-/* Sets r and J a0 - r of the node, and the joint's rows of Phi, Phi' and gamma in the workspace. */
-BAUM_I_INLINE void set_rights(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                              bool points, bool slides, const rows *row,
-                              const baum_i_space_pass *at)
+/* Returns r of the node, and sets the joint's rows of Phi, Phi' and gamma in the workspace. */
+BAUM_I_INLINE column set_rates(const baum_i_space_joint *joint, int n, const double *keep,
+                               const rows *row, const baum_i_space_pass *at)
 {
   bool tall = n > 4;
-  double *to = b->nodes + b->list[joint->node].at;
-  const double *keep = at->joints.numbers + joint->numbers + BAUM_I_JOINT_KEEP;
-  const double *free[2] = {b->from + (ptrdiff_t)MOTION * joint->body[0],
-                           b->from + (ptrdiff_t)MOTION * joint->body[1]};
   column right = baum_i_column_times(row->gamma, at->bending, tall);
   right = baum_i_column_subtract(right, row->rate, at->damping, tall);
   right = baum_i_column_subtract(right, row->phi, at->stiffness, tall);
   column kept = baum_i_column_load(keep, 1, 0, tall);
   right.low = baum_i_four_times(right.low, kept.low);
   right.high = tall ? right.high * kept.high : right.high;
-  four apart = baum_i_four_minus(baum_i_four_load(free[1]), baum_i_four_load(free[0]));
-  column sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}};
-  sum = baum_i_column_subtract(sum, right, 1.0, tall);
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    sum = baum_i_column_add(sum, row->turn[0][c], free[0][4 + c], tall);
-    sum = baum_i_column_add(sum, row->turn[1][c], free[1][4 + c], tall);
-    if (slides) {
-      sum = baum_i_column_add(sum, row->move[c], baum_i_four_get(apart, c), tall);
-    }
-  }
-  baum_i_column_store(to, 1, 0, tall, sum);
-  baum_i_column_store(to + baum_i_space_vector(n), 1, 0, tall, right);
   store_rows(at->phi + joint->row, row->phi, n);
   store_rows(at->phi_rate + joint->row, row->rate, n);
   store_rows(at->gamma + joint->row, row->gamma, n);
+  return right;
 }
 
-BAUM_I_INLINE void store_sides(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                               bool slides, const rows *row)
+/* J a0 - r and D of a node. */
+typedef struct equations {
+  column sum;
+  column d[BAUM_I_SPACE_ROWS];
+} equations;
+
+/* Sets E of both sides of a joint with rows s, and adds their parts to the equations. `apart` is
+ * the difference of a0 of the two bodies. */
+BAUM_I_INLINE void set_moves(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             const rows *row, four apart, equations *to)
 {
   bool tall = n > 4;
+  const double *weights[2] = {b->bodies[joint->body[0]].weight, b->bodies[joint->body[1]].weight};
   BAUM_I_UNROLL(2)
   for (int k = 0; k < 2; k++) {
-    if (joint->side[k] < 0) {
+    if (joint->turn[k] < 0) {
       continue;
     }
-    const baum_i_space_side *side = &b->side_list[joint->side[k]];
     BAUM_I_UNROLL(3)
     for (int c = 0; c < 3; c++) {
-      baum_i_column_store(b->sides + side->turn, 3, c, tall, row->turn[k][c]);
-      if (slides) {
-        column move = baum_i_column_times(row->move[c], k == 0 ? -1.0 : 1.0, tall);
-        baum_i_column_store(b->sides + side->move, 3, c, tall, move);
-      }
+      column move = baum_i_column_times(row->move[c], k == 0 ? -1.0 : 1.0, tall);
+      baum_i_column_store(b->sides + joint->move[k], 3, c, tall, move);
+    }
+  }
+  int first = joint->turn[0] < 0 ? 1 : 0;
+  double sign = first == 0 ? -1.0 : 1.0; /* E_a = -move */
+  const double *move = b->sides + joint->move[first];
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    to->sum = baum_i_column_add(to->sum, row->move[c], baum_i_four_get(apart, c), tall);
+    BAUM_I_UNROLL(6)
+    for (int j = 0; j < n; j++) {
+      double s = sign * (weights[0][c] + weights[1][c]) * move[baum_i_column_entry(3, j, c)];
+      to->d[j] = baum_i_column_add(to->d[j], row->move[c], s, j >= 4);
     }
   }
 }
 
-/* Sets D to the sum of E E^T / m over both sides. Omitted rows get the pivot 1. */
-BAUM_I_INLINE void begin_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                               bool points, bool slides, const rows *row, const double *keep,
-                               column d[BAUM_I_SPACE_ROWS])
+/* Sets R of side k, and adds its part to the equations. */
+BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             bool points, int k, const rows *row, const baum_i_space_pass *at,
+                             equations *to)
 {
-  const double *weights[2] = {b->bodies[joint->body[0]].weight, b->bodies[joint->body[1]].weight};
-  int first = joint->side[0] < 0 ? 1 : 0;
-  const double *move = b->sides + b->side_list[joint->side[first]].move;
-  double sign = first == 0 ? -1.0 : 1.0; /* E_a = -move */
+  if (joint->turn[k] < 0) {
+    return;
+  }
+  const double *axes = at->joints.frames[joint->body[k]].axes;
+  const double *arms = at->joints.numbers + joint->numbers + BAUM_I_JOINT_ARMS + 12 * k;
+  const double *free = b->from + (ptrdiff_t)MOTION * joint->body[k] + 4;
+  double *stored = b->sides + joint->turn[k];
+  column turn[3];
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    turn[c] = (column){points ? turned(axes, arms + 4 * c) : baum_i_four_zero(), {0.0, 0.0}};
+    BAUM_I_UNROLL(6)
+    for (int i = points ? 3 : 0; i < n; i++) {
+      put(&turn[c], i, row->turn[k][i], c);
+    }
+    baum_i_column_store(stored, 3, c, n > 4, turn[c]);
+    to->sum = baum_i_column_add(to->sum, turn[c], free[c], n > 4);
+  }
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
-    d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
-    double weight = points && j < 3 ? weights[0][j] + weights[1][j] : 0.0;
-    put(&d[j], j, baum_i_four_all(weight + (1.0 - keep[j])), 0);
     BAUM_I_UNROLL(3)
-    for (int c = 0; slides && c < 3; c++) {
-      double s = sign * (weights[0][c] + weights[1][c]) * move[baum_i_column_entry(3, j, c)];
-      d[j] = baum_i_column_add(d[j], row->move[c], s, j >= 4);
+    for (int c = 0; c < 3; c++) {
+      to->d[j] = baum_i_column_add(to->d[j], turn[c], stored[baum_i_column_entry(3, j, c)], j >= 4);
     }
   }
 }
@@ -420,28 +445,31 @@ BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n,
   measure->size[1] = size[1];
 }
 
-/* Computes the pivot D of a node from its sides, which must have been stored before. */
-BAUM_I_INLINE void set_pivot(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                             bool points, bool slides, const rows *row, const baum_i_space_pass *at)
+/* Sets the sides of a joint, r, J a0 - r and D. */
+BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                            bool points, bool slides, const rows *row, const baum_i_space_pass *at)
 {
-  const double *keep = at->joints.numbers + joint->numbers + BAUM_I_JOINT_KEEP;
-  column d[BAUM_I_SPACE_ROWS];
-  begin_pivot(b, joint, n, points, slides, row, keep, d);
-  BAUM_I_UNROLL(2)
-  for (int k = 0; k < 2; k++) {
-    if (joint->side[k] < 0) {
-      continue;
-    }
-    const double *turn = b->sides + b->side_list[joint->side[k]].turn;
-    BAUM_I_UNROLL(6)
-    for (int j = 0; j < n; j++) {
-      BAUM_I_UNROLL(3)
-      for (int c = 0; c < 3; c++) {
-        d[j] = baum_i_column_add(d[j], row->turn[k][c], turn[baum_i_column_entry(3, j, c)], j >= 4);
-      }
-    }
+  const double *numbers = at->joints.numbers + joint->numbers;
+  const double *diagonal = numbers + BAUM_I_JOINT_DIAGONAL;
+  four apart = baum_i_four_minus(baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[1]),
+                                 baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[0]));
+  equations to = {.sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}}};
+  column right = set_rates(joint, n, numbers + BAUM_I_JOINT_KEEP, row, at);
+  to.sum = baum_i_column_subtract(to.sum, right, 1.0, n > 4);
+  BAUM_I_UNROLL(6)
+  for (int j = 0; j < n; j++) {
+    to.d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
+    put(&to.d[j], j, baum_i_four_all(diagonal[j]), 0);
   }
-  store_pivot(b, joint->node, n, d);
+  if (slides) {
+    set_moves(b, joint, n, row, apart, &to);
+  }
+  set_turns(b, joint, n, points, 0, row, at, &to);
+  set_turns(b, joint, n, points, 1, row, at, &to);
+  double *stored = b->nodes + b->list[joint->node].at;
+  baum_i_column_store(stored, 1, 0, n > 4, to.sum);
+  baum_i_column_store(stored + baum_i_space_vector(n), 1, 0, n > 4, right);
+  store_pivot(b, joint->node, n, to.d);
 }
 
 /* Computes the n rows of a joint and writes them to the solver. If `points` is true, the first
@@ -456,19 +484,13 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   const double *axes = numbers + BAUM_I_JOINT_AXES;
   const double *keep = numbers + BAUM_I_JOINT_KEEP;
   const column zero = {baum_i_four_zero(), {0.0, 0.0}};
-  rows row = {{{zero, zero, zero}, {zero, zero, zero}}, {zero, zero, zero}, zero, zero, zero};
+  rows row = {.move = {zero, zero, zero}, .phi = zero, .rate = zero, .gamma = zero};
   const marker m[2] = {marker_on(f, numbers), marker_on(g, numbers + 4)};
   direction d;
   if (points) {
     row.phi.low = baum_i_four_minus(m[1].place, m[0].place);
     row.rate.low = baum_i_four_minus(m[1].rate, m[0].rate);
     row.gamma.low = baum_i_four_minus(m[0].bend, m[1].bend);
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      const double *arms = numbers + BAUM_I_JOINT_ARMS + 4 * c;
-      row.turn[0][c].low = turned(f->axes, arms);
-      row.turn[1][c].low = turned(g->axes, arms + 12);
-    }
   }
   BAUM_I_UNROLL(6)
   for (int i = points ? 3 : 0; i < n; i++) {
@@ -480,9 +502,7 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
     }
     axes += 8;
   }
-  store_sides(b, joint, n, slides != 0, &row);
-  set_rights(b, joint, n, points, slides != 0, &row, at);
-  set_pivot(b, joint, n, points, slides != 0, &row, at);
+  set_node(b, joint, n, points, slides != 0, &row, at);
 }
 
 BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_joint *joint,

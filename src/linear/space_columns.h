@@ -80,7 +80,8 @@ BAUM_I_INLINE baum_i_four baum_i_four_move(baum_i_four x, int i, baum_i_four y, 
 {
 #ifdef BAUM_I_WIDE
   baum_i_four all = y;
-  switch (c) {
+  switch (c == i ? -1 : c) {
+  case -1: break;
   case 0: all = _mm256_permute4x64_pd(y, 0x00); break;
   case 1: all = _mm256_permute4x64_pd(y, 0x55); break;
   case 2: all = _mm256_permute4x64_pd(y, 0xaa); break;
