@@ -70,8 +70,9 @@ BAUM_I_INLINE void add_products(int n, const double *u, const double *later, boo
   }
 }
 
-/* Substitutes backward at node k, which has n rows. Returns its lambda. */
-BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
+/* Substitutes backward at node k, which has n rows. Also writes its multipliers to `out` unless
+ * that is NULL. */
+BAUM_I_INLINE void backward_node(int n, const baum_i_space *b, int k, double *out)
 {
   bool tall = n > 4;
   const baum_i_space_node *node = &b->list[k];
@@ -105,28 +106,25 @@ BAUM_I_INLINE column backward_node(int n, const baum_i_space *b, int k)
     lambda.low = first;
   }
   baum_i_column_store(numbers, 1, 0, tall, lambda);
-  scatter(b, node, lambda, tall);
-  return lambda;
-}
-
-static void copy_lambda(const baum_i_space *b, const baum_i_space_node *node, double *lambda)
-{
-  const double *from = b->nodes + node->at;
-  for (int i = 0; i < node->rows; i++) {
-    lambda[node->row[i]] = from[i];
+  if (out) {
+    BAUM_I_UNROLL(6)
+    for (int i = 0; i < n; i++) {
+      out[node->row[i]] = numbers[i];
+    }
   }
+  scatter(b, node, lambda, tall);
 }
 
-static void backward(const baum_i_space *b)
+static void backward(const baum_i_space *b, double *lambda)
 {
   for (int k = b->node_count - 1; k >= 0; k--) {
     switch (b->list[k].rows) {
-    case 1: (void)backward_node(1, b, k); break;
-    case 2: (void)backward_node(2, b, k); break;
-    case 3: (void)backward_node(3, b, k); break;
-    case 4: (void)backward_node(4, b, k); break;
-    case 5: (void)backward_node(5, b, k); break;
-    default: (void)backward_node(6, b, k); break;
+    case 1: backward_node(1, b, k, lambda); break;
+    case 2: backward_node(2, b, k, lambda); break;
+    case 3: backward_node(3, b, k, lambda); break;
+    case 4: backward_node(4, b, k, lambda); break;
+    case 5: backward_node(5, b, k, lambda); break;
+    default: backward_node(6, b, k, lambda); break;
     }
   }
 }
@@ -134,14 +132,16 @@ static void backward(const baum_i_space *b)
 static void read_lambda(const baum_i_space *b, double *lambda)
 {
   for (int k = 0; k < b->node_count; k++) {
-    copy_lambda(b, &b->list[k], lambda);
+    const baum_i_space_node *node = &b->list[k];
+    for (int i = 0; i < node->rows; i++) {
+      lambda[node->row[i]] = b->nodes[node->at + i];
+    }
   }
 }
 
 static void substitute(baum_i_space *b, double *lambda)
 {
-  backward(b);
-  read_lambda(b, lambda);
+  backward(b, lambda);
 }
 
 /* Subtracts U x from the numbers of a later node. U has n columns. */
@@ -555,7 +555,7 @@ static double correct(baum_i_space *b)
     baum_i_four_store(before + i, x);
     baum_i_four_store(b->motion + i, baum_i_four_plus(x, baum_i_four_load(b->pull + i)));
   }
-  backward(b);
+  backward(b, NULL);
   double most = 0.0;
   for (int i = 1; i < b->island_count; i++) {
     double moved =

@@ -151,13 +151,15 @@ BAUM_I_INLINE void baum_i_column_store(double *m, int columns, int c, bool tall,
   }
 }
 
-/* sum + x s */
+/* sum + x s. The vector of copies of s is used for both parts, because the compiler would otherwise
+ * make it twice. */
 BAUM_I_INLINE baum_i_space_column baum_i_column_add(baum_i_space_column sum, baum_i_space_column x,
                                                     double s, bool tall)
 {
-  sum.low = baum_i_four_add(sum.low, x.low, s);
+  baum_i_four all = baum_i_four_all(s);
+  sum.low = baum_i_four_plus(sum.low, baum_i_four_times(x.low, all));
   if (tall) {
-    sum.high += x.high * s;
+    sum.high += x.high * baum_i_four_low(all);
   }
   return sum;
 }
@@ -165,18 +167,20 @@ BAUM_I_INLINE baum_i_space_column baum_i_column_add(baum_i_space_column sum, bau
 BAUM_I_INLINE baum_i_space_column baum_i_column_subtract(baum_i_space_column sum,
                                                          baum_i_space_column x, double s, bool tall)
 {
-  sum.low = baum_i_four_subtract(sum.low, x.low, s);
+  baum_i_four all = baum_i_four_all(s);
+  sum.low = baum_i_four_minus(sum.low, baum_i_four_times(x.low, all));
   if (tall) {
-    sum.high -= x.high * s;
+    sum.high -= x.high * baum_i_four_low(all);
   }
   return sum;
 }
 
 BAUM_I_INLINE baum_i_space_column baum_i_column_times(baum_i_space_column x, double s, bool tall)
 {
-  x.low = baum_i_four_times(x.low, baum_i_four_all(s));
+  baum_i_four all = baum_i_four_all(s);
+  x.low = baum_i_four_times(x.low, all);
   if (tall) {
-    x.high *= s;
+    x.high *= baum_i_four_low(all);
   }
   return x;
 }

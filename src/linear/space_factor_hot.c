@@ -11,8 +11,11 @@
  * coupling of the node with a later node i, b the right-hand side, and S_fe the coupling of two
  * later nodes f and e. The elimination of the node computes
  *
- *   U1 = X1 P,  X2' = X2 - U1 C,  U2 = X2' Z,     b2' = b2 - Y^T b1
- *   D_i -= U1 X1^T + U2 X2'^T,  b_i -= U1 b1 + U2 b2',  S_fe -= [ X1  X2' ]_f [ U1  U2 ]_e^T
+ *   b2' = b2 - Y^T b1,  z1 = P b1,  z2 = Z b2',  U1 = X1 P,  X2' = X2 - X1 Y,  U2 = X2' Z,
+ *   D_i -= U1 X1^T + U2 X2'^T,  b_i -= X1 z1 + X2' z2,  S_fe -= [ X1  X2' ]_f [ U1  U2 ]_e^T
+ *
+ * The factors are stored before they are used. In registers they would need more registers than
+ * there are.
  */
 #include <math.h>
 #include <string.h>
@@ -251,10 +254,14 @@ BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, cons
 }
 
 /* Subtracts the contribution of the coupling at `off` from the later node, and replaces the
- * coupling by U. x receives X'. rows: number of rows of the later node. */
-BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, bool tall,
+ * coupling by U. x receives X'. `numbers` are those of the eliminated node, rows: number of rows of
+ * the later node. */
+BAUM_I_INLINE void eliminate_one(int n, const double *numbers, double *off, int rows, bool tall,
                                  double *node, column x[MOST])
 {
+  const double *p = numbers + baum_i_space_pivot(n);
+  const double *y = p + 12;
+  const double *z = p + 4 * n;
   int n1 = n < 3 ? n : 3;
   column u[MOST];
   BAUM_I_UNROLL(6)
@@ -263,10 +270,10 @@ BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, b
   }
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n1; j++) {
-    u[j] = baum_i_column_times(x[0], of_triangle(t->p, 0, j), tall);
+    u[j] = baum_i_column_times(x[0], p[4 * j], tall);
     BAUM_I_UNROLL(6)
     for (int k = 1; k < n1; k++) {
-      u[j] = baum_i_column_add(u[j], x[k], of_triangle(t->p, k, j), tall);
+      u[j] = baum_i_column_add(u[j], x[k], p[4 * j + k], tall);
     }
     baum_i_column_store(off, n, j, tall, u[j]);
   }
@@ -274,22 +281,22 @@ BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, b
   for (int j = 3; j < n; j++) {
     BAUM_I_UNROLL(6)
     for (int k = 0; k < 3; k++) {
-      x[j] = baum_i_column_subtract(x[j], u[k], t->c[j - 3][k], tall);
+      x[j] = baum_i_column_subtract(x[j], x[k], y[4 * (j - 3) + k], tall);
     }
   }
   BAUM_I_UNROLL(6)
   for (int j = 3; j < n; j++) {
-    u[j] = baum_i_column_times(x[3], of_triangle(t->z, 0, j - 3), tall);
+    u[j] = baum_i_column_times(x[3], z[4 * (j - 3)], tall);
     BAUM_I_UNROLL(6)
     for (int k = 4; k < n; k++) {
-      u[j] = baum_i_column_add(u[j], x[k], of_triangle(t->z, k - 3, j - 3), tall);
+      u[j] = baum_i_column_add(u[j], x[k], z[4 * (j - 3) + k - 3], tall);
     }
     baum_i_column_store(off, n, j, tall, u[j]);
   }
   column b = baum_i_column_load(node, 1, 0, tall);
   BAUM_I_UNROLL(6)
   for (int k = 0; k < n; k++) {
-    b = baum_i_column_subtract(b, u[k], t->b[k], tall);
+    b = baum_i_column_subtract(b, x[k], numbers[k], tall);
   }
   baum_i_column_store(node, 1, 0, tall, b);
   subtract_product(n, x, tall, off, rows, true, node + (tall ? 16 : 8));
@@ -297,14 +304,14 @@ BAUM_I_INLINE void eliminate_one(int n, const pivot *t, double *off, int rows, b
 
 /* Eliminates coupling f of a node, and multiplies it with the couplings e before it. Returns the
  * next target. */
-BAUM_I_INLINE const int32_t *eliminate_coupling(int n, const baum_i_space *b, const pivot *t,
+BAUM_I_INLINE const int32_t *eliminate_coupling(int n, const baum_i_space *b, const double *numbers,
                                                 const baum_i_space_coupling *first,
                                                 const baum_i_space_coupling *f, int rows, bool tall,
                                                 const int32_t *target)
 {
   column x[MOST];
   const baum_i_space_node *later = &b->list[f->later];
-  eliminate_one(n, t, b->off + f->at, rows, tall, b->nodes + later->at, x);
+  eliminate_one(n, numbers, b->off + f->at, rows, tall, b->nodes + later->at, x);
   for (const baum_i_space_coupling *e = first; e < f; e++) {
     subtract_product(n, x, tall, b->off + e->at, b->list[e->later].rows, false, b->off + *target++);
   }
@@ -322,17 +329,17 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   pivot t;
   baum_i_space_measure *measure = &b->measures[k];
   factor_pivot(n, d, numbers, &t, measure->det);
+  store_factors(n, &t, d, numbers);
   for (const baum_i_space_coupling *f = first; f < end; f++) {
     int rows = b->list[f->later].rows;
     if (rows == n) {
-      target = eliminate_coupling(n, b, &t, first, f, n, n > 4, target);
+      target = eliminate_coupling(n, b, numbers, first, f, n, n > 4, target);
     } else if (rows > 4) {
-      target = eliminate_coupling(n, b, &t, first, f, rows, true, target);
+      target = eliminate_coupling(n, b, numbers, first, f, rows, true, target);
     } else {
-      target = eliminate_coupling(n, b, &t, first, f, rows, false, target);
+      target = eliminate_coupling(n, b, numbers, first, f, rows, false, target);
     }
   }
-  store_factors(n, &t, d, numbers);
   return target;
 }
 

@@ -25,8 +25,12 @@ void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_sp
 {
   for (int k = 0; k < span->body_count; k++, wide += width) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < body->nv; i++) {
-      x[body->v + i] += wide[column(body, width, i)];
+    double *own = x + body->v;
+    for (int i = 0; body->nv == BAUM_I_SPACE && i < BAUM_I_SPACE; i++) {
+      own[i] += wide[i];
+    }
+    for (int i = 0; body->nv < BAUM_I_SPACE && i < body->nv; i++) {
+      own[i] += wide[column(body, width, i)];
     }
   }
 }

@@ -175,12 +175,20 @@ baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
   baum_i_spatial_length out = {.length = 0.0};
   const vector e = vector_of(pair, BAUM_I_APART);
   const double length = sqrt(baum_i_dot3(e.value, e.value));
-  if (length >= DBL_MIN) {
-    const baum_i_spatial_motion m = baum_i_spatial_motion_at(pair->frame[0], pair->frame[1]);
-    const vector rate = along(&e, &m);
-    out.length = length;
-    out.rate = baum_i_dot3(e.value, rate.value) / length;
-    add_gradient(pair, 0.5 / length, &e, &e, out.h);
+  if (!(length >= DBL_MIN)) {
+    return out;
+  }
+  out.length = length;
+  for (int k = 0; k < 2; k++) {
+    const baum_i_spatial_frame *frame = pair->frame[k];
+    double *own = out.h + (ptrdiff_t)BAUM_I_SPACE * k;
+    double moment[3];
+    for (int i = 0; i < 3; i++) {
+      own[i] = (k == 0 ? -e.value[i] : e.value[i]) / length;
+    }
+    baum_i_cross(pair->arm[k], own, moment);
+    baum_i_turn_back(frame->axes, moment, own + 3);
+    out.rate += baum_i_dot3(own, frame->v) + baum_i_dot3(moment, frame->w);
   }
   return out;
 }
