@@ -131,11 +131,11 @@ static void build_driven(baum_i_parts *parts, const double *p)
 #define FREE \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_free, baum_i_slider_crank_state, "mmr", 3), .end = 0.2
 
-#define DRIVEN                                                                         \
-  BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3), \
-    BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                               \
-    .provenance = "closed form; agrees with extrapolation in 160-bit arithmetic",      \
-    .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, "   \
+#define DRIVEN                                                                               \
+  BAUM_I_CATALOG_MODEL(PARAMETERS, build_driven, baum_i_slider_crank_state, "mmr", 3),       \
+    BAUM_I_CATALOG_COMPUTED(driven_solution, 21, 1, 13),                                     \
+    .provenance = "closed form; confirmed by an extrapolation method in 160-bit arithmetic", \
+    .note = "no degrees of freedom; baum_kinematics() can simulate this mechanism, "         \
             "too. The reference requires rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
