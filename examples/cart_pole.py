@@ -78,7 +78,7 @@ def swing_up(x: Array) -> float:
 
 
 def main() -> int:
-    report = Report("cart_pole", folder="write the page and the drawing into this folder")
+    report = Report("cart_pole", folder="write the page and the picture into this folder")
     m, gains = mechanism(), feedback_gains()
     s = m.simulation("rk4", step=PERIOD / STEPS)
     q, states, forces, caught = [], [], [], 0

@@ -59,7 +59,7 @@ def ratio(m: baum.Mechanism, times: Array) -> tuple[baum.Run, Array]:
 
 
 def main() -> int:
-    report = Report("hookes_joint", folder="write the page and the drawing into this folder")
+    report = Report("hookes_joint", folder="write the page and the picture into this folder")
     times = np.linspace(0, 1, 361)
     m = shafts("universal")
     run, universal = ratio(m, times)

@@ -87,7 +87,7 @@ def mechanism() -> baum.Mechanism:
 
 
 def main() -> int:
-    report = Report("jansen_leg", folder="write the page and the drawing into this folder")
+    report = Report("jansen_leg", folder="write the page and the picture into this folder")
     page = Path(report.options.folder or ".") / "jansen_leg.html"
     m = mechanism()
     turn = 200  # samples per revolution

@@ -88,7 +88,7 @@ def main() -> int:
             named = f'"{joint}" is violated most' in str(error) or f'"{joint}" most' in str(error)
             report.expect(f"{make.__name__}: the message does not name {joint}", not named, 0)
         wrong = open_joints(str(m.draw())) != [joint]
-        report.expect(f"{make.__name__}: the drawing does not show {joint} open", wrong, 0)
+        report.expect(f"{make.__name__}: the picture does not show {joint} open", wrong, 0)
     return report.end()
 
 

@@ -63,7 +63,7 @@ def mechanism() -> baum.Mechanism:
 
 
 def main() -> int:
-    report = Report("peaucellier", folder="write the page and the drawing into this folder")
+    report = Report("peaucellier", folder="write the page and the picture into this folder")
     m = mechanism()
     times = np.linspace(0, 1, 401)
     corner = m["side 4"].pose_of((-SIDE / 2, 0))  # the point D

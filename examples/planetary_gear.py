@@ -47,7 +47,7 @@ def mechanism() -> baum.Mechanism:
 
 
 def main() -> int:
-    report = Report("planetary_gear", folder="write the page and the drawing into this folder")
+    report = Report("planetary_gear", folder="write the page and the picture into this folder")
     m = mechanism()
     print(m.mobility().text)
     times = np.linspace(0, SPAN, 301)

@@ -90,7 +90,7 @@ def mechanism() -> baum.Mechanism:
 
 
 def main() -> int:
-    report = Report("suspension", folder="write the page and the drawing into this folder")
+    report = Report("suspension", folder="write the page and the picture into this folder")
     m = mechanism()
     page = Path(report.options.folder or ".") / "suspension.html"
     record = ["road.effort", *(f"{name}.acceleration" for name in MASSES)]

@@ -87,7 +87,7 @@ def throw() -> tuple[baum.Mechanism, list[baum.Run], baum.Simulation, baum.Simul
 
 
 def main() -> int:
-    report = Report("trebuchet", folder="write the page and the drawing into this folder")
+    report = Report("trebuchet", folder="write the page and the picture into this folder")
     m, runs, release, landing = throw()
     at = m["stone"].columns[0]
     times, q = np.concatenate([run.t for run in runs]), np.concatenate([run.q for run in runs])

@@ -68,7 +68,7 @@ typedef struct baum_i_shape {
   int body;                      /* the points are in the axes of this body; 0 for ground */
   int other;                     /* second body, for the forms that have one */
   double radius;                 /* [m] of a disc, ball or cylinder; half the width of lines */
-  int first, count;              /* its points in the points of the drawing; set by baum_i_draw() */
+  int first, count;              /* its points among all points; set by baum_i_draw() */
   const char *color;             /* "#rrggbb", or NULL for the colour of the style */
   /* (triangle_count x 3) the three corners of each triangle of a mesh, as indices of points of this
    * shape. */
@@ -131,7 +131,7 @@ typedef struct baum_i_drawing {
 } baum_i_drawing;
 
 /* Make the shapes of all elements of a mechanism. The mechanism must be frozen if there are
- * samples. Returns BAUM_OK or BAUM_ERR_MEMORY. The caller must release the drawing even after a
+ * samples. Returns BAUM_OK or BAUM_ERR_MEMORY. The caller must release *out even after a
  * failure. */
 baum_status baum_i_drawing_create(const baum_mechanism *m, const baum_i_samples *motion,
                                   baum_i_drawing *out);

@@ -14,7 +14,7 @@
 #include "simulate/run.h"
 
 enum { SEEN = 100, ARC = 24 };
-static const double REACH = 12.0;  /* length of the longest arrow, in units of the drawing */
+static const double REACH = 12.0;  /* length of the longest arrow, in drawing units */
 static const double NEAREST = 0.5; /* [px] smallest distance between points of a path */
 /* Arrows shorter than this fraction of the longest one are not drawn. */
 static const double SMALLEST = 0.01;

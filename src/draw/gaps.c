@@ -11,7 +11,7 @@
 #include "draw/drawing.h"
 
 /* TIP is the distance between the joint and the tips of its axes. ENDLESS is half the length with
- * which an infinite line is drawn. Both are in units of the drawing. */
+ * which an infinite line is drawn. Both are in drawing units. */
 static const double TIP = 4.0, ENDLESS = 1000.0;
 
 typedef struct gaps {

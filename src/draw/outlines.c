@@ -13,7 +13,7 @@
 #include "draw/drawing.h"
 #include "mechanism/kinds.h"
 
-/* Lengths in units of the drawing. LEAST and MOST are the limits for the radius of discs that show
+/* Lengths in drawing units. LEAST and MOST are the limits for the radius of discs that show
  * inertia. 2 MOST is the limit for half the edges of boxes, for half the length of cylinders, and
  * for the radius of cylinders. BLOCK contains half the lengths of the edges of a slider's block. */
 static const double LEAST = 1.5, MOST = 8.0;

@@ -39,7 +39,7 @@ typedef struct baum_i_picture {
     }                           \
   }
 
-/* Set the direction of view, which depends only on the drawing. */
+/* Set the direction of view, which depends only on what is drawn. */
 void baum_i_picture_set_view(baum_i_picture *p);
 /* Extend a box [m] so that it includes all shapes, with the bodies in the poses p->frames. */
 void baum_i_picture_include(const baum_i_picture *p, baum_i_box *box);

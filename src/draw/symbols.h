@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Symbols of joints and forces. Lengths are in units of the drawing, unless another unit is
+/* Symbols of joints and forces. Lengths are in drawing units, unless another unit is
  * given. */
 #ifndef BAUM_I_DRAW_SYMBOLS_H
 #define BAUM_I_DRAW_SYMBOLS_H
@@ -25,7 +25,7 @@ void baum_i_symbol_between(const baum_i_symbol *s, baum_i_style style, const bau
                            int side, const baum_i_place *to, double radius, double shift);
 
 /* Draw a line or an area. Each row of xy gives a corner: its distances from the point of the place
- * in the directions `along` and `across`, in units of the drawing. */
+ * in the directions `along` and `across`, in drawing units. */
 void baum_i_symbol_line(const baum_i_symbol *s, baum_i_style style, int side, double radius,
                         int count, const double (*xy)[2], const double along[3],
                         const double across[3]);

@@ -8,7 +8,7 @@
 #include "mechanism/identify.h"
 #include "mechanism/kinds.h"
 
-/* In units of the drawing: the height of teeth above the pitch circle, and the width of an internal
+/* In drawing units: the height of teeth above the pitch circle, and the width of an internal
  * gear outside its pitch circle. */
 static const double TOOTH = 0.6, RING = 1.8;
 

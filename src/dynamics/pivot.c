@@ -97,7 +97,7 @@ static weakest smallest_in_space(const baum_i_space *space)
 /* Find the pivot of the last elimination by blocks, even if the block solver then gave up. Returns
  * false if there is no such elimination. Also returns false if the pivot is at rounding level,
  * although larger ones have occurred, masses are uneven, and another solver gave the solution:
- * uneven masses often cause such pivots. */
+ * uneven masses often cause such pivots. Also updates the largest pivot of the path. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;

@@ -162,7 +162,7 @@ static void nearer_triangles_of_two_meshes_cover_those_behind(void **state)
     two[0].triangle_count = two[1].triangle_count = 1;
     two[k].color = "#ff0000";
     two[1 - k].color = "#0000ff";
-    /* Gravity along -z makes z vertical, so that the drawing shows the meshes from above. */
+    /* Gravity along -z makes z vertical, so that the picture shows the meshes from above. */
     check(baum_mechanism_set_gravity(s.mechanism, 0.0, 0.0, -9.81));
     check(baum_mechanism_set_outlines(s.mechanism, s.solid, two, 2));
     print_svg(s.mechanism, text);

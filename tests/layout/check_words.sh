@@ -29,6 +29,7 @@ banned 'hold hardly' ill-conditioned
 banned 'anew' 'again, or restart'
 banned 'dearer' 'more expensive'
 banned 'left out' omitted
+banned 'the drawing' 'the picture, or the design configuration'
 banned 'full nodes?' 'general node'
 
 wide=$(find include src examples tests bindings/python \( -name '*.[ch]' -o -path 'examples/*.py' \

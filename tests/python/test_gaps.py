@@ -132,8 +132,8 @@ class Kinds(unittest.TestCase):
 
 
 class Mistakes(unittest.TestCase):
-    """Tests three typical mistakes. The drawing of the design configuration must show only the
-    wrong joint. The drawing of assembly's last configuration must show all joints that contradict
+    """Tests three typical mistakes. The picture of the design configuration must show only the
+    wrong joint. The picture of assembly's last configuration must show all joints that contradict
     each other."""
 
     def check(self, make, wrong, contradicting):

@@ -215,7 +215,7 @@ static void a_body_with_an_axis_of_symmetry_is_a_cylinder(void **state)
 
 /* ---- the ground ---- */
 
-/* Computes the mean point of all shapes of the ground, in units of the drawing. */
+/* Computes the mean point of all shapes of the ground, in drawing units. */
 static void find_ground(const baum_mechanism *m, double middle[2])
 {
   baum_i_drawing drawing;

@@ -48,7 +48,7 @@ def pixels(size: Any, most: float) -> Array:
 
 
 def resized(svg: str, size: Any) -> str:
-    """Return the picture in another size [px]. The drawing is scaled to fit into the new size, and
+    """Return the picture in another size [px]. Its content is scaled to fit into the new size, and
     centred."""
     width, height = pixels(size, 1e5)
     return re.sub(
