@@ -327,9 +327,8 @@ static baum_status stop_at(baum_simulation *run, int terminal, double t)
   keep_values_at_stop(run, t);
   const char *name = events->list[terminal].def.name;
   bool rises = events->marks[terminal].side * run->problem.direction > 0.0;
-  return baum_i_fail(BAUM_STOP_EVENT, "t = %.9g s: event %d%s%.60s%s, %s", t, terminal,
-                     name ? " \"" : "", name ? name : "", name ? "\"" : "",
-                     rises ? "rising" : "falling");
+  return baum_i_fail(BAUM_STOP_EVENT, "t = %.9g s: %s, %s", t,
+                     baum_i_event_label(terminal, name).text, rises ? "rising" : "falling");
 }
 
 static baum_status fail_bounce(const baum_simulation *run, int k, bool soon)
@@ -337,10 +336,9 @@ static baum_status fail_bounce(const baum_simulation *run, int k, bool soon)
   const char *name = run->events->list[k].def.name;
   const char *when = soon ? "so soon that the computed velocities have the wrong sign" : "at once";
   return baum_i_fail(BAUM_ERR_STEP,
-                     "t = %.9g s: event %d%s%.60s%s happens again %s; if a body bounces off a "
-                     "stop, let it rest there once it is slow",
-                     run->events->begin, k, name ? " \"" : "", name ? name : "", name ? "\"" : "",
-                     when);
+                     "t = %.9g s: %s happens again %s; if a body bounces off a stop, let it rest "
+                     "there once it is slow",
+                     run->events->begin, baum_i_event_label(k, name).text, when);
 }
 
 /* Fail in two cases. First, a terminal event that happens again at once cannot be distinguished

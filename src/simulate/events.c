@@ -56,7 +56,7 @@ static baum_status check_definition(const baum_mechanism *m, const baum_event_de
                                 : BAUM_OK;
 }
 
-static baum_i_text label_of(int number, const char *name)
+baum_i_text baum_i_event_label(int number, const char *name)
 {
   return name ? baum_i_text_of("event %d \"%.60s\"", number, name)
               : baum_i_text_of("event %d", number);
@@ -119,7 +119,7 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
                               double t)
 {
   const baum_event_def *def = &run->events->list[number].def;
-  const baum_i_text label = label_of(number, def->name);
+  const baum_i_text label = baum_i_event_label(number, def->name);
   if (answer != 0) {
     return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t,
                        label.text, answer,
@@ -367,8 +367,8 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
                                "baum_event_def_default()"));
   int number = simulation->events ? simulation->events->count : 0;
   BAUM_I_TRY(baum_i_check_name("event", number, given.name));
-  BAUM_I_TRY(
-    check_definition(simulation->workspace->mechanism, &given, label_of(number, given.name).text));
+  BAUM_I_TRY(check_definition(simulation->workspace->mechanism, &given,
+                              baum_i_event_label(number, given.name).text));
   if (!simulation->events) {
     BAUM_I_TRY(create_events(simulation));
   }

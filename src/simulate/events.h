@@ -53,6 +53,9 @@ struct baum_i_events {
 
 void baum_i_events_destroy(baum_i_events *events);
 
+/* How messages name an event. `name` may be NULL. */
+baum_i_text baum_i_event_label(int number, const char *name);
+
 /* The following functions may be called only if run->events is not NULL. */
 
 /* Evaluate all events in a state and write their values to `next`. Returns BAUM_OK,

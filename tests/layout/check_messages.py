@@ -24,7 +24,7 @@ MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 # What stands in the list for a text of a message, by the name at the end of the C expression that
 # gives the text. All other texts are "...".
-PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "joint_label": "JOINT", "row_label": "ROW", "name": "NAME", "names": "NAMES",
+PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "event_label": "EVENT", "joint_label": "JOINT", "row_label": "ROW", "name": "NAME", "names": "NAMES",
                 "integrator": "INTEGRATOR", "integrator->name": "INTEGRATOR", "method->name": "INTEGRATOR",
                 "pair->name": "INTEGRATOR", "field": "FIELD", "key": "KEY", "unit": "UNIT", "unit_of": "UNIT", "kind": "KIND",
                 "path": "PATH", "family": "FAMILY", "user_entry": "ENTRY", "coordinate_name": "COORDINATE"}
@@ -33,16 +33,19 @@ HEAD = """# Messages
 
 This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
 sources. `#` stands for a number, and words in capital letters for texts: `CALL` for the name of the function that was called,
-`ELEMENT` for the kind, number and name of an element, and so on. `...` stands for any other text. *As failed* means that the
-text is added to the message of another failure, and that the status of this failure remains. Each warning links to its
-[entry](cookbook/warnings.md).
-[theory/errors.md](theory/errors.md) describes the warnings that put a result in doubt, and
-[status.h](../include/baum/status.h) the statuses. `sh tests/run.sh coverage` lists the messages that no test triggers.
+`ELEMENT` for the kind, number and name of an element, and so on. `{A / B}` stands for one of the texts A
+and B, and `...` for any other text. *As failed* means that the text is added to the message of another failure, and that the
+status of this failure remains. Each warning links to its [entry](cookbook/warnings.md). [theory/errors.md](theory/errors.md)
+describes the warnings that put a result in doubt, and [status.h](../include/baum/status.h) the statuses.
+`sh tests/run.sh coverage` lists the messages that no test triggers.
 """
 
 
 def placeholder(expression):
     """Return what stands for a text in the message, from the C expression of the text."""
+    either = re.search(r'\? "([^"]*[a-z][^"]*)" : "([^"]*[a-z][^"]*)"$', expression)
+    if either:
+        return f"{{{either[1]} / {either[2]}}}"
     end = re.search(r"((?:\w+->)?)(?:baum_i_)?(\w+)(?:\(.*\))?(?:\.text)?$", expression, flags=re.S)
     if not end or "?" in expression:
         return "..."
