@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The catalogue: a collection of mechanisms, which docs/mechanisms.md lists. Use the mechanisms as
- *  examples, for tests of integration methods, and for comparisons with other programs. Almost all
- *  of them have a known motion. The catalogue is a separate library, baum_catalog, which uses only
- *  the public interface of baum.
+ *  The catalogue: a collection of mechanisms. The page "docs/mechanisms.md" lists them. Use the
+ *  mechanisms as examples, for tests of integration methods, and for comparisons with other
+ *  programs. Almost all of them have a known motion. The catalogue is a separate library,
+ *  baum_catalog, which uses only the public interface of baum.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);

@@ -3,8 +3,8 @@
  *  A workspace evaluates a frozen mechanism at one state, without a run. It computes the
  *  constraints Phi, their Jacobian J, the right-hand sides nu and gamma of their time derivatives,
  *  the mass matrix M, the forces g, accelerations and residuals. It can also assemble a mechanism
- *  and project a state onto the constraints. docs/notation.md explains the symbols and lists the
- *  numbered equations.
+ *  and project a state onto the constraints. The page "docs/notation.md" explains the symbols and
+ *  lists the numbered equations.
  *
  *  Arguments: times t [s], positions q (nq) and velocities v (nv) must be finite. No output may
  *  overlap an input. If a call fails, it does not write its outputs. Dense matrices are row-major.
@@ -42,7 +42,8 @@ BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum
 /** Release a workspace. @param workspace  may be NULL */
 BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
-/** Read the design configuration and the given initial velocities.
+/** Read the design configuration, which consists of the positions in the definitions of the bodies,
+ *  and the given initial velocities.
  *  @param      workspace  a workspace of the mechanism
  *  @param[out] q          (nq); may be NULL
  *  @param[out] v          (nv), NaN where no initial velocity is given; may be NULL
@@ -193,8 +194,8 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** The form of the equations that baum_workspace_residual() evaluates. The residual consists of q'
- *  - N v, then M v' + J^T lambda - g, and then the constraints in one of the forms below.
+/** The form of the equations that baum_workspace_residual() evaluates. The residual has three
+ *  parts: q' - N v, M v' + J^T lambda - g, and the constraints in one of the forms below.
  *
  *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
  *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W

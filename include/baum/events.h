@@ -33,8 +33,8 @@
  *  two cases occurs: the event happens again shortly after the last impact, although the reversed
  *  velocities move the event function away from zero; or the method computes velocities with the
  *  wrong sign at the next impact. In both cases the run fails with BAUM_ERR_STEP, because the body
- *  would otherwise fall through the stop. Let such a body rest once it is slow
- *  (docs/cookbook/stop.md).
+ *  would otherwise fall through the stop. Let such a body rest once it is slow; the page
+ *  "docs/cookbook/stop.md" shows how.
  *
  *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no
  *  event. If such a call changes the sign of an event function, the run continues with the new

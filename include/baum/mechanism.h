@@ -18,7 +18,7 @@
  *  Equations (the numbers in parentheses are those of Flores et al. 2008): the constraints are
  *  Phi(q, t) = 0 (1). Their first time derivative is Phi' = J v - nu = 0 (3), and their second time
  *  derivative is Phi'' = J a - gamma = 0 (4). The equations of motion are M a + J^T lambda = g (2).
- *  docs/notation.md lists all symbols.
+ *  The page "docs/notation.md" lists all symbols.
  *
  *  Units: you may use any consistent set of units. Only the default gravity assumes SI units.
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
@@ -31,6 +31,10 @@
  *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
  *  rows and lambda are in the order in which the joints were added.
  *
+ *  Configurations: the *design configuration* consists of the positions in the definitions of the
+ *  bodies. *Assembly* starts from it and computes an initial configuration that satisfies the
+ *  constraints.
+ *
  *  NULL: pointers must not be NULL unless their comment allows it.
  *
  *  Names: messages contain the names of elements, inputs and events. If a name is NULL, the library
@@ -38,9 +42,10 @@
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- *  baum_mechanism_set_K(). These functions do the same for every kind. The comments after
- *  baum_coordinates_def describe them once for all kinds. In the comment of a field, "Default:
- *  NULL, zeros" means that the field is NULL by default, and that NULL stands for zeros.
+ *  baum_mechanism_set_K(). These functions do the same for every kind. The comments of
+ *  baum_coordinates_def_init() and of the other four functions for user coordinates describe them.
+ *  The words "Default: NULL, zeros" in the comment of a field mean that the field is NULL by
+ *  default, and that NULL stands for zeros.
  *
  *  Versions: new versions of the library add fields only at the end of a struct. `struct_size`
  *  tells the library which fields a program knows. A program that was compiled with an older
@@ -138,13 +143,14 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 /* ---- a body given by functions --------------------------------------------------------------- */
 
 /** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. q may lie
- *  off the configuration manifold by the error of a step. If the result for q is dq, the result for
- *  c q, with a number c, must be c dq. */
+ *  off the configuration manifold, which is the set of all valid q, by the error of a step. If the
+ *  result for q is dq, the result for c q, with a number c, must be c dq. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
 /** Moves q for the time h with the constant velocity v, and overwrites q with the result. The
  *  result must be accurate to second order in h or better. With h = 1, the function moves q by the
- *  displacement v. A displacement has `size` numbers, as a velocity has. */
+ *  displacement v. A displacement has as many numbers as v; this number is the field `size` of
+ *  baum_coordinates_def. */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
 /** Computes the displacement dx (size) from one configuration to another. If the function `move` of
@@ -213,8 +219,8 @@ typedef struct baum_coordinates_def {
  *  @param      caller_size  sizeof *def; no byte beyond it is written */
 BAUM_API void baum_coordinates_def_init(baum_coordinates_def *def, size_t caller_size);
 
-/** Get a definition with every field at its default. Change the fields that you need.
- *  @return  the default definition */
+/** Get a struct with every field at its default. Change the fields that you need.
+ *  @return  the struct */
 static inline baum_coordinates_def baum_coordinates_def_default(void)
 {
   baum_coordinates_def def;
@@ -246,7 +252,8 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     size_t caller_size);
 
 /** Replace the definition of an element. Some properties must stay the same: the bodies or joints
- *  that the element acts on, the number of its rows or coordinates, and whether `rate` is given.
+ *  that the element acts on, the number of its rows or coordinates, and, for user coordinates,
+ *  whether the function `rate` is given.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param     id         an element of this kind
  *  @param[in] def        the new definition, copied as by the add function
@@ -258,19 +265,19 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /* ---- constraints given by functions ---------------------------------------------------------- */
 
 /** A user constraint: constraints Phi(q, t) = 0 on the coordinates of the listed bodies, given by
- *  functions of yours. The only function that is required is phi. In the comments of the fields, nv
- *  is the total number of velocities of the listed bodies.
+ *  functions of yours. The only function that is required is `phi`. In the comments of the fields,
+ *  nv is the total number of velocities of the listed bodies.
  *
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
- *  those of a wheel that does not slip. For such constraints, jacobian is required and phi must be
- *  NULL. With Baumgarte's gain alpha (stabilization.h), their accelerations satisfy J a = gamma -
- *  alpha (J v - nu).
+ *  those of a wheel that does not slip. For such constraints, `jacobian` is required and `phi` must
+ *  be NULL. With Baumgarte's gain alpha (stabilization.h), their accelerations satisfy
+ *  J a = gamma - alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
- *  are replaced by central differences of phi. The differences for nu evaluate phi up to 0.006 time
- *  units before and after t, and the differences for gamma up to 0.05 time units. If phi is not
- *  defined before t = 0, give nu and gamma. */
+ *  are replaced by central differences of `phi`. The differences for nu evaluate `phi` up to 0.006
+ *  time units before and after t, and the differences for gamma up to 0.05 time units. If `phi` is
+ *  not defined before t = 0, give `nu` and `gamma`. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -280,15 +287,15 @@ typedef struct baum_user_constraint_def {
   int32_t row_count;  /**< [-] number of rows, > 0. Default: 0, must be set. */
   /** Phi(q, t): out (row_count). Default: NULL, must be set unless velocity_level is true. */
   baum_q_fn *phi;
-  /** J: out (row_count x nv). Default: NULL, computed by differences of phi. */
+  /** J: out (row_count x nv). Default: NULL, computed by differences of `phi`. */
   baum_q_fn *jacobian;
-  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of phi in t. */
+  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of `phi` in t. */
   baum_q_fn *nu;
-  /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of phi. */
+  /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of `phi`. */
   baum_qv_fn *gamma;
   void *user; /**< Passed to the functions. Not owned. Default: NULL. */
-  /** True for constraints J v = nu on velocities, without a Phi. If the function nu is NULL, these
-   *  constraints have nu = 0. Default: false. */
+  /** True for constraints J v = nu on velocities, without a Phi. If the function `nu` is NULL,
+   *  these constraints have nu = 0. Default: false. */
   bool velocity_level;
 } baum_user_constraint_def;
 
@@ -389,9 +396,10 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
  *  of the law at x to f[0], its first derivative to f[1] and its second derivative to f[2]. The
  *  library sets f to zero before the call. If x is an angle, it grows continuously over several
  *  revolutions. There is one exception: if a workspace calls the function, an angle of a spatial
- *  joint is between -pi and pi. Methods that need the third derivative compute it by differences of
- *  f[2]. When the library checks the derivatives, it also calls the law at values of x that the
- *  motion does not reach. The return value has the same meaning as that of baum_q_fn. */
+ *  joint is between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions.
+ *  Methods that need the third derivative compute it by differences of f[2]. When the library
+ *  checks the derivatives, it also calls the law at values of x that the motion does not reach. The
+ *  return value has the same meaning as that of baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
@@ -516,7 +524,8 @@ typedef int baum_spring_fn(double length, double rate, double out[3], void *user
  *  joint or a torque about this axis.
  *
  *  A run counts the revolutions of an angle of a spatial joint, so the spring winds up further with
- *  each revolution. The functions of a workspace use angles between -pi and pi. */
+ *  each revolution. The functions of a workspace use angles between -pi and pi, unless
+ *  baum_workspace_set_angle() has chosen other revolutions. */
 typedef struct baum_joint_spring_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -713,8 +722,9 @@ typedef struct baum_mobility {
   int32_t conflicting_rows; /**< [-] rows that contradict the other rows. */
   int32_t free_bodies;      /**< [-] bodies without a joint. */
   /** True if the initial configuration is singular, which means that J has a lower rank there than
-   *  at nearby configurations. Also true if a row of J is nearly dependent only there, which means
-   *  that its distance from the span of the other rows is less than 1e-5 of its length. */
+   *  at nearby configurations. Also true if a row of J is nearly dependent on the other rows in the
+   *  initial configuration, but not in nearby configurations. Nearly dependent means that the
+   *  distance of the row from the span of the other rows is less than 1e-5 of its length. */
   bool near_singular;
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< The joint whose row has the violation worst_phi. */
@@ -742,7 +752,7 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] bodies without ground. */
-  int32_t joints;     /**< [-] joints, drivers and user constraints. */
+  int32_t joints;     /**< [-] joints, drivers, couplings and user constraints. */
   int32_t forces;     /**< [-] forces without gravity. */
   int32_t velocities; /**< [-] nv. */
   int32_t rows;       /**< [-] nc. */
@@ -786,8 +796,8 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
                                            size_t caller_size);
 
 /** Compare the derivatives that user functions return with finite differences. These derivatives
- *  are jacobian, nu, gamma, force_q, force_v, and the derivatives of laws and curves. By default,
- *  baum_simulation_create() makes this check, too.
+ *  are `jacobian`, `nu`, `gamma`, `force_q`, `force_v`, and the derivatives of laws and curves. By
+ *  default, baum_simulation_create() makes this check, too.
  *
  *  The check evaluates the functions in the design configuration at t = 0, and in three
  *  configurations near it at the times 0, 0.37 and 1.3. A derivative is a matrix. The check rejects

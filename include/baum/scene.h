@@ -4,8 +4,8 @@
  *
  *  The text is in JSON (RFC 8259). It contains everything that was given to build the mechanism:
  *  gravity, characteristic length, break times, inputs, bodies with their outlines, joints and
- *  forces. docs/scenes.md describes the format. Numbers are exact: a mechanism that is read back
- *  moves bit for bit like the original.
+ *  forces. The page "docs/scenes.md" describes the format. Numbers are exact: a mechanism that is
+ *  read back moves bit for bit like the original.
  *
  *  A text cannot contain functions. A scene therefore contains names in place of callbacks and
  *  `user` pointers. An array of hooks states which function or pointer each of these names stands

@@ -3,6 +3,13 @@
  *  Runs: simulations of the motion of frozen mechanisms. This header declares baum_simulation (one
  *  run), the integrators, the options of a run, the functions that advance it, and its results.
  *
+ *  Integrators: the comment of each integrator lists the formulations that it offers. The first
+ *  formulation of the list is the default. The words in parentheses after BAUMGARTE name the rule
+ *  that chooses the gains by default (stabilization.h). baum_kinematics() has no formulations.
+ *
+ *  Counters: counters.steps stands for the field `steps` of baum_counters, which
+ *  baum_simulation_counters() fills. The names of the other counters are written in the same way.
+ *
  *  Failure: a run that fails stays at the end of its last successful step. You can still read time,
  *  q and v.
  *
@@ -27,10 +34,6 @@ extern "C" {
 typedef struct baum_simulation baum_simulation;
 
 /* ---- integrators ----------------------------------------------------------------------------- */
-
-/* Each comment lists the formulations that the integrator offers. The first formulation in the list
- * is the default. If BAUMGARTE is in the list, the rule in parentheses chooses its gains by
- * default. baum_kinematics() has no formulations. */
 
 /** @return explicit Euler, order 1, fixed step. Formulations: BAUMGARTE (dead-beat), UNSTABILIZED,
  *          PROJECTION */
@@ -132,8 +135,8 @@ BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
  *  @return  false for NULL */
 BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
 
-/** Form of the equations of motion and of the constraints. docs/notation.md lists the equations (5)
- *  and (7). */
+/** Form of the equations of motion and of the constraints. The page "docs/notation.md" lists the
+ *  equations (5) and (7). */
 typedef enum baum_formulation {
   BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
   /** Equation (5), with J a = gamma. The constraint violation drifts. */
@@ -160,14 +163,15 @@ BAUM_API const char *baum_formulation_name(baum_formulation formulation);
 BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
                                      baum_formulation formulation);
 
-/** The start of a run: how the run begins from the design configuration. */
+/** The start of a run: how the run begins from the design configuration, which consists of the
+ *  positions in the definitions of the bodies. */
 typedef enum baum_start {
   /** Assemble the mechanism. The run is refused if assembly moves a body by more than a quarter of
-   *  the characteristic length, or by more than 1 rad. If the initial values of drivers differ from
-   *  their values in the design configuration, a second attempt is made before the run is refused.
-   *  The second attempt assembles the mechanism with the drivers at their values in the design
-   *  configuration, and then moves the drivers to their initial values in small steps. The two
-   *  limits apply to each of these steps. */
+   *  the characteristic length (mechanism.h), or by more than 1 rad. If the initial values of
+   *  drivers differ from their values in the design configuration, a second attempt is made before
+   *  the run is refused. The second attempt assembles the mechanism with the drivers at their
+   *  values in the design configuration, and then moves the drivers to their initial values in
+   *  small steps. The two limits apply to each of these steps. */
   BAUM_START_ASSEMBLE = 0,
   /** Refuse the run if the design configuration or the initial velocities violate the
    *  constraints. */
@@ -179,7 +183,7 @@ typedef enum baum_start {
 } baum_start;
 
 /** Solver of the linear equations of motion (7). baum_simulation_explain() states which solver a
- *  run uses, and why. This option does not affect assembly and the multipliers of redundant rows:
+ *  run uses, and why. This option affects neither assembly nor the multipliers of redundant rows:
  *  both are always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
@@ -191,10 +195,11 @@ typedef enum baum_solver {
   /** Sparse rank-revealing QR factorization. It is slow; use it for comparisons and for singular
    *  configurations. */
   BAUM_SOLVER_QR = 2,
-  /** Schur complement in blocks of two rows. Close to singular configurations this solver is not
-   *  accurate. No other solver then takes over, and the run fails with BAUM_ERR_SINGULAR. The
-   *  solver is refused if a body has more than about 50 joints, if the joints form a dense network,
-   *  or if the mass matrix is not positive definite. */
+  /** Schur complement in blocks. A block is a whole joint if the mechanism has spatial bodies but
+   *  no user coordinates; otherwise it is a pair of rows. Close to singular configurations this
+   *  solver is not accurate. No other solver then takes over, and the run fails with
+   *  BAUM_ERR_SINGULAR. The solver is refused if a body has more than about 50 joints, if the
+   *  joints form a dense network, or if the mass matrix is not positive definite. */
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
@@ -216,26 +221,27 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
  *  max_step or break times (breaks.h). */
 typedef struct baum_simulation_options {
   size_t struct_size;                /**< Set by the default function. Do not write. */
-  const baum_integrator *integrator; /**< Default: NULL, must be set. */
-  baum_formulation formulation;      /**< Default: BAUM_FORMULATION_DEFAULT. */
-  baum_gains gains;                  /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
+  const baum_integrator *integrator; /**< The integration method. Default: NULL, must be set. */
+  /** Form of the equations of motion. Default: BAUM_FORMULATION_DEFAULT. */
+  baum_formulation formulation;
+  baum_gains gains;    /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Accept gains that are known to be unstable. Default: false. */
   double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
-  /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v. cvode_bdf
-   *  divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are about equally
-   *  accurate at the same rtol. Both methods divide by less if the divided rtol would otherwise be
-   *  below 1e-13. Default: NaN, not given. */
+  /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v (mechanism.h).
+   *  cvode_bdf divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are
+   *  about equally accurate at the same rtol. Both methods divide by less if the divided rtol would
+   *  otherwise be below 1e-13. Default: NaN, not given. */
   double rtol;
   /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
    *  times the scale. Default: NaN, none. */
   double atol;
-  /** [s] > 0, longest step of a variable-step integrator. An event function that passes zero twice
-   *  within a quarter of a step may be missed; a smaller max_step prevents this. Default: NaN,
-   *  none. */
+  /** [s] > 0, longest step of a variable-step integrator. If an event function passes zero twice
+   *  within a quarter of a step, the run may miss both events; a smaller max_step prevents this.
+   *  Default: NaN, none. */
   double max_step;
-  double start_time;  /**< [s] Default: 0. */
-  baum_start start;   /**< Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver; /**< Default: BAUM_SOLVER_AUTO. */
+  double start_time;  /**< [s] time at which the run starts. Default: 0. */
+  baum_start start;   /**< How the run begins. Default: BAUM_START_ASSEMBLE. */
+  baum_solver solver; /**< Solver of the linear equations. Default: BAUM_SOLVER_AUTO. */
   /** Check the derivatives of user functions. When the run is created,
    *  baum_mechanism_check_derivatives() checks them. During the run they are checked again after
    *  32, 96, 224, 480, ... steps. They are also checked at the end of a call that advances the run,
@@ -249,9 +255,10 @@ typedef struct baum_simulation_options {
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
   int64_t max_steps;
-  baum_progress_fn *progress; /**< Default: NULL, none. */
-  double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
-  void *user;                 /**< Passed to progress, not owned. Default: NULL. */
+  baum_progress_fn *progress; /**< The run calls this function repeatedly. Default: NULL, none. */
+  /** [s] of wall time, >= 0, between two calls of progress. Default: 0.05. */
+  double progress_interval;
+  void *user; /**< Passed to progress, not owned. Default: NULL. */
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for positions. Refused with a
    *  fixed step. Default: 1.
    */
@@ -311,8 +318,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *                         baum_simulation_destroy()
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *           BAUM_ERR_UNSUPPORTED (the integrator does not offer the formulation or the gain rule,
- *           or is not in this build; kinematics was requested for a mechanism with degrees of
- *           freedom or with an energy account; RATTLE or BAUM_SOLVER_BLOCK cannot handle the
+ *           or is not in this build; kinematics was requested together with an energy account, or
+ *           for a mechanism with degrees of freedom; RATTLE or BAUM_SOLVER_BLOCK cannot handle the
  *           mechanism), BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE,
  *           BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE,
  *           BAUM_ERR_INTEGRATOR */
@@ -351,8 +358,8 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
  *  @param simulation  may be NULL */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
-/** Change the option progress_interval. The progress function may call this function, too. With an
- *  interval of 0, the progress function is called after every step from then on.
+/** Change the option progress_interval. The progress function itself may call this function. With
+ *  an interval of 0, the progress function is called after every step from then on.
  *  @param simulation  the run
  *  @param interval    [s] of wall time, >= 0, finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
@@ -370,13 +377,13 @@ BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simu
 BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation, double limit);
 
 /** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
- *  and the new state violates the constraints by at most counters.max_phi and
- *  counters.max_phi_rate, it is used as it is. Otherwise the option `start` decides whether the new
- *  state is assembled, refused or used as it is. q determines angles of spatial joints only up to
- *  whole revolutions. Each such angle takes the possible value that is nearest to its last value.
- *  There is one exception: if a driver prescribes the angle, and t differs from the time of the
- *  run, the angle takes the possible value that is nearest to the value of the driver.
- *  baum_simulation_set_angle() chooses another value.
+ *  and the new state violates the constraints by no more than the run has violated them so far
+ *  (counters.max_phi and counters.max_phi_rate), it is used as it is. Otherwise the option `start`
+ *  decides whether the new state is assembled, refused or used as it is. q determines angles of
+ *  spatial joints only up to whole revolutions. Each such angle takes the possible value that is
+ *  nearest to its last value. There is one exception: if a driver prescribes the angle, and t
+ *  differs from the time of the run, the angle takes the possible value that is nearest to the
+ *  value of the driver. baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -689,16 +696,18 @@ typedef struct baum_counters {
   /** [-] shorter steps that a fixed-step method took to reach a requested time or a break time that
    *  is not on its grid of steps. */
   int64_t short_steps;
-  /** [-] evaluations of the equations of motion. Most methods solve equation (7) of
-   *  docs/notation.md in each evaluation, and implicit methods compute a residual. */
+  /** [-] evaluations of the equations of motion. Most methods solve equation (7) of the page
+   *  "docs/notation.md" in each evaluation, and implicit methods compute a residual. */
   int64_t evaluations;
   /** [-] factorizations of the matrix in equation (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
   /** [-] factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
-  int64_t nonlinear_iterations; /**< [-] iterations of CVODE, IDA and kinematics. */
-  int64_t restarts;             /**< [-] restarts of multistep and variable-step methods. */
-  int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
+  /** [-] iterations of kinematics and of the implicit methods: CVODE, IDA, RATTLE and
+   *  generalized-alpha. */
+  int64_t nonlinear_iterations;
+  int64_t restarts;      /**< [-] restarts of multistep and variable-step methods. */
+  int64_t near_singular; /**< [-] evaluations in which the matrix was close to singular. */
   /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
   int64_t warnings;
   double wall;                      /**< [s] wall time inside advance_to, step and sample. */
@@ -824,13 +833,13 @@ typedef enum baum_branch {
 
 /** A near-singular interval: an interval of time in which a run was near a singular configuration.
  *  To detect such intervals, a run computes the smallest pivot of the equations of motion at each
- *  state. Let p be this smallest pivot, divided by the largest value that the smallest pivot has
- *  had at any state of the run so far. Close to a singular configuration, p is proportional to the
- *  square of the distance from this configuration. The interval consists of the times at which p is
- *  below 0.02, and may lie inside one step. When the run has left the interval, it adds the
- *  interval to its list if the Jacobian J of the constraints loses rank in the interval and p has
- *  fallen below 1e-3. If J loses rank, and only a constraint violation has kept p above 1e-3, the
- *  run adds the interval, too. */
+ *  state; the page "docs/theory/singular.md" defines this pivot. Let p be this smallest pivot,
+ *  divided by the largest value that the smallest pivot has had at any state of the run so far.
+ *  Close to a singular configuration, p is proportional to the square of the distance from this
+ *  configuration. The interval consists of the times at which p is below 0.02, and may lie inside
+ *  one step. When the run has left the interval, it adds the interval to its list if the Jacobian J
+ *  of the constraints loses rank in the interval and p has fallen below 1e-3. If J loses rank, and
+ *  only a constraint violation has kept p above 1e-3, the run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] time of the last state at the end of a step before the interval. */
@@ -901,8 +910,8 @@ typedef struct baum_warning {
   double last;            /**< [s] time of the last warning. */
   int64_t count;          /**< [-] number of warnings of this kind. */
   /** Message of the first warning, followed by the number of warnings. The text ends with the code
-   *  and the name, such as "[warning 104 singular_start]". In docs/cookbook/warnings.md, the
-   *  section with the same code and name explains the warning and says what to do. */
+   *  and the name, such as "[warning 104 singular_start]". On the page "docs/cookbook/warnings.md",
+   *  the section with the same code and name explains the warning and says what to do. */
   char text[400];
 } baum_warning;
 

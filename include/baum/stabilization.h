@@ -13,6 +13,13 @@
  *  functions below compute spectral radii and regions. They need no mechanism, allocate no memory
  *  and may be called from any thread.
  *
+ *  Rules: a gain rule chooses the gains. The comments of baum_gains_fixed() and of the other rules
+ *  state for which steps the gains are stable, how large a violation they leave, and what they do
+ *  to accuracy and cost. There, gamma is the right-hand side of the acceleration constraints
+ *  J a = gamma. The measured numbers are those of a pendulum of length 1 m, which is released from
+ *  the horizontal and simulated for 1 s with h = 0.0025 s. The page "docs/theory/gain_rules.md" has
+ *  more measurements.
+ *
  *  Two kinds of integrators have no region of stability: those that always choose their step
  *  themselves (CVODE and IDA), and those that need no gains. Below, "no region" means that an
  *  integrator is of one of these kinds. */
@@ -47,18 +54,12 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
 } baum_gain_rule;
 
-/** A gain rule and its numbers. The functions below return such structs. If all bytes are zero, the
- *  rule is BAUM_GAINS_DEFAULT. */
+/** A gain rule and its numbers. baum_gains_fixed() and the functions of the other rules return such
+ *  structs. If all bytes are zero, the rule is BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
 } baum_gains;
-
-/* The comment of each rule states for which steps its gains are stable, how large a violation they
- * leave, and what they do to accuracy and cost. h is the step, and gamma is the right-hand side of
- * the acceleration constraints J a = gamma. The measured numbers are those of a pendulum of length
- * 1 m, which is released from the horizontal and simulated for 1 s with h = 0.0025 s.
- * docs/theory/gain_rules.md has more measurements. */
 
 /** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
  *  h^2) lies in the region of stability of the method. With CVODE BDF and IDA they are stable if
@@ -145,7 +146,7 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  of gravity; this is the angular frequency of a pendulum of length L. For a mechanism at rest in
  *  equilibrium without gravity, alpha is 0.01/h with a fixed step. With variable steps, alpha is
  *  then 1 per second, which only suits machines with time scales of seconds.
- *  docs/theory/gain_rules.md compares other factors.
+ *  The page "docs/theory/gain_rules.md" compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
@@ -188,7 +189,8 @@ typedef struct baum_amplification {
   double damping;
 } baum_amplification;
 
-/** Compute the amplification at a point (alpha h, beta^2 h^2), as in Fig. 1 of Flores et al.
+/** Compute the amplification at a point (alpha h, beta^2 h^2), as in the first figure of Flores et
+ *  al.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] |alpha h|, finite
  *  @param      beta2_h2     [-] (beta h)^2, finite

@@ -14,8 +14,8 @@
  *  differences from a *reference*, which is a very accurate motion. Errors are measured at n
  *  samples (the option `samples`), at the times t0 + k (t1 - t0) / n with k = 1 to n. The study
  *  computes the reference itself, or uses a reference that you give. The study never reports an
- *  error that is smaller than the uncertainty of the reference. docs/theory/work-precision.md
- *  explains the details.
+ *  error that is smaller than the uncertainty of the reference. The page
+ *  "docs/theory/work-precision.md" explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
  *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
@@ -94,10 +94,10 @@ typedef struct baum_study_options {
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
-  baum_study_progress_fn *progress; /**< Default: NULL, none. */
+  baum_study_progress_fn *progress; /**< The study calls this function. Default: NULL, none. */
   void *user;                       /**< Passed to progress. Not owned. Default: NULL. */
-  /** Validate entries before one is recommended: run them over twice the span and from perturbed
-   *  starts, too. The recommendation is then also valid for such runs. Default: true. */
+  /** Validate entries before one is recommended: run them again, over twice the span and from
+   *  perturbed starts. The recommendation is then also valid for such runs. Default: true. */
   bool validate;
 } baum_study_options;
 
@@ -150,8 +150,8 @@ typedef struct baum_study_grid {
    *  of the motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13. If a
-   *  user constraint has neither jacobian nor gamma, NaN means 1e-11, because finite differences
-   *  are not more accurate than this. */
+   *  user constraint has neither `jacobian` nor `gamma`, NaN means 1e-11, because finite
+   *  differences are not more accurate than this. */
   double finest;
   /** A smaller grid for a first answer. Its cost is approximately 1/25 of the cost of the default
    *  grid. It contains every integrator with its default gains and its default formulation, or with
@@ -297,12 +297,14 @@ typedef enum baum_study_state {
 /** Name of a state. @param state  any value @return such as "done"; NULL for unknown values */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The
- *  struct below, the study file, CSV, JSON and Python are generated from this list. Results marked
- *  DONE are known only if the entry is done. An error is the largest one over all samples; if its
- *  name contains `final`, it is the error at the last sample. An error is never smaller than the
- *  uncertainty of the reference. For error_lambda, multiplier i is multiplied by the norm of row i
- *  of J, with each column of J multiplied by the scale of its coordinate. */
+/** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The last
+ *  fields of baum_study_entry, the study file, the reports in CSV and JSON, and the class
+ *  StudyEntry of the Python package are generated from this list, which is in the header file
+ *  study.h. Results marked DONE are known only if the entry is done. An error is the largest one
+ *  over all samples; if its name contains `final`, it is the error at the last sample. An error is
+ *  never smaller than the uncertainty of the reference. For error_lambda, multiplier i is
+ *  multiplied by the norm of row i of J, with each column of J multiplied by the scale of its
+ *  coordinate. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
   X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
@@ -346,11 +348,11 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
- *  those of BAUM_STUDY_ENTRY_LIST. A result of type double that is not known is NaN. Do not use the
- *  counts (such as `steps`) of an entry that is not done. error_validated is infinite if the
- *  setting fails in the validation. It is NaN for entries that are not validated. The study does
- *  not validate an entry if its work is much larger than the work of another entry that is at least
- *  as accurate. */
+ *  those of BAUM_STUDY_ENTRY_LIST. The header file study.h lists them with their units and
+ *  meanings. A result of type double that is not known is NaN. Do not use the counts (such as
+ *  `steps`) of an entry that is not done. error_validated is infinite if the setting fails in the
+ *  validation. It is NaN for entries that are not validated. The study does not validate an entry
+ *  if its work is much larger than the work of another entry that is at least as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
   const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
@@ -478,7 +480,9 @@ typedef struct baum_study_method {
   baum_gains gains;                  /**< Gain rule of its entries. */
   bool fixed_step;                   /**< True if entries differ in step, false if in rtol. */
   int32_t entries;                   /**< [-] number of entries. */
-  int32_t usable;                    /**< [-] entries that are done and not `off`. */
+  /** [-] number of entries that are done and whose field `off` is false. If `off` is true, the run
+   *  has followed another motion: error_q is above 0.1, or the run has a branch warning. */
+  int32_t usable;
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
   /** [-] slope of the error curve: d log error / d log step, or d log error / d log rtol if entries
    *  differ in rtol. NaN: unknown. */

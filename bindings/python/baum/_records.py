@@ -21,9 +21,10 @@ class Mobility(NamedTuple):
     conflicting_rows: [-] rows that contradict the other rows.
     free_bodies: [-] bodies without a joint.
     near_singular: True if the initial configuration is singular, which means that J has a lower
-        rank there than at nearby configurations. Also true if a row of J is nearly dependent
-        only there, which means that its distance from the span of the other rows is less than
-        1e-5 of its length.
+        rank there than at nearby configurations. Also true if a row of J is nearly dependent on
+        the other rows in the initial configuration, but not in nearby configurations. Nearly
+        dependent means that the distance of the row from the span of the other rows is less
+        than 1e-5 of its length.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: The joint whose row has the violation worst_phi.
     text: The results in words, with the names of elements.
@@ -49,7 +50,7 @@ class Report(NamedTuple):
     """What an evaluation of the accelerations costs, and which work it skips.
 
     bodies: [-] bodies without ground.
-    joints: [-] joints, drivers and user constraints.
+    joints: [-] joints, drivers, couplings and user constraints.
     forces: [-] forces without gravity.
     velocities: [-] nv.
     rows: [-] nc.
@@ -111,11 +112,12 @@ class Counters(NamedTuple):
     short_steps: [-] shorter steps that a fixed-step method took to reach a requested time or a
         break time that is not on its grid of steps.
     evaluations: [-] evaluations of the equations of motion. Most methods solve equation (7) of
-        docs/notation.md in each evaluation, and implicit methods compute a residual.
+        the page "docs/notation.md" in each evaluation, and implicit methods compute a residual.
     factorizations: [-] factorizations of the matrix in equation (7) and of the matrices of IDA
         and CVODE.
     full_factorizations: [-] factorizations that chose new pivots, which may allocate memory.
-    nonlinear_iterations: [-] iterations of CVODE, IDA and kinematics.
+    nonlinear_iterations: [-] iterations of kinematics and of the implicit methods: CVODE, IDA,
+        RATTLE and generalized-alpha.
     restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix was close to singular.
     warnings: [-] number of kinds of warnings that occurred, see warnings.
@@ -372,7 +374,9 @@ class StudyMethod(NamedTuple):
     gains: Gain rule of its entries.
     fixed_step: True if entries differ in step, false if in rtol.
     entries: [-] number of entries.
-    usable: [-] entries that are done and not `off`.
+    usable: [-] number of entries that are done and whose field `off` is false. If `off` is
+        true, the run has followed another motion: error_q is above 0.1, or the run has a branch
+        warning.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
     slope: [-] slope of the error curve: d log error / d log step, or d log error / d log rtol
         if entries differ in rtol. NaN: unknown.
