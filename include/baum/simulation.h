@@ -245,11 +245,11 @@ typedef struct baum_simulation_options {
   /** Check the derivatives of user functions. When the run is created,
    *  baum_mechanism_check_derivatives() checks them. During the run they are checked again after
    *  32, 96, 224, 480, ... steps. They are also checked at the end of a call that advances the run,
-   *  unless the last check is too recent: the number of steps since the last check must be more
-   *  than half of the number of steps before it. The checks during the run call the functions at
-   *  states near those of the run. If a derivative is wrong there, the run warns with
-   *  BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last good
-   *  state, even without this option. If one of them is wrong, the message names it.
+   *  unless the last check during the run is too recent: the number of steps since this check must
+   *  exceed half of the number of steps before it by at least 16. The checks during the run call
+   *  the functions at states near those of the run. If a derivative is wrong there, the run warns
+   *  with BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last
+   *  good state, even without this option. If one of them is wrong, the message names it.
    *  Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more

@@ -41,7 +41,8 @@ typedef struct baum_integrator baum_integrator;
 
 /** Rules that choose the gains. */
 typedef enum baum_gain_rule {
-  /** DEADBEAT for the Euler methods, BEST_DAMPING for AB2 to AB4, otherwise AUTO. */
+  /** DEADBEAT for the Euler methods, BEST_DAMPING for the Adams-Bashforth methods AB2 to AB4,
+   *  otherwise AUTO. */
   BAUM_GAINS_DEFAULT = 0,
   BAUM_GAINS_FIXED = 1,  /**< alpha and beta are given [1/s]. */
   BAUM_GAINS_SCALED = 2, /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */

@@ -22,7 +22,8 @@
 extern "C" {
 #endif
 
-/** All statuses: name, value, text. Values are part of the ABI and are never reused. */
+/** All statuses: name, value, text. Values are part of the ABI and are never reused. The comment of
+ *  baum_status repeats this list. */
 #define BAUM_STATUS_LIST(X)                                                                 \
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
@@ -45,7 +46,7 @@ extern "C" {
   X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                             \
   X(BAUM_ERR_CALLBACK, -30, "a user function reported a failure")
 
-/** The result of every call that can fail. BAUM_STATUS_LIST defines these statuses:
+/** The result of every call that can fail. These are the statuses, with their values and meanings:
  *
  *  - BAUM_OK (0): done
  *  - BAUM_STOP_CANCELLED (1): cancelled

@@ -480,8 +480,9 @@ typedef struct baum_study_method {
   baum_gains gains;                  /**< Gain rule of its entries. */
   bool fixed_step;                   /**< True if entries differ in step, false if in rtol. */
   int32_t entries;                   /**< [-] number of entries. */
-  /** [-] number of entries that are done and whose field `off` is false. If `off` is true, the run
-   *  has followed another motion: error_q is above 0.1, or the run has a branch warning. */
+  /** [-] number of entries that are done, whose error is finite and not 0, and whose field `off` is
+   *  false. If `off` is true, the run has followed another motion: error_q is above 0.1, or the run
+   *  has a branch warning. */
   int32_t usable;
   double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
   /** [-] slope of the error curve: d log error / d log step, or d log error / d log rtol if entries

@@ -374,9 +374,9 @@ class StudyMethod(NamedTuple):
     gains: Gain rule of its entries.
     fixed_step: True if entries differ in step, false if in rtol.
     entries: [-] number of entries.
-    usable: [-] number of entries that are done and whose field `off` is false. If `off` is
-        true, the run has followed another motion: error_q is above 0.1, or the run has a branch
-        warning.
+    usable: [-] number of entries that are done, whose error is finite and not 0, and whose
+        field `off` is false. If `off` is true, the run has followed another motion: error_q is
+        above 0.1, or the run has a branch warning.
     least_error: [-] the smallest error of its entries; NaN if none is usable.
     slope: [-] slope of the error curve: d log error / d log step, or d log error / d log rtol
         if entries differ in rtol. NaN: unknown.
