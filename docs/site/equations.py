@@ -45,7 +45,8 @@ class Translator(HTML5Translator):
     def visit_Text(self, node):
         before = len(self.body)
         super().visit_Text(node)
-        if self.protect_literal_text:
+        # The names of parameters must agree with the signatures.
+        if self.protect_literal_text or isinstance(node.parent, (nodes.strong, nodes.field_name)):
             return
         linked = any(isinstance(x, nodes.reference) for x in (node.parent, node.parent.parent))
         html = PAGE.sub(lambda found: self.link(found, linked), "".join(self.body[before:]))

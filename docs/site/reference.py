@@ -21,6 +21,12 @@ HEADERS = (
     " stabilization study sweep report draw scene catalog elements status version export baum"
 )
 
+# The macros that list statuses or fields, and what their columns contain. Doxygen does not expand them.
+LISTS = {
+    "BAUM_STATUS_LIST": ["status", "value", "meaning"],
+    "BAUM_STUDY_ENTRY_LIST": ["type", "field", "known", "unit", "meaning"],
+}
+
 CLASSES = (
     "Mechanism Simulation Run Workspace Study Sweep Body Joint Force Input Channel View".split()
 )
@@ -33,6 +39,22 @@ def about(header):
     found = re.search(r"@file\s*\n \*\s+(.*?)(?:\n \*\s*\n|\*/)", text, flags=re.S)
     first = re.sub(r"\s*\n \*\s*", " ", found[1]).strip() if found else ""
     return re.split(r"(?<=\.) (?=[A-Z]|\w+\.h)", first)[0]
+
+
+def lists(header):
+    """Return a section with a table for each macro of the header that is in LISTS."""
+    text = (ROOT / "include" / "baum" / f"{header}.h").read_text(encoding="utf-8")
+    out = ""
+    for name, columns in LISTS.items():
+        found = re.search(rf"#define {name}\(X\)(.*?[^\\])\n", text, flags=re.S)
+        rows = re.findall(r"X\(([^\n]*)\)", found[1]) if found else []
+        if found:
+            out += f"\n## {name}\n\n| {' | '.join(columns)} |\n" + "|---" * len(columns) + "|\n"
+        for row in rows:
+            cells = [cell.strip().strip('"') for cell in row.split(",", len(columns) - 1)]
+            cells = [f"`{c}`" if k in ("status", "type", "field") else c.replace("|", "\\|") for k, c in zip(columns, cells)]
+            out += f"| {' | '.join(cells)} |\n"
+    return out
 
 
 def found_headers():
@@ -48,7 +70,7 @@ def c_pages(folder):
     text += "`#include <baum/baum.h>` includes all of them except `catalog.h`.\n\n| header | contents |\n|---|---|\n"
     for name in names:
         text += f"| [{name}.h]({name}.md) | {about(name)} |\n"
-        page = f"# {name}.h\n\n```{{doxygenfile}} {name}.h\n:project: baum\n```\n"
+        page = f"# {name}.h\n\n```{{doxygenfile}} {name}.h\n:project: baum\n```\n" + lists(name)
         (folder / f"{name}.md").write_text(page, encoding="utf-8")
     text += "\n```{toctree}\n:hidden:\n\n" + "\n".join(names) + "\n```\n"
     (folder / "index.md").write_text(text, encoding="utf-8")

@@ -22,8 +22,7 @@
 extern "C" {
 #endif
 
-/** All statuses: name, value, text. Values are part of the ABI and are never reused. The comment of
- *  baum_status repeats this list. */
+/** All statuses: name, value, text. Values are part of the ABI and are never reused. */
 #define BAUM_STATUS_LIST(X)                                                                 \
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
@@ -46,28 +45,7 @@ extern "C" {
   X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                             \
   X(BAUM_ERR_CALLBACK, -30, "a user function reported a failure")
 
-/** The result of every call that can fail. These are the statuses, with their values and meanings:
- *
- *  - BAUM_OK (0): done
- *  - BAUM_STOP_CANCELLED (1): cancelled
- *  - BAUM_STOP_EVENT (2): an event function changed sign
- *  - BAUM_STOP_TIME (3): the time limit of the call has passed
- *  - BAUM_WARNED (10): reached the end with warnings
- *  - BAUM_ERR_ARGUMENT (-1): an argument is NULL, out of range or not finite
- *  - BAUM_ERR_STATE (-2): the call is not allowed at this stage
- *  - BAUM_ERR_MEMORY (-3): out of memory
- *  - BAUM_ERR_STRUCT (-4): struct_size is not that of a struct initialised by this library
- *  - BAUM_ERR_UNSUPPORTED (-5): not supported by this build or this pair of settings
- *  - BAUM_ERR_BUFFER (-6): a saved run is damaged or of another mechanism, run or version
- *  - BAUM_ERR_FILE (-7): a file cannot be read or written
- *  - BAUM_ERR_INCONSISTENT (-10): the start or the constraints are inconsistent
- *  - BAUM_ERR_SINGULAR (-11): the equations of motion cannot be solved here
- *  - BAUM_ERR_UNSTABLE (-12): the gains are unstable with this integrator and step
- *  - BAUM_ERR_STEP (-20): the step size fell below its minimum
- *  - BAUM_ERR_CONVERGENCE (-21): an iteration did not converge
- *  - BAUM_ERR_INTEGRATOR (-22): the integrator failed
- *  - BAUM_ERR_NOT_FINITE (-23): a computed value is not finite
- *  - BAUM_ERR_CALLBACK (-30): a user function reported a failure */
+/** The result of every call that can fail. BAUM_STATUS_LIST lists the statuses. */
 typedef enum baum_status {
 /** Expands a line of the list. */
 #define BAUM_X(name, value, text) name = (value),

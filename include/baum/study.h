@@ -299,12 +299,11 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 
 /** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The last
  *  fields of baum_study_entry, the study file, the reports in CSV and JSON, and the class
- *  StudyEntry of the Python package are generated from this list, which is in the header file
- *  study.h. Results marked DONE are known only if the entry is done. An error is the largest one
- *  over all samples; if its name contains `final`, it is the error at the last sample. An error is
- *  never smaller than the uncertainty of the reference. For error_lambda, multiplier i is
- *  multiplied by the norm of row i of J, with each column of J multiplied by the scale of its
- *  coordinate. */
+ *  StudyEntry of the Python package are generated from this list. Results marked DONE are known
+ *  only if the entry is done. An error is the largest one over all samples; if its name contains
+ *  `final`, it is the error at the last sample. An error is never smaller than the uncertainty of
+ *  the reference. For error_lambda, multiplier i is multiplied by the norm of row i of J, with each
+ *  column of J multiplied by the scale of its coordinate. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
   X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
@@ -348,11 +347,11 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
- *  those of BAUM_STUDY_ENTRY_LIST. The header file study.h lists them with their units and
- *  meanings. A result of type double that is not known is NaN. Do not use the counts (such as
- *  `steps`) of an entry that is not done. error_validated is infinite if the setting fails in the
- *  validation. It is NaN for entries that are not validated. The study does not validate an entry
- *  if its work is much larger than the work of another entry that is at least as accurate. */
+ *  those of BAUM_STUDY_ENTRY_LIST, which states their units and meanings. A result of type double
+ *  that is not known is NaN. Do not use the counts (such as `steps`) of an entry that is not done.
+ *  error_validated is infinite if the setting fails in the validation. It is NaN for entries that
+ *  are not validated. The study does not validate an entry if its work is much larger than the work
+ *  of another entry that is at least as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
   const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
