@@ -41,7 +41,7 @@ BAUM_API baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, 
 /** Find an input by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Find the first body with the given name. The name "ground" gives BAUM_GROUND.
+/** Find the first body with the given name; "ground" gives BAUM_GROUND if no body has this name.
  *  @param     mechanism  may be NULL
  *  @param[in] name       may be NULL
  *  @return  id of the element; all-zero if there is no such element */

@@ -246,7 +246,8 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     size_t caller_size);
 
 /** Replace the definition of an element. Some properties must stay the same: the bodies or joints
- *  that the element acts on, the number of its rows or coordinates, and whether `rate` is given.
+ *  that the element acts on, and the number of its rows or coordinates. In a definition of user
+ *  coordinates, `rate` must be given again if it was given before, and must stay NULL otherwise.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param     id         an element of this kind
  *  @param[in] def        the new definition, copied as by the add function
@@ -282,7 +283,8 @@ typedef struct baum_user_constraint_def {
   baum_q_fn *phi;
   /** J: out (row_count x nv). Default: NULL, computed by differences of phi. */
   baum_q_fn *jacobian;
-  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of phi in t. */
+  /** nu, minus the partial derivative of Phi with respect to t: out (row_count). Default: NULL,
+   *  computed by differences of phi in t. */
   baum_q_fn *nu;
   /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of phi. */
   baum_qv_fn *gamma;
@@ -531,8 +533,10 @@ typedef struct baum_joint_spring_def {
   /** A law that replaces the three fields above, which must then have their defaults; the spring
    *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
-  void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads its argument rate, the time derivative of the coordinate. RATTLE requires
+   *  false. Default: true. */
+  bool depends_on_velocity;
 } baum_joint_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */
