@@ -188,6 +188,8 @@ def about_channels(name, found):
     text = " Each coordinate is recorded with its time derivative." if "`coordinate` (2)" in found else ""
     if name in ("planar_gear", "coupling", "user_constraint"):
         text += " `reaction` contains the generalized force of the rows, with one number for each velocity of the bodies."
+    elif "driver" in name:
+        text += " `reaction` contains the force and the moment that the driver exerts on body_b of its joint."
     else:
         text += " `reaction` contains the force and the moment on body_b."
     text += " `effort` is the force or torque of the driver." if "`effort` (1)" in found else ""
@@ -248,7 +250,7 @@ class Page:
             text += f"parentheses is the number of values: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
         links = uses(self.method)
-        text += f"Used in: {', '.join(links)}.\n\n" if links else ""
+        text += f"Used in: {'; '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
 
     def equations(self):
@@ -270,7 +272,8 @@ def main():
     added, rows, sections = methods(), equations(), written()
     if sections.keys() != KINDS.keys():
         sys.exit(f"modelling.py: elements.md and the kinds of elements differ: {sections.keys() ^ KINDS.keys()}")
-    index = "# Elements\n\nEvery kind of element has a page with its picture, its equation, code in Python and C, and its fields.\n"
+    index = "# Elements\n\nEvery kind of element has a page with its equation, code in Python and C, and its fields. "
+    index += "Every page except that of the user coordinates has a picture.\n"
     names = []
     for group, members in GROUPS.items():
         index += f'\n## {group}\n\n```{{raw}} html\n<div class="cards">\n'
