@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The catalogue: a collection of mechanisms, listed in docs/mechanisms.md. Use the mechanisms as
+ *  The catalogue: a collection of mechanisms, which docs/mechanisms.md lists. Use the mechanisms as
  *  examples, for tests of integration methods, and for comparisons with other programs. Almost all
  *  of them have a known motion. The catalogue is a separate library, baum_catalog, which uses only
  *  the public interface of baum.

@@ -246,8 +246,7 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     size_t caller_size);
 
 /** Replace the definition of an element. Some properties must stay the same: the bodies or joints
- *  that the element acts on, and the number of its rows or coordinates. In a definition of user
- *  coordinates, `rate` must be given again if it was given before, and must stay NULL otherwise.
+ *  that the element acts on, the number of its rows or coordinates, and whether `rate` is given.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param     id         an element of this kind
  *  @param[in] def        the new definition, copied as by the add function
