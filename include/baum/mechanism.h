@@ -282,8 +282,7 @@ typedef struct baum_user_constraint_def {
   baum_q_fn *phi;
   /** J: out (row_count x nv). Default: NULL, computed by differences of phi. */
   baum_q_fn *jacobian;
-  /** nu, minus the partial derivative of Phi with respect to t: out (row_count). Default: NULL,
-   *  computed by differences of phi in t. */
+  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of phi in t. */
   baum_q_fn *nu;
   /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of phi. */
   baum_qv_fn *gamma;
