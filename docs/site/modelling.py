@@ -44,6 +44,8 @@ ROWS = {
     "planar_gear": "gear pair",
     "planar_curve": "point on a curve",
     "spatial_curve": "point on a curve",
+    "driver": "driver, mechanism.h",
+    "spline_driver": "spline driver, spline.h",
     "spatial_point_on_line": "point on a line",
     "spatial_point_on_plane": "point on a plane",
     "planar_spring": "spring-damper, planar.h",
@@ -56,6 +58,24 @@ ROWS = {
 }
 PAIRS = "revolute translational fixed spherical universal cylindrical prismatic planar screw constant_velocity distance"
 NAMED_JOINT = {f"{where}_{pair}" for where in ("planar", "spatial") for pair in PAIRS.split()}
+# The beginnings of the texts of docs/catalogue.md that explain symbols, and patterns of the equations that need them.
+BODIES = r"\b(angle|p|r|[xyz])_[ab]\b|\bd\b"
+SYMBOLS = {
+    "In the equations": BODIES,
+    "The index c": r"_c\b",
+    "One of the bodies": BODIES,
+    "p is": r"\bp_[ab]\b|\bd\b",
+    "e is": r"\be\b",
+    "n is": r"\bn\b",
+    "A dot": r"\w\.\w",
+    "l is": r"\bl\^2",
+    "r is": r"\br\b",
+    "r_a and": r"\br_a\b",
+    "A joint in space": r"\b[xyz]_[ab]\b",
+    "z_a is": r"^(?!d; x_a\.y_b).*\b[xyz]_[ab]\b",  # all except welds
+    "The directions": r"\b[xy]_[ab]\.[xyz]_b",
+}
+VELOCITY_LEVEL = ("planar_knife_edge", "spatial_knife_edge", "spatial_rolling_disc", "user_constraint")
 CHANNELS = """pose velocity acceleration coordinate displacement angle angle_b x y reaction effort multipliers phi
  phi_rate""".split()
 
@@ -71,15 +91,19 @@ def equations():
     return {cells[0]: cells[1:] for cells in rows}
 
 
-def symbols(name):
-    """Return the paragraph of the catalogue that explains the symbols of an equation."""
+def symbols(cells):
+    """Return the parts of the catalogue that explain the symbols of an equation."""
     text = (ROOT / "docs" / "catalogue.md").read_text(encoding="utf-8")
-    start = r"A joint in space" if name in kinds("joint", "spatial") else r"In the equations, the indices"
-    found = re.search(rf"^{start}.*?\n\n", text, flags=re.M | re.S)[0]
-    found = found if name == "planar_gear" else found.replace(", and c to the carrier", "").replace(" One of these bodies", " One of them")
-    return re.sub(r" The last column .*?\n\n", "\n\n", found, flags=re.S).replace("](space.md", "](../docs/space.md").replace(
-        "In the table, ", ""
-    )
+    found = re.findall(r"^(?:In the equations|A joint in space).*?\n\n", text, flags=re.M | re.S)
+    parts = re.split(r"(?<=\.) ", re.sub(r"\s+", " ", "".join(found)).strip())
+    equation = " ".join(cells)
+    kept = [
+        one
+        for one in parts
+        for start, pattern in SYMBOLS.items()
+        if one.startswith(start) and re.search(pattern, equation)
+    ]
+    return " ".join(kept).replace("](space.md", "](../docs/space.md") + ("\n\n" if kept else "")
 
 
 def row_of(name, rows):
@@ -152,6 +176,29 @@ def about_of(method):
     return inspect.getdoc(getattr(baum.Mechanism, method)).split("\n\n")[0].replace("\n", " ")
 
 
+def about_channels(name, found):
+    """Return the explanations of the channels of an element."""
+    if KINDS[name].family == "body":
+        rotates = name in ("planar_body", "spatial_body")
+        turn = {"planar_body": " and the angle", "spatial_body": " and the quaternion"}.get(name, "")
+        return (
+            f" `pose` contains the position of the centre of mass{turn}. `velocity` contains the velocity of the centre of mass"
+            f"{' and the angular velocity' if rotates else ''}, and `acceleration` the time derivative of `velocity`."
+        )
+    text = " Each coordinate is recorded with its time derivative." if "`coordinate` (2)" in found else ""
+    if name in ("planar_gear", "coupling", "user_constraint"):
+        text += " `reaction` contains the generalized force of the rows, with one number for each velocity of the bodies."
+    elif "driver" in name:
+        text += " `reaction` contains the force and the moment that the driver exerts on body_b of its joint."
+    else:
+        text += " `reaction` contains the force and the moment on body_b."
+    text += " `effort` is the force or torque of the driver." if "`effort` (1)" in found else ""
+    return text + (
+        " `multipliers` contains the Lagrange multipliers of the rows, `phi` the violations of the rows, and `phi_rate` the time"
+        " derivatives of these violations."
+    ) + (" A row of velocity level has `phi` = 0; its violation is `phi_rate`." if name in VELOCITY_LEVEL else "")
+
+
 class Page:
     def __init__(self, name, method, cells, section):
         self.name, self.method, self.cells = name, method, cells
@@ -191,26 +238,30 @@ class Page:
         text += "In this code, `m` or `mechanism` is the mechanism; the other names stand for bodies and joints that were added "
         text += "before.\n\n"
         text += f"## What goes wrong\n\n{self.mistake}\n\n"
-        text += f"## Fields\n\nThe arguments of the Python method have the same names. Fields that are not set keep their defaults.\n\n"
-        text += f"{fields(xml, self.name)}\n"
+        text += "## Fields\n\nThe arguments of the Python method have the same names."
+        table = fields(xml, self.name)
+        count = re.search(r"`(count|point_count|body_count)`", table)
+        text += f" The field `{count[1]}` has no argument in Python, because a list has a length." if count else ""
+        text += f" Fields that are not set keep their defaults.\n\n{table}\n"
         found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
         if found:
             first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
             text += f"## What a run can record\n\nFor example, `{first}`. The following names can follow the dot; the number in "
-            text += f"parentheses is the number of values: {', '.join(found)}.\n\n"
+            text += f"parentheses is the number of values: {', '.join(found)}."
+            text += about_channels(self.name, found) + "\n\n"
         links = uses(self.method)
-        text += f"Used in: {', '.join(links)}.\n\n" if links else ""
+        text += f"Used in: {'; '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
 
     def equations(self):
         what = {"body": "Coordinates", "joint": "Rows Phi = 0", "force": "Acts with"}[self.kind.family]
-        what = "s(t)" if "driver" in self.name else what
+        what = "Prescribed coordinate s(t)" if "driver" in self.name else what
         text = f"**{what}:** {self.cells[0]}\n\n"
         if self.kind.family == "joint" and len(self.cells) > 2:
             coordinate = "none" if self.cells[1] == "-" else self.cells[1]
             text += f"**Coordinate:** {coordinate}. **Degrees of freedom removed:** {self.cells[2]}.\n\n"
-        explained = self.kind.family == "joint" or self.name.endswith("al_spring") or self.name == "planar_spring"
-        return text + symbols(self.name) if explained else text
+        explained = self.kind.family == "joint" or self.name in ("planar_spring", "spatial_spring")
+        return text + symbols(self.cells) if explained else text
 
 
 def main():
@@ -221,7 +272,8 @@ def main():
     added, rows, sections = methods(), equations(), written()
     if sections.keys() != KINDS.keys():
         sys.exit(f"modelling.py: elements.md and the kinds of elements differ: {sections.keys() ^ KINDS.keys()}")
-    index = "# Elements\n\nEvery kind of element has a page with its picture, its equation, code in Python and C, and its fields.\n"
+    index = "# Elements\n\nEvery kind of element has a page with its equation, code in Python and C, and its fields. "
+    index += "Every page except that of the user coordinates has a picture.\n"
     names = []
     for group, members in GROUPS.items():
         index += f'\n## {group}\n\n```{{raw}} html\n<div class="cards">\n'

@@ -10,9 +10,9 @@
  *    baum_page_write(mechanism, &page, "slider_crank.html");
  *
  *  The library chooses the shape of each body from the elements of the mechanism. It draws links as
- *  bars between their joints, sliders as blocks, and wheels as discs. The size of other bodies
- *  corresponds to their inertia. Joints and forces are drawn as symbols. You can give a body
- *  outlines (shapes of your own), which replace the shape that the library chooses.
+ *  bars between their joints, sliders as blocks, and wheels as discs. It draws every other body in
+ *  a size that corresponds to its inertia. Joints and forces are drawn as symbols. You can give
+ *  a body outlines (shapes of your own), which replace the shape that the library chooses.
  *
  *  Functions that write a file replace an older file of the same name in the way that the comment
  *  on baum_study_write() describes. Drawing does not change the mechanism. */
@@ -155,9 +155,9 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /** A kind of mark on the time axis of a page. Each kind has a different colour and shape. */
 typedef enum baum_mark_kind {
-  BAUM_MARK_WARNING = 0,
+  BAUM_MARK_WARNING = 0,  /**< A warning of the run. */
   BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
-  BAUM_MARK_EVENT = 2
+  BAUM_MARK_EVENT = 2     /**< An event of the run. */
 } baum_mark_kind;
 
 /** The content of an HTML page: samples of a run as baum_simulation_sample() records them. All

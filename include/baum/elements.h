@@ -28,7 +28,8 @@ BAUM_API int32_t baum_mechanism_force_count(const baum_mechanism *mechanism);
 
 /** Find a body by number.
  *  @param mechanism  may be NULL
- *  @param k          number of the element, from 0 to the number of elements of its kind minus 1
+ *  @param k          number of the element, counted from 0; bodies, joints, forces and inputs are
+ *                    counted separately
  *  @return  id of the element; all-zero if there is no such element */
 BAUM_API baum_body_id baum_mechanism_body_at(const baum_mechanism *mechanism, int32_t k);
 
@@ -41,7 +42,7 @@ BAUM_API baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, 
 /** Find an input by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Find the first body with the given name. The name "ground" gives BAUM_GROUND.
+/** Find the first body with the given name; "ground" gives BAUM_GROUND if no body has this name.
  *  @param     mechanism  may be NULL
  *  @param[in] name       may be NULL
  *  @return  id of the element; all-zero if there is no such element */

@@ -6,6 +6,8 @@
 #ifndef BAUM_EXPORT_H
 #define BAUM_EXPORT_H
 
+/** @def BAUM_API
+ *  Marks the declaration of a public function, so that programs can link to it. */
 #if defined(_WIN32) && !defined(BAUM_STATIC)
 #ifdef BAUM_BUILDING
 #define BAUM_API __declspec(dllexport)

@@ -540,8 +540,10 @@ typedef struct baum_joint_spring_def {
   /** A law that replaces the three fields above, which must then have their defaults; the spring
    *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
-  void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads its argument rate, the time derivative of the coordinate. RATTLE requires
+   *  false. Default: true. */
+  bool depends_on_velocity;
 } baum_joint_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -223,8 +223,8 @@ BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanis
 /* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
 /** A weld (fixed joint): the points of both bodies coincide, and the relative angle of the bodies
- *  is constant. The joint has three rows: x and y as in a pin [m], and angle_b - angle_a - angle
- *  [rad]. */
+ *  is constant. The joint has three rows: x and y of the vector from body_b's point to body_a's
+ *  point [m], and angle_b - angle_a - angle [rad]. */
 typedef struct baum_planar_fixed_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -279,8 +279,10 @@ typedef struct baum_planar_spring_def {
   /** A law that replaces the three fields above, which must then have their defaults; the spring
    *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
-  void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
+   *  Default: true. */
+  bool depends_on_velocity;
 } baum_planar_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -322,8 +324,10 @@ typedef struct baum_planar_torsion_spring_def {
   /** A law that replaces the three fields above, which must then have their defaults; the spring
    *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
-  void *user;               /**< Passed to law. Not owned. Default: NULL. */
-  bool depends_on_velocity; /**< True if law reads rate. RATTLE requires false. Default: true. */
+  void *user; /**< Passed to law. Not owned. Default: NULL. */
+  /** True if law reads its argument rate, the time derivative of the angle. RATTLE requires false.
+   *  Default: true. */
+  bool depends_on_velocity;
 } baum_planar_torsion_spring_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -79,9 +79,8 @@ typedef struct baum_planar_rack_and_pinion_def {
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
-  /** [m] radius of the pitch circle, not 0. The comment of this struct explains its sign.
-   *  Default: 0, must be set.
-   */
+  /** [m] radius of the pitch circle, not 0. Positive if the rack is to the left of the pinion, seen
+   *  in the direction of the axis, and negative if it is to the right. Default: 0, must be set. */
   double radius;
   /** [m] the offset in the row of the joint. Default: NaN, the value in the design
    *  configuration. */
@@ -113,8 +112,9 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
 /* ---- gear ------------------------------------------------------------------------------------ */
 
 /** A pair of gears: two wheels, body_a and body_b, roll on each other without slipping. A third
- *  body, the carrier, carries both wheels. The joint has one row [m]: radius_a (angle_a - angle_c)
- *  + radius_b (angle_b - angle_c) - offset, where angle_c is the angle of the carrier.
+ *  body, the carrier, carries both wheels. The joint has one row [m],
+ *  radius_a (angle_a - angle_c) + radius_b (angle_b - angle_c) - offset, where angle_c is the angle
+ *  of the carrier.
  *
  *  If both radii are positive, both wheels have external teeth and rotate in opposite directions
  *  relative to the carrier. If the radius of one wheel is negative, this wheel is a ring with
@@ -169,7 +169,7 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 /* ---- point on a curve (cam) ------------------------------------------------------------------ */
 
 /** The function of a curve F(x, y) = 0: computes F and its derivatives. The derivatives must be
- *  exact near the curve, too, not only on it. Scale F so that |grad F| is about 1 on the curve.
+ *  exact on the curve and near it. Scale F so that |grad F| is about 1 on the curve.
  *  Near the curve, F is then approximately the distance from the curve, so that the tolerances of a
  *  run bound this distance.
  *  @param[in]  xy    (2) [m] x and y of a point, in the axes of body_a, with body_a's point as

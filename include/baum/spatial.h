@@ -132,7 +132,8 @@ typedef struct baum_spatial_spring_def {
    *  then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads rate. RATTLE requires false. Default: true. */
+  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
+   *  Default: true. */
   bool depends_on_velocity;
 } baum_spatial_spring_def;
 
@@ -195,7 +196,8 @@ typedef struct baum_spatial_cable_def {
    *  where the cable is slack. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads rate. RATTLE requires false. Default: true. */
+  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
+   *  Default: true. */
   bool depends_on_velocity;
   /** [m] >= 0, stretch s at which the damper reaches its full strength (w = 1). Default: NaN, 1e-4
    *  times free_length. */
@@ -262,7 +264,8 @@ typedef struct baum_spatial_torsion_spring_def {
    *  their defaults. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads rate. RATTLE requires false. Default: true. */
+  /** True if law reads its argument rate, the time derivative of the angle. RATTLE requires false.
+   *  Default: true. */
   bool depends_on_velocity;
 } baum_spatial_torsion_spring_def;
 

@@ -4,12 +4,13 @@
  *  a point of a body are in spatial_points.h, which this header includes. spatial.h explains points
  *  and reactions.
  *
- *  Axes: `axis` is an axis of the joint that is fixed in body_a, and `axis_b` is the corresponding
- *  axis that is fixed in body_b. If `point` is given, both vectors are in ground axes and describe
+ *  Axes: `axis` is an axis of the joint that is fixed in body_a, and `axis_b` is an axis of the
+ *  joint that is fixed in body_b. If `point` is given, both vectors are in ground axes and describe
  *  the design configuration. Otherwise `axis` is in the axes of body_a, and `axis_b` in the axes of
- *  body_b. By default, `axis_b` coincides with `axis` in the design configuration. The constraints
- *  would also be satisfied if the two axes pointed in opposite directions, but assembly refuses
- *  this.
+ *  body_b. A universal joint keeps the two axes perpendicular, and always needs `axis_b`. For every
+ *  other joint, `axis_b` coincides by default with `axis` in the design configuration. The
+ *  constraints of joints with parallel axes would also be satisfied if the two axes pointed in
+ *  opposite directions, but assembly refuses this.
  *
  *  Angles: a run counts the revolutions of the angles of joints. A workspace does not know the past
  *  of the motion and uses angles between -pi and pi, unless baum_workspace_set_angle() has chosen
@@ -115,9 +116,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
  *  body_a about `axis`, and body_b rotates relative to the cross about `axis_b`. The joint has four
  *  rows: three make the points of both bodies coincide [m], and one keeps the two axes
  *  perpendicular [-]. The axes must not be parallel in the design configuration. The coordinates of
- *  the joint are two angles [rad], which are both 0 in the design configuration: ANGLE is the angle
- *  of the cross relative to body_a about `axis`, and ANGLE_B is the angle of body_b relative to the
- *  cross about `axis_b`. */
+ *  the joint are two angles [rad], which are both 0 in the design configuration:
+ *  BAUM_COORDINATE_ANGLE is the angle of the cross relative to body_a about `axis`, and
+ *  BAUM_COORDINATE_ANGLE_B is the angle of body_b relative to the cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

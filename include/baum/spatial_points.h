@@ -135,9 +135,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 /* ---- point on a curve ------------------------------------------------------------------------ */
 
 /** The function of a curve in space, where the surfaces F(x, y, z) = 0 and G(x, y, z) = 0 meet:
- *  computes F, G and their derivatives. The derivatives must be exact near the curve, too, not only
- *  on it. Scale F and G so that their gradients have lengths of about 1 on the curve. The gradients
- *  must not be parallel there.
+ *  computes F, G and their derivatives. The derivatives must be exact on the curve and near it.
+ *  Scale F and G so that their gradients have lengths of about 1 on the curve. The gradients must
+ *  not be parallel there.
  *  @param[in]  xyz   (3) [m] x, y and z of a point, in the axes of body_a, with body_a's point as
  *                    origin
  *  @param[out] out   (20) F [m]; F_x, F_y, F_z [-]; F_xx, F_xy, F_xz, F_yy, F_yz, F_zz [1/m]; and
