@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows the effect of Baumgarte's gains. Eight driven slider-cranks move side by side. They are
-integrated by explicit Euler, each with one of the eight sets of gains of slider_crank.py. The page
-that this program writes shows the violations enlarged, as gaps in the joints. It also plots the
-logarithms of the true violations."""
+"""This program shows the effect of Baumgarte's gains. Eight driven slider-cranks move side by side.
+They are integrated by explicit Euler, each with one of the eight sets of gains of slider_crank.py.
+The page that this program writes shows the violations enlarged, as gaps in the joints. It also
+plots the logarithms of the true violations."""
 
 import sys
 import warnings

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reproduces Fig. 3 of Flores et al. 2008 in Python. The crank of the eccentric slider-crank is
+"""This program reproduces Fig. 3 of Flores et al. 2008. The crank of the eccentric slider-crank is
 driven at constant speed. The integrator is explicit Euler, with eight sets of Baumgarte's gains.
 
 Lengths, masses and inertias are those of Flores, Leine, Glocker, Multibody System Dynamics 23

@@ -870,7 +870,7 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  result. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,          /**< The stability of the gains is not known. */
+  BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow or not decay. */
   /** rtol is smaller than the error of derivatives that are computed by differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,
   /** IDA runs with INDEX3, which is meant only for comparisons. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism as seven rigid bodies. The geometry below is derived from the
- * equations of the Bari test set. In each line, a is the angle of the body. The fixed points A, B
- * and C, and the lengths, such as rr and d, are those of andrews.h.
+ * equations of the Bari test set, whose seven coordinates are beta, Theta, gamma, Phi, delta, Omega
+ * and epsilon. In each line, a is the angle of the body. The fixed points A, B and C, and the
+ * lengths, such as rr and d, are those of andrews.h.
  *
  *   K1 pivots at O = (0, 0), a = beta.                E = rr (cos a, sin a)
  *   K2 pivots at E, a = beta + Theta.                 F = E - d (cos a, sin a)

@@ -27,10 +27,11 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [INNER] = {"inner", "kg m^2", "moment of inertia of the inner ring about its normal",
              BAUM_I_POSITIVE},
   [WEIGHT] = {"weight", "kg", "on the inner ring", BAUM_I_POSITIVE},
-  [ARM] = {"arm", "m", "of the weight", BAUM_I_ANY},
+  [ARM] = {"arm", "m", "distance of the weight from the centre", BAUM_I_ANY},
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
   [TILT] = {"tilt", "rad", "angle of the rotor's axis above the horizontal", BAUM_I_ANY},
-  [PRECESSION] = {"precession", "rad/s", "not 0", BAUM_I_NONZERO},
+  [PRECESSION] = {"precession", "rad/s", "angular velocity of the outer ring, not 0",
+                  BAUM_I_NONZERO},
 };
 
 static double solution(const double *p, double t, double *q, double *v)

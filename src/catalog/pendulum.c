@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point on a circle. It is a particle on a massless rod. In the test problem of the MEBDF codes,
- * the constraint (x^2 + y^2 - 1) / 2 replaces the rod, so that the multipliers agree with the
- * published ones. If a is the angle from the downward vertical,
+/* A particle on a massless rod moves on a circle. In the mechanism "pendulum_mebdf", a test problem
+ * of the MEBDF codes, the constraint (x^2 + y^2 - 1) / 2 replaces the rod, so that the multipliers
+ * agree with the published ones. If a is the angle from the downward vertical, then
  *
  *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
  */

@@ -24,7 +24,7 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [GRAVITY] = {"gravity", "m/s^2", "along -z", BAUM_I_ANY},
   [TILT] = {"tilt", "rad", "angle of the axis above the plane, between -pi/2 and pi/2",
             BAUM_I_ACUTE},
-  [TURNING] = {"turning", "rad/s", "of the heading, not 0", BAUM_I_NONZERO},
+  [TURNING] = {"turning", "rad/s", "angular velocity of the heading, not 0", BAUM_I_NONZERO},
 };
 
 /* Returns n. Sets `sum` to the sum of the magnitudes of the terms of n, because rounding errors are

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A Stewart platform: six legs between the ground and a platform. Each leg consists of a lower body
  * on a universal joint and an upper body on a spherical joint, with a prismatic joint between them.
- * The platform has a given motion, r(t) and the rotations a(t) about z, b(t) about x and c(t) about
- * y. A driver gives each leg the length that this motion requires:
+ * The platform has a given motion: the position r(t) of its centre, and the rotations a(t) about z,
+ * b(t) about x and c(t) about y. A driver gives each leg the length that this motion requires:
  *
  *   l = |r + Rz(a) Rx(b) Ry(c) B - F|
  *
- * with the foot F of the leg on the ground and its ball B on the platform. */
+ * with the foot F of the leg on the ground, and its ball B on the platform in the axes of the
+ * platform. */
 #include "catalog/stewart.h"
 
 #include <float.h>

@@ -117,7 +117,7 @@ class RedundantRowsWarning(Warning):
 
 
 class GainsWarning(Warning):
-    """The stability of the gains is not known, or the gains are marginally stable."""
+    """With these gains, constraint violations may grow, or not decay, or decay slowly."""
 
     code = 2
 
