@@ -25,8 +25,12 @@ _Q = _abi.baum_quantity
 
 
 class Channel:
-    """A channel: a group of columns that a run records. key: its name in a run, such as
-    "slider.pose"."""
+    """A channel: a group of columns that a run records. Attributes of bodies and joints, such as
+    m["slider"].pose, are channels. Channels of the whole mechanism are baum.q, v, a, lambda_, phi,
+    phi_rate, energy and energy_account.
+
+    key: its name in a run, such as "slider.pose".
+    """
 
     __slots__ = ("key", "struct")
 
