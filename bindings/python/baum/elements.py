@@ -102,8 +102,8 @@ class Element(Strict):
     @property
     def definition(self) -> dict[str, Any]:
         """The definition of the element as a dict. The keys are the names of the arguments of the
-        method that adds the element. The values are numbers, tuples, arrays and handles. Functions
-        are omitted."""
+        method that adds the element. The values are numbers, tuples, arrays and handles of
+        elements. Functions are omitted."""
         return as_dict(self.mechanism.read(self), self.mechanism.find)
 
     def set(self: Self, **fields: Any) -> Self:
