@@ -26,8 +26,8 @@ _Q = _abi.baum_quantity
 
 class Channel:
     """A channel: a group of columns that a run records. Attributes of bodies and joints, such as
-    m["slider"].pose, are channels. Channels of the whole mechanism are baum.q, v, a, lambda_, phi,
-    phi_rate, energy and energy_account.
+    m["slider"].pose, are channels. The package has the channels `q`, `v`, `a`, `lambda_`,
+    `phi`, `phi_rate`, `energy` and `energy_account` of the whole mechanism, such as baum.energy.
 
     key: its name in a run, such as "slider.pose".
     """
