@@ -4,6 +4,7 @@
 A docstring consists of paragraphs. A paragraph may be a list of entries such as `mass: [kg], positive.`, whose further
 lines are indented. An indented paragraph is code."""
 
+import inspect
 import re
 from itertools import groupby
 
@@ -57,6 +58,12 @@ def convert(app, what, name, obj, options, lines):
     lines[:] = restructured(lines)
 
 
+def skip(app, what, name, obj, skipped, options):
+    """Omit the fields of named tuples, which the docstring of their class describes."""
+    return True if (inspect.getdoc(obj) or "").startswith("Alias for field") else None
+
+
 def setup(app):
     app.connect("autodoc-process-docstring", convert)
+    app.connect("autodoc-skip-member", skip)
     return {"version": "1", "parallel_read_safe": True}

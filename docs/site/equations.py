@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Typesets the plain notation of docs/notation.md on the pages of the site: lambda becomes a Greek letter, J^T gets a
-superscript, and Phi_tq a subscript. If a text names another page by its file, such as study.md, a link with the title of
-that page replaces the name. Code does not change, and neither does the text that the search finds."""
+superscript, and Phi_tq a subscript. Names in Python, such as B.phi and lambda_, do not change. If a text names another
+page by its file, such as study.md, a link with the title of that page replaces the name. Code does not change, and neither
+does the text that the search finds."""
 
 import re
 import unicodedata
@@ -10,7 +11,7 @@ from docutils import nodes
 from sphinx.writers.html5 import HTML5Translator
 
 GREEK = "alpha beta gamma delta epsilon zeta theta kappa lambda mu nu pi rho sigma tau phi psi omega Phi"
-NAME = re.compile(rf"(?<!\w)(?<![a-z]-)({GREEK.replace(' ', '|')})(?![a-zA-Z0-9]|_\w{{4}}| function)")
+NAME = re.compile(rf"(?<!\w)(?<!\w\.)(?<![a-z]-)({GREEK.replace(' ', '|')})(?![a-zA-Z0-9]|_\w{{4}}|_(?!\w)| function)")
 RAISED = re.compile(r"(?<=[\w)\]|'])\^(-?(?:[A-Z]|\d+(?:[/.]\d+)?)|[a-z]+|\*|\([^() ]+\))(?!\w)")
 LOWERED = re.compile(r"(?<!\w)([A-Za-z\u0370-\u03ff]|(?<=\)))_([a-zA-Z0-9]{1,3})(?!\w)")
 PAGE = re.compile(r"(?<![\w/-])(?:\.\./)*((?:[\w-]+/)*[\w-]+)\.md(?!\w)")

@@ -90,7 +90,7 @@ def first_line(thing):
 
 def python_pages(folder):
     text = "# Python reference\n\nIf you are new to the package, read the [introduction](../../bindings/python/README.md) first. "
-    text += "These pages contain the docstrings, which `help()` shows, too.\n\n| page | contents |\n|---|---|\n"
+    text += "These pages contain the docstrings, which `help()` also shows in Python.\n\n| page | contents |\n|---|---|\n"
     pages = []
     for name in CLASSES:
         one = getattr(baum, name)

@@ -769,7 +769,7 @@ typedef struct baum_report {
   int32_t fixed_bodies;
   bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
   bool constant_force; /**< True if all forces are constant. */
-  bool blocks;         /**< True if BAUM_SOLVER_BLOCK solves the equations, false if KLU does. */
+  bool blocks;         /**< True if the block solver solves the equations, false if KLU does. */
   /** [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism has
    *  spatial bodies but no user coordinates; otherwise it is a pair of rows. */
   int32_t nodes;

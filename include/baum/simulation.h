@@ -706,18 +706,19 @@ typedef struct baum_counters {
   /** [-] iterations of kinematics and of the implicit methods: CVODE, IDA, RATTLE and
    *  generalized-alpha. */
   int64_t nonlinear_iterations;
-  int64_t restarts;      /**< [-] restarts of multistep and variable-step methods. */
-  int64_t near_singular; /**< [-] evaluations in which the matrix was close to singular. */
+  int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
+  /** [-] evaluations in which the matrix in (7) was almost singular. */
+  int64_t near_singular;
   /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
   int64_t warnings;
   double wall;                      /**< [s] wall time inside advance_to, step and sample. */
-  double max_phi;                   /**< [m or rad] largest |Phi| over all steps. */
-  double max_phi_rate;              /**< [m/s or rad/s] largest |Phi'| over all steps. */
+  double max_phi;                   /**< [m or rad] largest violation |Phi| over all steps. */
+  double max_phi_rate;              /**< [m/s or rad/s] largest rate |Phi'| over all steps. */
   baum_joint_id max_phi_joint;      /**< The joint with the violation max_phi. */
   baum_joint_id max_phi_rate_joint; /**< The joint with the violation max_phi_rate. */
   /** [m or rad] prediction of the steady |Phi| that the gains leave, (alpha/beta^2) h max
-   *  |gamma_i|. It is known only for the Euler methods with stable gains of at least 0.1/h,
-   *  otherwise it is NaN. */
+   *  |gamma_i|, where h is the step, and gamma is the right-hand side of J a = gamma. It is known
+   *  only for the Euler methods with stable gains of at least 0.1/h, otherwise it is NaN. */
   double predicted_phi;
   /** [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|. */
   double predicted_phi_rate;
@@ -728,8 +729,8 @@ typedef struct baum_counters {
    *  includes the motion of drivers to their initial values if assembly makes this motion in a
    *  single step, but not if assembly makes it in several small steps. */
   double start_change;
-  double alpha; /**< [1/s] gain in use. */
-  double beta;  /**< [1/s] gain in use. */
+  double alpha; /**< [1/s] Baumgarte's gain alpha in use. */
+  double beta;  /**< [1/s] Baumgarte's gain beta in use. */
   /** [-] spectral radius of the gains: the factor by which each step multiplies a violation in the
    *  long run. NaN if the formulation is not BAUMGARTE, or if the steps are variable. */
   double spectral_radius;
@@ -808,8 +809,8 @@ typedef struct baum_energy_account {
   double gains;
   /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
   double residual;
-  /** [-] evaluations of equations (5) and (7) for the account. The counters of the run do not
-   *  include them. */
+  /** [-] evaluations of the equations (5) and (7) of docs/notation.md for the account. The
+   *  counters of the run do not include them. */
   int64_t evaluations;
 } baum_energy_account;
 

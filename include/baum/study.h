@@ -307,13 +307,13 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
   X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
-  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                  \
+  X(bool, at_floor, ALWAYS, "", "measured error is not above the uncertainty of the reference")  \
   X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")      \
   X(bool, off, ALWAYS, "", "on another motion: error_q above 0.1, or a branch warning")          \
   X(bool, unstable, ALWAYS, "", "its gains do not damp violations at this step")                 \
   X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                   \
   X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                     \
-  X(double, error, DONE, "1", "the error, see baum_study_set_error()")                           \
+  X(double, error, DONE, "1", "largest error over all samples, by the definition of the study")  \
   X(double, error_final, DONE, "1", "error at the last sample")                                  \
   X(double, error_half, DONE, "1", "error over the first half of the samples")                   \
   X(double, error_q, DONE, "1", "error of positions, relative to the scales")                    \

@@ -146,7 +146,7 @@ static baum_status replace_paths(baum_workspace *w)
     baum_i_paths_destroy(&made);
     return baum_i_fail(
       BAUM_ERR_UNSUPPORTED,
-      "the block solver is not suitable if these other redundant rows are omitted");
+      "the block solver is not suitable if other redundant rows are omitted than before");
   }
   copy_counters(before.all, made.all);
   copy_counters(before.motion, made.motion);

@@ -181,7 +181,7 @@ baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *a
   return baum_i_stability_deadbeat(&integrator->method, alpha_h, beta2_h2)
            ? BAUM_OK
            : baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                         "%s uses several past steps, so no gains remove a violation in one step; "
+                         "%s uses several past steps, so no gains remove a violation in two steps; "
                          "baum_stability_best() returns the point of fastest decay",
                          integrator->name);
 }

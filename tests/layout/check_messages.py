@@ -24,7 +24,8 @@ MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 # What stands in the list for a text of a message, by the name at the end of the C expression that
 # gives the text. All other texts are "...".
-PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "event_label": "EVENT", "joint_label": "JOINT", "row_label": "ROW", "name": "NAME", "names": "NAMES",
+PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "r->label": "SOURCE", "p->label": "SOURCE",
+                "event_label": "EVENT", "joint_label": "JOINT", "row_label": "JOINT", "name": "NAME", "names": "NAMES",
                 "integrator": "INTEGRATOR", "integrator->name": "INTEGRATOR", "method->name": "INTEGRATOR",
                 "pair->name": "INTEGRATOR", "field": "FIELD", "key": "KEY", "unit": "UNIT", "unit_of": "UNIT", "kind": "KIND",
                 "path": "PATH", "family": "FAMILY", "user_entry": "ENTRY", "coordinate_name": "COORDINATE"}
@@ -32,12 +33,13 @@ SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
 This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
-sources. `#` stands for a number, and words in capital letters for texts: `CALL` for the name of the function that was called,
-`ELEMENT` for the kind, number and name of an element, and so on. `{A / B}` stands for one of the texts A
-and B, and `...` for any other text. *As failed* means that the text is added to the message of another failure, and that the
-status of this failure remains. Each warning links to its [entry](cookbook/warnings.md). [theory/errors.md](theory/errors.md)
-describes the warnings that put a result in doubt, and [status.h](../include/baum/status.h) the statuses.
-`sh tests/run.sh coverage` lists the messages that no test triggers.
+sources. `#` stands for a number, and words in capital letters for texts. For example, `CALL` is the name of the function that was
+called, `ELEMENT` and `JOINT` are the kind, number and name of an element, such as `joint 2 "B"`, `ENTRY` is a number in the
+result of a user function, and `SOURCE` is the path of the file that is read, or the word `scene`. `{A / B}` stands for one of the
+texts A and B, and `...` for any other text. *As failed* means that the text is added to the message of another failure, and that
+the status of this failure remains. Each warning links to its section of the page "[cookbook/warnings.md](cookbook/warnings.md)".
+The page "[theory/errors.md](theory/errors.md)" describes the warnings that put a result in doubt, and the header
+[status.h](../include/baum/status.h) describes the statuses. `sh tests/run.sh coverage` lists the messages that no test triggers.
 """
 
 
@@ -167,7 +169,7 @@ class Source:
 
 def readable(text):
     text = text.replace('\\"', '"').replace("\\n", " ")
-    text = SPEC.sub(lambda m: {"s": "...", "%": "%"}.get(m[0][-1], "#"), text)
+    text = SPEC.sub(lambda m: {"s": "...", "c": "LETTER", "%": "%"}.get(m[0][-1], "#"), text)
     text = re.sub(r"\.{4,}", "...", text)
     return " ".join(text.replace("|", "\\|").split())
 

@@ -221,7 +221,7 @@ static void methods_without_a_region_are_refused(void **state)
   ASSERT_REFUSED(baum_stability_grid(k, range, range, 1, 1, &x), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_outline(k, 1.0, 0, NULL, NULL, &n), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_deadbeat(baum_ab2(), &x, &y), BAUM_ERR_UNSUPPORTED,
-                 "ab2 uses several past steps, so no gains remove a violation in one step; "
+                 "ab2 uses several past steps, so no gains remove a violation in two steps; "
                  "baum_stability_best() returns the point of fastest decay");
   baum_amplification out;
   assert_int_equal(baum_stability_at(baum_rattle(), 1.0, 1.0, &out, sizeof out), BAUM_OK);

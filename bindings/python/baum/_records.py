@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 
 
 class Mobility(NamedTuple):
-    """What a mechanism can do at its assembled initial configuration.
+    """What a mechanism can do at its assembled initial configuration. nv is the number of
+    velocities, and J is the velocity Jacobian of the constraints.
 
     degrees_of_freedom: [-] nv minus the rank of J at configurations near the initial one; -1 if
         the mechanism cannot be assembled.
@@ -47,7 +48,8 @@ class Mobility(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What an evaluation of the accelerations costs, and which work it skips.
+    """What an evaluation of the accelerations costs, and which work it skips. nv and nc are the
+    numbers of velocities and of constraint rows, and J is the velocity Jacobian of the constraints.
 
     bodies: [-] bodies without ground.
     joints: [-] joints, drivers, couplings and user constraints.
@@ -63,7 +65,7 @@ class Report(NamedTuple):
         multipliers are requested.
     constant_mass: True if the mass matrix is constant; it is then inverted only once.
     constant_force: True if all forces are constant.
-    blocks: True if "block" solves the equations, false if KLU does.
+    blocks: True if the block solver solves the equations, false if KLU does.
     nodes: [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism
         has spatial bodies but no user coordinates; otherwise it is a pair of rows.
     couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
@@ -105,7 +107,8 @@ class Report(NamedTuple):
 
 class Counters(NamedTuple):
     """What a run has cost since it was created, and how well it has kept the constraints. Joints
-    are handles or None, and names after unpickling.
+    are handles or None, and names after unpickling. Phi are the values of the constraints, and Phi'
+    is their time derivative.
 
     steps: [-] accepted steps.
     rejected: [-] steps that were repeated, because an error test or an iteration failed.
@@ -119,24 +122,25 @@ class Counters(NamedTuple):
     nonlinear_iterations: [-] iterations of kinematics and of the implicit methods: CVODE, IDA,
         RATTLE and generalized-alpha.
     restarts: [-] restarts of multistep and variable-step methods.
-    near_singular: [-] evaluations in which the matrix was close to singular.
+    near_singular: [-] evaluations in which the matrix in (7) was almost singular.
     warnings: [-] number of kinds of warnings that occurred, see warnings.
     wall: [s] wall time inside advance_to, step and sample.
-    max_phi: [m or rad] largest |Phi| over all steps.
-    max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
+    max_phi: [m or rad] largest violation |Phi| over all steps.
+    max_phi_rate: [m/s or rad/s] largest rate |Phi'| over all steps.
     max_phi_joint: The joint with the violation max_phi.
     max_phi_rate_joint: The joint with the violation max_phi_rate.
     predicted_phi: [m or rad] prediction of the steady |Phi| that the gains leave,
-        (alpha/beta^2) h max |gamma_i|. It is known only for the Euler methods with stable gains
-        of at least 0.1/h, otherwise it is NaN.
+        (alpha/beta^2) h max |gamma_i|, where h is the step, and gamma is the right-hand side of
+        J a = gamma. It is known only for the Euler methods with stable gains of at least 0.1/h,
+        otherwise it is NaN.
     predicted_phi_rate: [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|.
     energy_change: [J] change of kinetic plus potential energy since the start. It contains the
         error of the method, but also the work of drivers, inputs and dampers.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
         lengths or rad. It includes the motion of drivers to their initial values if assembly
         makes this motion in a single step, but not if assembly makes it in several small steps.
-    alpha: [1/s] gain in use.
-    beta: [1/s] gain in use.
+    alpha: [1/s] Baumgarte's gain alpha in use.
+    beta: [1/s] Baumgarte's gain beta in use.
     spectral_radius: [-] spectral radius of the gains: the factor by which each step multiplies
         a violation in the long run. NaN if the formulation is not "baumgarte", or if the steps
         are variable.
@@ -193,7 +197,7 @@ class Counters(NamedTuple):
 
 
 class EnergyAccount(NamedTuple):
-    """Where the energy of a run has come from.
+    """Where the energy of a run has come from. The page docs/notation.md explains the symbols.
 
     kinetic: [J] present kinetic energy v^T M v / 2.
     potential: [J] present potential energy of gravity, linear springs, constant loads and user
@@ -214,8 +218,8 @@ class EnergyAccount(NamedTuple):
     gains: [J] work of the gains. It is already contained in the fields `drivers` and
         `violation`, so do not add it to these fields.
     residual: [J] kinetic + potential - start, minus the sum of all work terms except gains.
-    evaluations: [-] evaluations of equations (5) and (7) for the account. The counters of the
-        run do not include them.
+    evaluations: [-] evaluations of the equations (5) and (7) of docs/notation.md for the
+        account. The counters of the run do not include them.
     """
 
     kinetic: float
@@ -261,7 +265,10 @@ class NearSingular(NamedTuple):
 
 
 class StudyEntry(NamedTuple):
-    """What a setting costs and how accurate it is; NaN: not known.
+    """What a setting costs and how accurate it is; NaN: not known. The scale of a length is the
+    characteristic length, and the scale of an angle is 1 rad. For error_lambda, the multiplier of
+    row i is multiplied by the norm of row i of the Jacobian, with each column of the Jacobian
+    multiplied by the scale of its coordinate.
 
     name: Such as "rk8 projection, rtol 1e-06".
     message: Why the entry was refused or failed; otherwise its first warning; "" if there is
@@ -274,13 +281,13 @@ class StudyEntry(NamedTuple):
     method: [-] number of the method to which the entry belongs, see methods.
     state: done, refused, failed, timed_out or waiting
     status: status of the run of the entry
-    at_floor: error is at the uncertainty of the reference
+    at_floor: measured error is not above the uncertainty of the reference
     untrusted: the reference is not trusted, so neither are the errors
     off: on another motion: error_q above 0.1, or a branch warning
     unstable: its gains do not damp violations at this step
     alpha: [1/s] alpha in use; 0: no gains
     beta: [1/s] beta in use; 0: no gains
-    error: [-] the error, see error
+    error: [-] largest error over all samples, by the definition of the study
     error_final: [-] error at the last sample
     error_half: [-] error over the first half of the samples
     error_q: [-] error of positions, relative to the scales
@@ -402,7 +409,8 @@ class StudyMethod(NamedTuple):
 
 
 class StudyReference(NamedTuple):
-    """How far the reference of a study can be trusted.
+    """How far the reference of a study can be trusted. error, error_q, error_v, error_lambda and
+    energy_error are fields of StudyEntry.
 
     origin: Where the reference comes from.
     trusted: False if the study has computed the reference itself, but the runs that compute it

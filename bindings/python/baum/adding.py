@@ -497,16 +497,16 @@ class Adding:
             a (rows).
         user: the last argument of compiled functions.
 
-        Only phi is required. If you do not give the other functions, the library computes them by
-        differences, for which it calls phi often: for two coordinates, about 150 times in a step of
-        "rk4". If you give jacobian and gamma, there are 50 calls of all three functions together. A
-        call of a short Python function takes one to two microseconds. If this time matters, give
-        the derivatives, or give compiled functions, which can be addresses, ctypes function
-        pointers, or Numba's cfunc.
+        Only `phi` is required. If you do not give the other functions, the library computes them by
+        differences, for which it calls `phi` often: for two coordinates, about 150 times in a step
+        of "rk4". If you give `jacobian` and `gamma`, there are 50 calls of all three functions
+        together. A call of a short Python function takes one to two microseconds. If this time
+        matters, give the derivatives, or give compiled functions, which can be addresses, ctypes
+        function pointers, or Numba's cfunc.
 
         velocity_level: True if the constraints are non-holonomic: they are J v = nu, and there is
-            no Phi. Examples are a skate, and a wheel that does not slip. jacobian is then required,
-            and phi must be None:
+            no Phi. Examples are a skate, and a wheel that does not slip. `jacobian` is then
+            required, and `phi` must be None:
 
         >>> import math, baum
         >>> m = baum.Mechanism(gravity=(0, 0, 0))

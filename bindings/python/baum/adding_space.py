@@ -493,10 +493,11 @@ class AddingInSpace:
         """Add a cable, rope or tendon. It runs in straight lines from one point to the next, slides
         over these points without friction, and can only pull. The points are fixed in bodies.
 
-        With the stretch s = length - free_length, the tension is stiffness s + damping
-        w(s / transition) (d/dt length) if s and this sum are positive, otherwise 0. The function
-        w(x) = x^2 (3 - 2 x) grows from 0 to 1, so the tension is continuous when the cable becomes
-        taut. Between two points that coincide, the cable exerts no force.
+        With the stretch s = length - free_length, the tension is stiffness s + damping w(s /
+        transition) (d/dt length) if s and this sum are positive, otherwise 0. The function w(x) =
+        x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1, and w(x) = 1 for x > 1. The tension is
+        therefore continuous when the cable becomes taut. Between two points that coincide, the
+        cable exerts no force.
 
         bodies: the body of each point, in the order of the path. The same body may occur several
             times.

@@ -55,7 +55,13 @@ def _read(struct: Any, function: Any, *arguments: Any) -> list[Any]:
 
 
 def entry(name: str) -> Entry:
-    """Return the entry of that name."""
+    """Return the entry of that name: a named tuple. Its fields name, title, source and note are
+    texts, and provenance is a text about how the reference was computed and checked. parameters has
+    the name, the unit, the meaning and the default value of each parameter. The reference has
+    sample_count samples from start_time to end_time [s]. digits_q and digits_v are the numbers of
+    correct digits of its positions and velocities. exact is True if the reference consists of
+    formulas. smooth is True if the motion with the default parameters passes through no singular
+    configuration."""
     values = _read(_abi.baum_catalog_entry(), _library.baum_catalog_find, str(name).encode())
     found = Entry._make([*values, {}])
     for k in range(found.parameter_count):
@@ -124,7 +130,12 @@ def compare(
     **parameters: Scalar,
 ) -> Error:
     """Compute the errors of a motion against the reference. The motion is a Run of the mechanism,
-    or a tuple (t, q, v), where v may be None."""
+    or a tuple (t, q, v), where v may be None.
+
+    Returns a named tuple. q and v are the largest errors of positions and velocities, and q_time
+    and v_time are the times [s] at which they occur. q_final and v_final are the errors at the last
+    time. q_floor and v_floor are the uncertainties of the reference.
+    """
     t, q, v = (run.t, run.q, run.v) if isinstance(run, Run) else run
     known = run.mechanism if isinstance(run, Run) else None
     mechanism = build(name, **parameters) if known is None else known

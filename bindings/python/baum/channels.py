@@ -25,8 +25,12 @@ _Q = _abi.baum_quantity
 
 
 class Channel:
-    """A channel: a group of columns that a run records. key: its name in a run, such as
-    "slider.pose"."""
+    """A channel: a group of columns that a run records. Attributes of bodies and joints, such as
+    m["slider"].pose, are channels. The package has the channels `q`, `v`, `a`, `lambda_`,
+    `phi`, `phi_rate`, `energy` and `energy_account` of the whole mechanism, such as baum.energy.
+
+    key: its name in a run, such as "slider.pose".
+    """
 
     __slots__ = ("key", "struct")
 

@@ -102,8 +102,8 @@ class Element(Strict):
     @property
     def definition(self) -> dict[str, Any]:
         """The definition of the element as a dict. The keys are the names of the arguments of the
-        method that adds the element. The values are numbers, tuples, arrays and handles. Functions
-        are omitted."""
+        method that adds the element. The values are numbers, tuples, arrays and handles of
+        elements. Functions are omitted."""
         return as_dict(self.mechanism.read(self), self.mechanism.find)
 
     def set(self: Self, **fields: Any) -> Self:
@@ -138,7 +138,7 @@ class Body(Element):
         - Planar body: x, y of the centre of mass [m] and the angle [rad].
         - Spatial body: x, y, z of the centre of mass [m] and the quaternion w, x, y, z [-].
         - Particle: x, y, or in space x, y, z [m].
-        - Coordinates: their part of q.
+        - User coordinates: their part of q.
         """
         return self._channel("pose", _Q.BAUM_BODY_POSE)
 
@@ -174,11 +174,10 @@ class Body(Element):
         """The outlines of the body, as a list. Drawings show the outlines as the shape of the body.
         The list is empty if the library chooses the shape.
 
-        You can set this property for every body except user coordinates, and also for ground. Its
-        value is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2)
-        of a polygon, an SVG path as a string (with y upward), a list of these, or None. The
-        mechanism may be frozen or not. Do not set the outline while another thread draws the
-        mechanism.
+        You can set this property for ground and for every body except user coordinates. Its value
+        is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2) of a
+        polygon, an SVG path as a string (with y upward), a list of these, or None. The mechanism
+        may be frozen or not. Do not set the outline while another thread draws the mechanism.
         """
         return outlines.read(self)
 
@@ -203,7 +202,8 @@ class Joint(Element):
 
     @property
     def rows(self) -> slice:
-        """The slice of Phi and lambda that belongs to the joint. The mechanism must be frozen."""
+        """The slice of the constraints Phi and of the multipliers lambda that belongs to the joint.
+        The mechanism must be frozen."""
         return self.mechanism.rows(self)
 
     @property
@@ -213,7 +213,8 @@ class Joint(Element):
 
     @property
     def phi_rate(self) -> Channel:
-        """Channel: time derivative of the violation, J v - nu [m/s], [rad/s]."""
+        """Channel: time derivative of the violation, J v - nu [m/s], [rad/s]. J is the Jacobian of
+        the constraints, and nu is minus the partial derivative of Phi with respect to time."""
         return self._channel("phi_rate", _Q.BAUM_PHI_RATE)
 
     @property
@@ -226,7 +227,8 @@ class Joint(Element):
         """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
         axes. The moment is about the joint's point on body_b. For joints in space, force and moment
         have three components each. For a gear, a coupling or a user constraint, the channel has the
-        generalized force -J^T lambda, with one number for each velocity of its bodies."""
+        generalized force -J^T lambda, with one number for each velocity of its bodies. J is the
+        Jacobian of the rows, and lambda are their multipliers."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
@@ -256,12 +258,12 @@ class Joint(Element):
 
     @property
     def x(self) -> Channel:
-        """Channel: first displacement of a planar joint and its velocity [m], [m/s]."""
+        """Channel: first displacement of a planar joint in space and its velocity [m], [m/s]."""
         return self._coordinate("x")
 
     @property
     def y(self) -> Channel:
-        """Channel: second displacement of a planar joint and its velocity [m], [m/s]."""
+        """Channel: second displacement of a planar joint in space and its velocity [m], [m/s]."""
         return self._coordinate("y")
 
     @property

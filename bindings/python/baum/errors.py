@@ -86,8 +86,8 @@ class Retry(Exception):
 
 class Warning(UserWarning):
     """All warnings of one kind in a run. str(warning) is the message of the first one. This message
-    ends with the code and the name of the warning, such as "[warning 104 singular_start]". The
-    section of docs/cookbook/warnings.md with this code explains the warning and what to do.
+    ends with the code and the name of the warning, such as "[warning 104 singular_start]". On the
+    page docs/cookbook/warnings.md, the section with this code explains the warning and what to do.
 
     code: the number of this kind of warning, which stays the same in later versions.
     doubts_motion: whether the result may be wrong by far more than its tolerance. This is true for

@@ -15,7 +15,7 @@ from .typing import Scalar
 
 
 class Gains:
-    """A gain rule and its numbers. The functions of this module make such rules.
+    """A gain rule and its numbers. Functions such as baum.fixed() and baum.auto() make such rules.
 
     name: the name of the function that made the rule.
     values: the arguments of this function by name.

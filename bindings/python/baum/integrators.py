@@ -184,8 +184,8 @@ def stability_grid(
     """Compute spectral radii on a rectangular grid of alpha h and (beta h)^2.
 
     alpha_h, beta2_h2: first and last value of each [-].
-    shape: number of rows and number of columns. Each row belongs to a value of beta2_h2, and each
-        column to a value of alpha_h.
+    shape: number of rows and number of columns. Each row belongs to a value of `beta2_h2`, and each
+        column to a value of `alpha_h`.
     """
     rows, columns = shape
     columns_range = vector(alpha_h, 2, "alpha_h")

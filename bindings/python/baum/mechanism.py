@@ -141,7 +141,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @classmethod
     def of_library(cls, address: Any) -> Mechanism:
-        """Own a mechanism that a function of the library has built."""
+        """Make a Mechanism of the mechanism that a C function has built at this address, and own
+        it."""
         made = cls.__new__(cls)
         made._adopt(address)
         counts: dict[str, int] = {}
@@ -209,8 +210,9 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         return found
 
     def find(self, family: str, value: Any) -> Any:
-        """Return the body, joint or input for a handle, a name or an id of the library. The id
-        "none" gives None. Raises KeyError or TypeError for other values."""
+        """Return the element of a family ("body", "joint" or "input") for a handle, a name or an
+        id of the library. The id "none" gives None. Raises KeyError or TypeError for other
+        values."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
@@ -556,7 +558,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         traces: paths to draw, as in Run.page().
         plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
             same unit are drawn in the same plot.
-        marks: times [s] and texts of marks on the time axis.
+        marks: pairs of a time [s] and a text, which become marks on the time axis.
         """
         motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
         made = drawings.page(motion)

@@ -199,12 +199,12 @@ def takes_options(method: Method) -> Method:
 class Simulation(_calls.Closing):
     """One run of a frozen mechanism.
 
-    integrator: a name from this list. baum.integrators() states their orders and formulations.
-        "euler", "semi_implicit_euler", "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle",
-        "generalized_alpha"                  need the option step
-        "dp5", "rk8"                         need the option step or rtol
-        "cvode_adams", "cvode_bdf", "ida"    need the option rtol
-        "kinematics"                         needs neither; drivers prescribe the whole motion
+    integrator: the name of an integration method. The methods "euler", "semi_implicit_euler",
+        "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle" and "generalized_alpha" need the option
+        `step`. The methods "dp5" and "rk8" need either `step` or `rtol`. The methods "cvode_adams",
+        "cvode_bdf" and "ida" need `rtol`. The method "kinematics" needs neither of these options,
+        because drivers prescribe the whole motion. baum.integrators() states the orders and the
+        formulations of all methods.
     step: length of a fixed step [s], positive.
     rtol: tolerance of the local error [-], between 0 and 1, relative to typical sizes of q and v
         (their scales).

@@ -292,7 +292,8 @@ def sweep(
     mechanism: frozen or not.
     parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. Values of a
         vector field have the shape (n x size).
-    times, method, record, options: as in Mechanism.simulate().
+    method: the integrator, such as "rk8".
+    times, record, options: as in Mechanism.simulate().
     reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
         keeps this result instead of the recorded values of the run.
     samples: "rows" uses the first value of every parameter for the first run, the second value for

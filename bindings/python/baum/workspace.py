@@ -29,8 +29,8 @@ class Workspace(_calls.Closing):
     q: positions (nq).
     v: velocities (nv).
 
-    Columns are in the order in which the bodies were added, and rows in the order of the joints.
-    Only one thread at a time may use a workspace.
+    nc is the number of constraint rows. Columns are in the order in which the bodies were added,
+    and rows in the order of the joints. Only one thread at a time may use a workspace.
 
     Errors: TypeError and ValueError for values of a wrong type or size; baum.Error if the library
         cannot evaluate the state; exceptions of your own functions.
@@ -136,7 +136,7 @@ class Workspace(_calls.Closing):
         return self._evaluate(lib.baum_workspace_nu, self._sizes.nc, t, q)
 
     def gamma(self, t: Scalar, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the right-hand side gamma (nc) of J a = gamma."""
+        """Return the right-hand side gamma (nc) of J a = gamma, where a are the accelerations."""
         return self._evaluate(lib.baum_workspace_gamma, self._sizes.nc, t, q, v)
 
     def mass(self, t: Scalar, q: ArrayLike) -> Array:

@@ -61,16 +61,25 @@ if TYPE_CHECKING:
 
 # The structs that become named tuples, and the docstrings of these tuples.
 RECORDS = {
-    "baum_mobility": "What a mechanism can do at its assembled initial configuration.",
-    "baum_report": "What an evaluation of the accelerations costs, and which work it skips.",
+    "baum_mobility": "What a mechanism can do at its assembled initial configuration. "
+    "nv is the number of velocities, and J is the velocity Jacobian of the constraints.",
+    "baum_report": "What an evaluation of the accelerations costs, and which work it skips. nv "
+    "and nc are the numbers of velocities and of constraint rows, and J is the velocity Jacobian "
+    "of the constraints.",
     "baum_counters": "What a run has cost since it was created, and how well it has kept the "
-    "constraints. Joints are handles or None, and names after unpickling.",
-    "baum_energy_account": "Where the energy of a run has come from.",
+    "constraints. Joints are handles or None, and names after unpickling. Phi are the values of "
+    "the constraints, and Phi' is their time derivative.",
+    "baum_energy_account": "Where the energy of a run has come from. The page docs/notation.md "
+    "explains the symbols.",
     "baum_near_singular": "An interval in which a run was near a singular configuration. branch is "
     '"continued", "left" or "unknown". The joint is a handle or None, and a name after unpickling.',
-    "baum_study_entry": "What a setting costs and how accurate it is; NaN: not known.",
+    "baum_study_entry": "What a setting costs and how accurate it is; NaN: not known. The scale of "
+    "a length is the characteristic length, and the scale of an angle is 1 rad. For error_lambda, "
+    "the multiplier of row i is multiplied by the norm of row i of the Jacobian, with each "
+    "column of the Jacobian multiplied by the scale of its coordinate.",
     "baum_study_method": "Entries of a study with the same integrator, formulation and gains.",
-    "baum_study_reference": "How far the reference of a study can be trusted.",
+    "baum_study_reference": "How far the reference of a study can be trusted. error, error_q, "
+    "error_v, error_lambda and energy_error are fields of StudyEntry.",
     "baum_catalog_parameter": "A number that a mechanism of the catalogue depends on.",
     "baum_catalog_entry": "A mechanism of the catalogue.",
     "baum_catalog_error": "How far a run is from the reference of the catalogue.",
