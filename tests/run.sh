@@ -291,9 +291,11 @@ stage_wheels() {
   as_root sh tests/install/wheels.sh "$PWD"
 }
 
+# The analyzer of gcc 12 calls arrays that vectorized loops have filled uninitialized. Stage valgrind finds such errors.
 stage_analyzer() {
   need_venv
-  build release analyzer -DBAUM_WERROR=ON -DBAUM_TESTS=OFF -DCMAKE_C_FLAGS=-fanalyzer
+  build release analyzer -DBAUM_WERROR=ON -DBAUM_TESTS=OFF \
+    "-DCMAKE_C_FLAGS=-fanalyzer -Wno-analyzer-use-of-uninitialized-value"
 }
 
 if [ "$*" = --list ]; then
