@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  A workspace evaluates a frozen mechanism at one state, without a run. It computes the
- *  constraints Phi, their Jacobian J, the right-hand sides nu and gamma of their time derivatives,
- *  the mass matrix M, the forces g, accelerations and residuals. It can also assemble a mechanism
- *  and project a state onto the constraints. The page "docs/notation.md" explains the symbols and
- *  lists the numbered equations.
+ *  constraints Phi, their Jacobian J, the right-hand sides of the velocity constraints J v = nu and
+ *  of the acceleration constraints J a = gamma, the mass matrix M, the forces g, accelerations and
+ *  residuals. It can also assemble a mechanism and project a state onto the constraints. The page
+ *  "docs/notation.md" explains the symbols and lists the numbered equations.
  *
  *  Arguments: times t [s], positions q (nq) and velocities v (nv) must be finite. No output may
  *  overlap an input. If a call fails, it does not write its outputs. Dense matrices are row-major.
@@ -42,8 +42,8 @@ BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum
 /** Release a workspace. @param workspace  may be NULL */
 BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
-/** Read the design configuration, which consists of the positions in the definitions of the bodies,
- *  and the given initial velocities.
+/** Read the design configuration and the given initial velocities. The design configuration
+ *  consists of the positions in the definitions of the bodies.
  *  @param      workspace  a workspace of the mechanism
  *  @param[out] q          (nq); may be NULL
  *  @param[out] v          (nv), NaN where no initial velocity is given; may be NULL
@@ -83,78 +83,98 @@ BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_jo
 /** Compute the time derivative of the positions, q' = N(q) v. For bodies whose positions form a
  *  vector, such as planar bodies, q' equals v.
  *  @param      workspace  a workspace of the mechanism
- *  @param[in]  q,v        (nq), (nv)
- *  @param[out] dq         (nq)
- *  @return  see the top of this file */
+ *  @param[in]  q          (nq) positions
+ *  @param[in]  v          (nv) velocities
+ *  @param[out] dq         (nq) q'
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
 /** Move positions by a displacement dx (nv). For bodies whose positions form a vector, the result
  *  is q + dx.
  *  @param         workspace  a workspace of the mechanism
- *  @param[in]     dx         (nv)
- *  @param[in,out] q          (nq)
- *  @return  see the top of this file */
+ *  @param[in]     dx         (nv) the displacement
+ *  @param[in,out] q          (nq) the positions
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double *dx, double *q);
 
 /** Compute the displacement dx between two configurations: baum_workspace_move() with this dx moves
  *  `from` to `to`.
  *  @param      workspace  a workspace of the mechanism
- *  @param[in]  from,to    (nq) each
- *  @param[out] dx         (nv)
- *  @return  see the top of this file */
+ *  @param[in]  from       (nq) positions
+ *  @param[in]  to         (nq) other positions
+ *  @param[out] dx         (nv) the displacement
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
                                                const double *to, double *dx);
 
 /** Evaluate the constraints Phi(q, t) (equation 1).
- *  @param      workspace,t,q  see the top of this file
+ *  @param      workspace      a workspace of the mechanism
+ *  @param      t              [s] time
+ *  @param[in]  q              (nq) positions
  *  @param[out] phi            (nc) [m], [rad] or the unit of a user constraint
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Evaluate the velocity Jacobian J = dPhi/dq N (equation 3). N is the matrix in q' = N v. For
+/** Evaluate the velocity Jacobian J = (dPhi/dq) N (equation 3). N is the matrix in q' = N v. For
  *  bodies whose positions form a vector, N is the identity matrix.
- *  @param      workspace,t,q  see the top of this file
+ *  @param      workspace      a workspace of the mechanism
+ *  @param      t              [s] time
+ *  @param[in]  q              (nq) positions
  *  @param[out] jacobian       (nc x nv)
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                              double *jacobian);
 
 /** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu (equation 3).
- *  @param      workspace,t,q  see the top of this file
+ *  @param      workspace      a workspace of the mechanism
+ *  @param      t              [s] time
+ *  @param[in]  q              (nq) positions
  *  @param[out] nu             (nc)
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
                                        double *nu);
 
 /** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma (equation 4).
- *  @param      workspace,t,q,v  see the top of this file
+ *  @param      workspace        a workspace of the mechanism
+ *  @param      t                [s] time
+ *  @param[in]  q                (nq) positions
+ *  @param[in]  v                (nv) velocities
  *  @param[out] gamma            (nc)
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *gamma);
 
 /** Evaluate the mass matrix M.
- *  @param      workspace,t,q  see the top of this file
+ *  @param      workspace      a workspace of the mechanism
+ *  @param      t              [s] time
+ *  @param[in]  q              (nq) positions
  *  @param[out] mass           (nv x nv)
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q,
                                          double *mass);
 
 /** Evaluate the force vector g, which is the sum of applied forces, gravity and velocity terms
  *  (such as gyroscopic moments).
- *  @param      workspace,t,q,v  see the top of this file
+ *  @param      workspace        a workspace of the mechanism
+ *  @param      t                [s] time
+ *  @param[in]  q                (nq) positions
+ *  @param[in]  v                (nv) velocities
  *  @param[out] force            (nv)
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *force);
 
 /** Evaluate the kinetic energy and the potential energy. The potential energy is the sum of the
  *  potentials of gravity, springs, constant loads and user potentials.
- *  @param      workspace,t,q,v    see the top of this file
- *  @param[out] kinetic,potential  [J] Each may be NULL.
- *  @return  see the top of this file */
+ *  @param      workspace        a workspace of the mechanism
+ *  @param      t                [s] time
+ *  @param[in]  q                (nq) positions
+ *  @param[in]  v                (nv) velocities
+ *  @param[out] kinetic          [J] kinetic energy. May be NULL.
+ *  @param[out] potential        [J] potential energy. May be NULL.
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
                                            const double *v, double *kinetic, double *potential);
 
@@ -168,11 +188,15 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  the rows that are not omitted become nearly dependent on each other, the workspace chooses other
  *  rows to omit, which allocates memory. From then on, baum_workspace_residual() omits the same
  *  rows.
- *  @param      workspace,t,q,v  see the top of this file
- *  @param      alpha,beta       [1/s] finite
- *  @param[out] a                (nv) May be NULL.
- *  @param[out] lambda           (nc) May be NULL.
- *  @return  the statuses at the top of this file; also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ *  @param      workspace        a workspace of the mechanism
+ *  @param      t                [s] time
+ *  @param[in]  q                (nq) positions
+ *  @param[in]  v                (nv) velocities
+ *  @param      alpha            [1/s] finite
+ *  @param      beta             [1/s] finite
+ *  @param[out] a                (nv) accelerations. May be NULL.
+ *  @param[out] lambda           (nc) multipliers. May be NULL.
+ *  @return  a status listed at the top of this header, or BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
  *           BAUM_ERR_INCONSISTENT (the accelerations violate an omitted row; the message names a
  *           joint) */
 BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
@@ -183,13 +207,15 @@ BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, doub
  *  body_b; planar.h and spatial.h give the details. For user constraints, gears and couplings, the
  *  reaction is the generalized force -J^T lambda of their rows, with one number for each velocity
  *  of their bodies.
- *  @param      workspace,t,q  see the top of this file
- *  @param[in]  lambda         (nc)
+ *  @param      workspace      a workspace of the mechanism
+ *  @param      t              [s] time
+ *  @param[in]  q              (nq) positions
+ *  @param[in]  lambda         (nc) multipliers, as baum_workspace_acceleration() returns them
  *  @param      joint          a joint of the mechanism
  *  @param[out] reaction       (width) with as many numbers as the channel BAUM_JOINT_REACTION of
  *                             this joint has columns, such as 3 for a planar joint and 6 for a
  *                             spatial joint
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
@@ -201,12 +227,16 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
  *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
  *  is a constant diagonal matrix. Its diagonal is the diagonal of M in the design configuration at
  *  t = 0, but very small entries are raised: entry k is at least m / s_k^2, where s_k is the scale
- *  of coordinate k, and m is a millionth of the largest M_jj s_j^2. */
+ *  of coordinate k, and m is a millionth of the largest M_jj s_j^2.
+ *
+ *  Rows of velocity level (non-holonomic constraints J v = nu) have no Phi. For these rows, INDEX1
+ *  contains J v' - gamma + alpha Phi', INDEX3 contains Phi' instead of Phi, and GGL contains mu_i
+ *  instead of Phi. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
   BAUM_RESIDUAL_INDEX3 = 3, /**< Phi. */
-  BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu, then Phi. */
+  BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu of all rows, followed by Phi of all rows. */
 } baum_residual;
 
 /** The equations to evaluate: their form and their gains. */
@@ -229,11 +259,13 @@ typedef struct baum_sparse {
  *  (q, v, lambda), and for GGL y = (q, v, lambda, mu). If row i is redundant and omitted, its
  *  constraint is replaced by the equation lambda_i = 0. GGL has two equations for each row, Phi'
  *  and Phi: lambda_i = 0 replaces Phi', and mu_i = 0 replaces Phi.
- *  @param      workspace,t  see the top of this file
- *  @param[in]  dae          which equations
- *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
+ *  @param      workspace    a workspace of the mechanism
+ *  @param      t            [s] time
+ *  @param[in]  dae          the equations to evaluate
+ *  @param[in]  y            (nq + nv + nc), or (nq + nv + 2 nc) for GGL: the unknowns
+ *  @param[in]  dy           y', of the same size as y
  *  @param[out] residual     F, of the same size as y
- *  @return  see the top of this file */
+ *  @return  a status listed at the top of this header */
 BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae,
                                              double t, const double *y, const double *dy,
                                              double *residual);
@@ -242,13 +274,15 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
  *  computes. The sparsity pattern of this matrix depends only on dae->index. To learn the number of
  *  entries, first call the function with NULL for all arrays of `out`. The function allocates
  *  memory, so do not use it in inner loops.
- *  @param      workspace,t  see the top of this file
- *  @param[in]  dae          which equations
+ *  @param      workspace    a workspace of the mechanism
+ *  @param      t            [s] time
+ *  @param[in]  dae          the equations to evaluate
  *  @param      c            [1/s] finite
- *  @param[in]  y,dy         as for baum_workspace_residual()
+ *  @param[in]  y            the unknowns, as for baum_workspace_residual()
+ *  @param[in]  dy           y', as for baum_workspace_residual()
  *  @param[out] out          receives the number of entries (nonzeros); its arrays are filled unless
  *                           they are NULL
- *  @return  the statuses at the top of this file; also BAUM_ERR_MEMORY */
+ *  @return  a status listed at the top of this header, or BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const baum_dae *dae, double c, double t,
                                                       const double *y, const double *dy,
@@ -259,7 +293,8 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
  *  one in the mass-weighted norm. The sum of the steps is therefore close to the smallest possible
  *  change, unless J changes much during the move. If J changes much and bodies move more than you
  *  want, list the bodies that must not move in `held`.
- *  @param         workspace,t  see the top of this file
+ *  @param         workspace    a workspace of the mechanism
+ *  @param         t            [s] time
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
  *  @param[in,out] v            (nv) velocities. Finite entries do not change. Entries that are NaN
  *                              are computed from the constraints. If the constraints do not
@@ -268,8 +303,8 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
  *  @param[in]     held         (held_count) bodies that assembly must not move, in addition to
  *                              those whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
- *  @return  the statuses at the top of this file; also BAUM_ERR_INCONSISTENT (the message names the
- *           joints in conflict), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
+ *  @return  a status listed at the top of this header, or BAUM_ERR_INCONSISTENT (the message names
+ *           the joints in conflict), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q,
                                              double *v, const baum_body_id *held,
                                              int32_t held_count);
@@ -278,10 +313,13 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
  *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
  *  M. For a slender rod, whose axial moment of inertia is very small, this norm uses a larger
  *  moment.
- *  @param         workspace,t  see the top of this file
- *  @param[in,out] q,v          (nq), (nv) a state that violates the constraints only a little;
+ *  @param         workspace    a workspace of the mechanism
+ *  @param         t            [s] time
+ *  @param[in,out] q            (nq) positions that violate the constraints only a little; unchanged
+ *                              on failure
+ *  @param[in,out] v            (nv) velocities that violate the constraints only a little;
  *                              unchanged on failure
- *  @return  the statuses at the top of this file; also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR,
+ *  @return  a status listed at the top of this header, or BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR,
  *           BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT (redundant rows contradict the other rows, or
  *           two axes of a joint point in opposite directions) */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
