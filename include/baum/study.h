@@ -11,10 +11,10 @@
  *
  *  An *entry* is one setting with its results. A *method* is the set of entries with the same
  *  integrator, formulation and gains; its entries differ only in step or rtol. Errors are
- *  differences from a *reference*, which is a very accurate motion. Errors are measured at n
- *  samples (the option `samples`), at the times t0 + k (t1 - t0) / n with k = 1 to n. The study
- *  computes the reference itself, or uses a reference that you give. The study never reports an
- *  error that is smaller than the uncertainty of the reference. The page
+ *  differences from a *reference*, which is a very accurate motion. If the time span is from t0 to
+ *  t1, errors are measured at the n times t0 + k (t1 - t0) / n with k = 1 to n; the option
+ *  `samples` gives n. The study computes the reference itself, or uses a reference that you give.
+ *  The study never reports an error that is smaller than the uncertainty of the reference. The page
  *  "docs/theory/work-precision.md" explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
@@ -95,7 +95,7 @@ typedef struct baum_study_options {
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
   baum_study_progress_fn *progress; /**< The study calls this function. Default: NULL, none. */
-  void *user;                       /**< Passed to progress. Not owned. Default: NULL. */
+  void *user; /**< Passed to the function `progress`. Not owned. Default: NULL. */
   /** Validate entries before one is recommended: run them again, over twice the span and from
    *  perturbed starts. The recommendation is then also valid for such runs. Default: true. */
   bool validate;
@@ -140,10 +140,10 @@ typedef struct baum_study_grid {
   int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
   /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
    *  integrator's default rule and to automatic gains. The first gain is the rate of the motion
-   *  [1/s]. This rate is the larger of two numbers: the rate r at the start, which the description
-   *  of the run option tolerance_lambda defines, and the mean of the largest |v_j| / s_j over a
-   *  trial run, where s_j is the scale of coordinate j. Each further gain is ten times the gain
-   *  before it. Default: 2. */
+   *  [1/s]. This rate is the larger of two numbers. One is the rate r at the start, which the
+   *  description of the run option tolerance_lambda defines. The other is the largest |v_j| / s_j
+   *  over all coordinates j, averaged over a trial run; s_j is the scale of coordinate j
+   *  (mechanism.h). Each further gain is ten times the gain before it. Default: 2. */
   int32_t constants;
   /** [s] > 0, longest step of methods of the orders 3 to 5. The longest steps of methods of the
    *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, chosen from the time scale
@@ -178,9 +178,9 @@ static inline baum_study_grid baum_study_grid_default(void)
  *  follow from the time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
  *  @param[in] grid   NULL: the default
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build fits the integrator and
- *           the formulation of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
- *           BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build matches the fields
+ *           `integrator` and `formulation` of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
+ *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
  *           baum_simulation_create() */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
@@ -190,10 +190,10 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *  be as accurate as its setting suggests, or have a message or a warning that says why it is not.
  *  The option entry_limit bounds the CPU time of entries with tiny steps.
  *  @param study       unchanged on failure
- *  @param integrator  NULL: all integrators of this build with an option step or rtol
- *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
- *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
- *           baum_simulation_create() */
+ *  @param integrator  NULL: all integrators of this build that take the option step or rtol
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build does not contain `integrator`),
+ *           BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be
+ *           started, the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
 
 /* ---- error and reference --------------------------------------------------------------------- */
@@ -221,9 +221,9 @@ BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel 
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
- *  @param[in] q       (n x nq) copied
- *  @param[in] v       (n x nv) copied. NULL: unknown.
- *  @param[in] lambda  (n x nc) copied. NULL: unknown.
+ *  @param[in] q       (n x nq) positions, copied
+ *  @param[in] v       (n x nv) velocities, copied. NULL: unknown.
+ *  @param[in] lambda  (n x nc) multipliers, copied. NULL: unknown.
  *  @param     digits  [-] > 0, number of digits of the reference that can be trusted. The study
  *                     does not distinguish errors below 10^-digits
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
@@ -232,11 +232,11 @@ BAUM_API baum_status baum_study_set_reference(baum_study *study, const double *t
                                               const double *lambda, double digits);
 
 /** A function that computes the exact motion, for baum_study_set_solution().
- *  @param      t       [s]
- *  @param[out] q       (nq)
- *  @param[out] v       (nv)
- *  @param[out] lambda  (nc) set to NaN before the call; leave it so if the multipliers are not
- *                      known
+ *  @param      t       [s] time
+ *  @param[out] q       (nq) positions
+ *  @param[out] v       (nv) velocities
+ *  @param[out] lambda  (nc) multipliers; they are NaN before the call. Leave them NaN if they are
+ *                      not known
  *  @param      user    as given to baum_study_set_solution()
  *  @return  0 on success */
 typedef int baum_study_solution_fn(double t, double *q, double *v, double *lambda, void *user);
@@ -246,7 +246,7 @@ typedef int baum_study_solution_fn(double t, double *q, double *v, double *lambd
  *  @param study     unchanged on failure
  *  @param solution  the function; only the thread that calls baum_study_run() calls it
  *  @param user      passed to the function. Not owned. May be NULL.
- *  @param digits    [-] > 0, number of digits that can be trusted
+ *  @param digits    [-] > 0, number of digits of the reference that can be trusted
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE */
 BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *solution,
                                              void *user, double digits);
@@ -263,10 +263,11 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  If the option file is set, the study appends every result to this file as a line of text as soon
  *  as the result is known. When this function returns, all results are on the disk. Another study
  *  can continue with this file if both studies have the same mechanism, the same initial positions,
- *  velocities and inputs, and the same span, samples, error, reference and option energy_account,
- *  and if both run with the same version of the library. The other study then reads the results of
- *  its entries from the file; a last line that is cut off does no harm. The library does not check
- *  whether the user functions are the same. Only one process at a time may use the file.
+ *  velocities and inputs, the same time span, samples, reference and definition of the error, and
+ *  the same option energy_account, and if both run with the same version of the library. The other
+ *  study then reads the results of its entries from the file; a last line that is cut off does no
+ *  harm. The library does not check whether the user functions are the same. Only one process at a
+ *  time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -290,7 +291,8 @@ typedef enum baum_study_state {
   BAUM_STUDY_DONE = 1,    /**< Reached the end of the span. */
   BAUM_STUDY_REFUSED = 2, /**< Could not be started. */
   BAUM_STUDY_FAILED = 3,  /**< Failed during the run. */
-  /** Reached the entry limit, or a coarser setting of its method did. */
+  /** Reached the option entry_limit, or was skipped because a coarser setting of its method reached
+   *  it. */
   BAUM_STUDY_TIMED_OUT = 4
 } baum_study_state;
 
@@ -300,51 +302,56 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
 /** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The last
  *  fields of baum_study_entry, the study file, the reports in CSV and JSON, and the class
  *  StudyEntry of the Python package are generated from this list. Results marked DONE are known
- *  only if the entry is done. An error is the largest one over all samples; if its name contains
- *  `final`, it is the error at the last sample. An error is never smaller than the uncertainty of
- *  the reference. For error_lambda, multiplier i is multiplied by the norm of row i of J, with each
- *  column of J multiplied by the scale of its coordinate. */
-#define BAUM_STUDY_ENTRY_LIST(X)                                                                 \
-  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")          \
-  X(baum_status, status, ALWAYS, "", "status of the run of the entry")                           \
-  X(bool, at_floor, ALWAYS, "", "measured error is not above the uncertainty of the reference")  \
-  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")      \
-  X(bool, off, ALWAYS, "", "on another motion: error_q above 0.1, or a branch warning")          \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp violations at this step")                 \
-  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                   \
-  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                     \
-  X(double, error, DONE, "1", "largest error over all samples, by the definition of the study")  \
-  X(double, error_final, DONE, "1", "error at the last sample")                                  \
-  X(double, error_half, DONE, "1", "error over the first half of the samples")                   \
-  X(double, error_q, DONE, "1", "error of positions, relative to the scales")                    \
-  X(double, error_q_final, DONE, "1", "error of positions at the last sample")                   \
-  X(double, error_v, DONE, "1", "error of velocities, relative to scales and largest velocity")  \
-  X(double, error_v_final, DONE, "1", "error of velocities at the last sample")                  \
-  X(double, error_lambda, DONE, "1", "error of weighted multipliers, relative to the largest")   \
-  X(double, error_lambda_final, DONE, "1", "error of multipliers at the last sample")            \
-  X(double, energy_error, DONE, "J", "drift of energy against the reference")                    \
-  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                 \
-  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                        \
-  X(double, error_validated, DONE, "1", "largest error of the validation, see option validate")  \
-  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")      \
-  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                 \
-  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")  \
-  X(double, projection_work, DONE, "J", "change of energy by projections")                       \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                 \
-  X(double, work, DONE, "evaluations", "evaluations, factorizations and implicit iterations")    \
-  X(double, cpu, DONE, "s", "least CPU time to create and run it, without samples")              \
-  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                      \
-  X(int32_t, repeats, DONE, "1", "number of runs that measured the CPU time")                    \
-  X(int64_t, evaluations, DONE, "1", "evaluations in the run, without those for samples")        \
-  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without those for samples") \
-  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                  \
-  X(int64_t, steps, DONE, "1", "accepted steps")                                                 \
-  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                    \
-  X(int64_t, forced_steps, DONE, "1", "steps across singularities, see baum_counters")           \
-  X(int64_t, near_singular_intervals, DONE, "1", "near-singular intervals of its run")           \
-  X(int64_t, warnings, DONE, "1", "kinds of warnings of its run")                                \
-  X(int64_t, branch_warnings, DONE, "1", "near-singular intervals with a doubtful branch")       \
-  X(int64_t, doubts, DONE, "1", "kinds of warnings that put the motion in doubt")
+ *  only if the entry is done.
+ *
+ *  Each error against the reference is the largest value over all samples, with two exceptions:
+ *  fields with `final` in their names contain the error at the last sample, and error_half covers
+ *  only the first half of the samples. An error is never smaller than the uncertainty of the
+ *  reference. The scale of a length is the characteristic length, and the scale of an angle is 1
+ *  rad. Scaled positions and velocities are divided by the scales of their coordinates. Weighted
+ *  multipliers are multiplied by a weight: for row i, it is the norm of row i of the Jacobian J,
+ *  after each column of J has been multiplied by the scale of its coordinate. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
+  X(baum_status, status, ALWAYS, "", "status of the run of the entry")                             \
+  X(bool, at_floor, ALWAYS, "", "measured error is not above the uncertainty of the reference")    \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so neither are the errors")        \
+  X(bool, off, ALWAYS, "", "run followed another motion: error_q above 0.1, or a branch warning")  \
+  X(bool, unstable, ALWAYS, "", "the gains do not damp violations at this step")                   \
+  X(double, alpha, ALWAYS, "1/s", "alpha in use; 0: no gains")                                     \
+  X(double, beta, ALWAYS, "1/s", "beta in use; 0: no gains")                                       \
+  X(double, error, DONE, "1", "largest error over all samples, by the definition of the study")    \
+  X(double, error_final, DONE, "1", "error at the last sample")                                    \
+  X(double, error_half, DONE, "1", "largest error over the first half of the samples")             \
+  X(double, error_q, DONE, "1", "error of scaled positions")                                       \
+  X(double, error_q_final, DONE, "1", "error_q at the last sample")                                \
+  X(double, error_v, DONE, "1", "error of scaled velocities, relative to the largest one")         \
+  X(double, error_v_final, DONE, "1", "error_v at the last sample")                                \
+  X(double, error_lambda, DONE, "1", "error of weighted multipliers, relative to the largest one") \
+  X(double, error_lambda_final, DONE, "1", "error_lambda at the last sample")                      \
+  X(double, energy_error, DONE, "J", "difference of energy from the reference")                    \
+  X(double, energy_error_final, DONE, "J", "energy_error at the last sample")                      \
+  X(double, error_estimate, DONE, "1", "error_estimate of baum_counters")                          \
+  X(double, error_validated, DONE, "1", "largest error of the validation, see option validate")    \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
+  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
+  X(double, projection_work, DONE, "J", "change of energy by projections")                         \
+  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
+  X(double, work, DONE, "evaluations", "evaluations + factorizations + implicit iterations")       \
+  X(double, cpu, DONE, "s", "least CPU time to create a run and advance it, without samples")      \
+  X(double, cpu_spread, DONE, "s", "second smallest CPU time minus the smallest")                  \
+  X(int32_t, repeats, DONE, "1", "number of runs that measured the CPU time")                      \
+  X(int64_t, evaluations, DONE, "1", "evaluations in the run, without those for samples")          \
+  X(int64_t, factorizations, DONE, "1", "factorizations of matrices, without those for samples")   \
+  X(int64_t, nonlinear_iterations, DONE, "1", "iterations of implicit methods")                    \
+  X(int64_t, steps, DONE, "1", "accepted steps")                                                   \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
+  X(int64_t, forced_steps, DONE, "1", "steps across singularities, see baum_counters")             \
+  X(int64_t, near_singular_intervals, DONE, "1", "number of near-singular intervals of the run")   \
+  X(int64_t, warnings, DONE, "1", "number of kinds of warnings of the run")                        \
+  X(int64_t, branch_warnings, DONE, "1", "near-singular intervals with a doubtful branch")         \
+  X(int64_t, doubts, DONE, "1", "number of kinds of warnings that put the motion in doubt")
 
 /** An entry: a setting, how accurate it is and what it costs. The last fields of the struct are
  *  those of BAUM_STUDY_ENTRY_LIST, which states their units and meanings. A result of type double
@@ -375,7 +382,8 @@ BAUM_API int32_t baum_study_entry_count(const baum_study *study);
 
 /** Read an entry.
  *  @param      study        the study
- *  @param      k            0 to baum_study_entry_count() - 1, in the order of adding
+ *  @param      k            number of the entry, 0 to baum_study_entry_count() - 1, in the order in
+ *                           which the entries were added
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -411,11 +419,11 @@ typedef struct baum_study_reference {
   /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is
    *  computed. */
   double digits;
-  double uncertainty;        /**< [-] uncertainty of `error`. */
-  double uncertainty_q;      /**< [-] uncertainty of error_q. */
-  double uncertainty_v;      /**< [-] uncertainty of error_v. */
-  double uncertainty_lambda; /**< [-] uncertainty of error_lambda. */
-  double uncertainty_energy; /**< [J] uncertainty of energy_error. */
+  double uncertainty;        /**< [-] uncertainty of the result `error` of the entries. */
+  double uncertainty_q;      /**< [-] uncertainty of the result error_q of the entries. */
+  double uncertainty_v;      /**< [-] uncertainty of the result error_v of the entries. */
+  double uncertainty_lambda; /**< [-] uncertainty of the result error_lambda of the entries. */
+  double uncertainty_energy; /**< [J] uncertainty of the result energy_error of the entries. */
   int32_t samples;           /**< [-] number of samples. */
   /** A text that says to how many digits the runs that compute the reference agree, or why the
    *  reference is not trusted. */
@@ -433,10 +441,10 @@ BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_stu
 /** Read a sample of the reference.
  *  @param      study   the study
  *  @param      k       0 to samples - 1
- *  @param[out] t       [s] May be NULL.
- *  @param[out] q       (nq) May be NULL.
- *  @param[out] v       (nv) NaN if unknown. May be NULL.
- *  @param[out] lambda  (nc) NaN if unknown. May be NULL.
+ *  @param[out] t       [s] time. May be NULL.
+ *  @param[out] q       (nq) positions. May be NULL.
+ *  @param[out] v       (nv) velocities, NaN if unknown. May be NULL.
+ *  @param[out] lambda  (nc) multipliers, NaN if unknown. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (the reference has not been computed; a
  *           study that finds the results of all entries in its file does not compute it) */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
@@ -444,8 +452,9 @@ BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_
 
 /** Read the time span and the options of a study.
  *  @param      study        the study
- *  @param[out] t0,t1        [s] Each may be NULL.
- *  @param[out] options      as set. May be NULL.
+ *  @param[out] t0           [s] start of the time span. May be NULL.
+ *  @param[out] t1           [s] end of the time span. May be NULL.
+ *  @param[out] options      options of the study. May be NULL.
  *  @param      caller_size  sizeof *options
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, double *t1,
@@ -526,21 +535,22 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
  *  by at most the distance between the first two entries. After the last entry, it is extrapolated
  *  by at most the distance between the last two entries.
  *  @param      study   the study
- *  @param      method  0 to baum_study_method_count() - 1
+ *  @param      method  number of the method, 0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0
  *  @param      cost    how cost is measured
  *  @param[out] out     [- or s] the cost
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method was not measured near that error; the
- *           message states the range of its errors) */
+ *           message states the smallest and the largest error with which it was measured) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
 
 /** Compare the cost of two methods at equal error.
  *  @param      study  the study
- *  @param      a,b    0 to baum_study_method_count() - 1
+ *  @param      a      number of a method, 0 to baum_study_method_count() - 1
+ *  @param      b      number of the other method, 0 to baum_study_method_count() - 1
  *  @param      error  [-] > 0
  *  @param      cost   how cost is measured
- *  @param[out] ratio  [-] cost of a over cost of b; below 1 if a is cheaper
+ *  @param[out] ratio  [-] cost of method a / cost of method b; below 1 if a is cheaper
  *  @return  as baum_study_cost_at() */
 BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                         baum_study_cost cost, double *ratio);
@@ -568,8 +578,8 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
 /** Recommend a setting: find the most accurate setting that takes at most a given CPU time.
  *  Otherwise this function is like baum_study_recommend().
  *  @param      study        after baum_study_run(); unchanged
- *  @param      seconds      [s] > 0, finite, CPU time of a run over the span of the study on this
- *                           machine
+ *  @param      seconds      [s] > 0, finite, largest CPU time that you accept for a run over the
+ *                           span of the study on this machine
  *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a message with the measured figures, truncated if too long. May

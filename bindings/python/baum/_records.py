@@ -283,21 +283,21 @@ class StudyEntry(NamedTuple):
     status: status of the run of the entry
     at_floor: measured error is not above the uncertainty of the reference
     untrusted: the reference is not trusted, so neither are the errors
-    off: on another motion: error_q above 0.1, or a branch warning
-    unstable: its gains do not damp violations at this step
+    off: run followed another motion: error_q above 0.1, or a branch warning
+    unstable: the gains do not damp violations at this step
     alpha: [1/s] alpha in use; 0: no gains
     beta: [1/s] beta in use; 0: no gains
     error: [-] largest error over all samples, by the definition of the study
     error_final: [-] error at the last sample
-    error_half: [-] error over the first half of the samples
-    error_q: [-] error of positions, relative to the scales
-    error_q_final: [-] error of positions at the last sample
-    error_v: [-] error of velocities, relative to scales and largest velocity
-    error_v_final: [-] error of velocities at the last sample
-    error_lambda: [-] error of weighted multipliers, relative to the largest
-    error_lambda_final: [-] error of multipliers at the last sample
-    energy_error: [J] drift of energy against the reference
-    energy_error_final: [J] drift of energy at the last sample
+    error_half: [-] largest error over the first half of the samples
+    error_q: [-] error of scaled positions
+    error_q_final: [-] error_q at the last sample
+    error_v: [-] error of scaled velocities, relative to the largest one
+    error_v_final: [-] error_v at the last sample
+    error_lambda: [-] error of weighted multipliers, relative to the largest one
+    error_lambda_final: [-] error_lambda at the last sample
+    energy_error: [J] difference of energy from the reference
+    energy_error_final: [J] energy_error at the last sample
     error_estimate: [-] error_estimate of counters
     error_validated: [-] largest error of the validation, see option validate
     max_phi: [m or rad] largest constraint violation |Phi| over all steps
@@ -305,9 +305,9 @@ class StudyEntry(NamedTuple):
     violation_work: [J] work of violated constraints, see energy_account
     projection_work: [J] change of energy by projections
     gains_work: [J] work of the gains, see energy_account
-    work: [evaluations] evaluations, factorizations and implicit iterations
-    cpu: [s] least CPU time to create and run it, without samples
-    cpu_spread: [s] second least CPU time minus the least
+    work: [evaluations] evaluations + factorizations + implicit iterations
+    cpu: [s] least CPU time to create a run and advance it, without samples
+    cpu_spread: [s] second smallest CPU time minus the smallest
     repeats: [-] number of runs that measured the CPU time
     evaluations: [-] evaluations in the run, without those for samples
     factorizations: [-] factorizations of matrices, without those for samples
@@ -315,10 +315,10 @@ class StudyEntry(NamedTuple):
     steps: [-] accepted steps
     rejected: [-] steps that were repeated
     forced_steps: [-] steps across singularities, see counters
-    near_singular_intervals: [-] near-singular intervals of its run
-    warnings: [-] kinds of warnings of its run
+    near_singular_intervals: [-] number of near-singular intervals of the run
+    warnings: [-] number of kinds of warnings of the run
     branch_warnings: [-] near-singular intervals with a doubtful branch
-    doubts: [-] kinds of warnings that put the motion in doubt
+    doubts: [-] number of kinds of warnings that put the motion in doubt
     """
 
     name: str
@@ -417,11 +417,11 @@ class StudyReference(NamedTuple):
         agree to fewer than three digits or pass near a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
         reference is computed.
-    uncertainty: [-] uncertainty of `error`.
-    uncertainty_q: [-] uncertainty of error_q.
-    uncertainty_v: [-] uncertainty of error_v.
-    uncertainty_lambda: [-] uncertainty of error_lambda.
-    uncertainty_energy: [J] uncertainty of energy_error.
+    uncertainty: [-] uncertainty of the result `error` of the entries.
+    uncertainty_q: [-] uncertainty of the result error_q of the entries.
+    uncertainty_v: [-] uncertainty of the result error_v of the entries.
+    uncertainty_lambda: [-] uncertainty of the result error_lambda of the entries.
+    uncertainty_energy: [J] uncertainty of the result energy_error of the entries.
     samples: [-] number of samples.
     text: A text that says to how many digits the runs that compute the reference agree, or why
         the reference is not trusted.
