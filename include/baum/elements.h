@@ -17,13 +17,15 @@
 extern "C" {
 #endif
 
-/** Count the bodies. @param mechanism  may be NULL @return 0 for NULL */
+/** Count the bodies. @param mechanism  may be NULL @return number of bodies; 0 for NULL */
 BAUM_API int32_t baum_mechanism_body_count(const baum_mechanism *mechanism);
 
-/** Count the joints. @param mechanism  may be NULL @return 0 for NULL */
+/** Count the joints. @param mechanism  may be NULL @return number of joints; 0 for NULL */
 BAUM_API int32_t baum_mechanism_joint_count(const baum_mechanism *mechanism);
 
-/** Count the forces, without gravity. @param mechanism  may be NULL @return 0 for NULL */
+/** Count the forces, not including gravity.
+ *  @param mechanism  may be NULL
+ *  @return  number of forces; 0 for NULL */
 BAUM_API int32_t baum_mechanism_force_count(const baum_mechanism *mechanism);
 
 /** Find a body by number.

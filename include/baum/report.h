@@ -2,7 +2,8 @@
 /** @file
  *  Reports of a study, which compares integration methods on one mechanism (study.h). A report
  *  lists the entries of the study (its settings and their results), its Pareto front, its
- *  recommendations and its reference. It also describes the machine that ran the study.
+ *  recommendations and the quality of its reference. It also describes the machine that ran the
+ *  study.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *

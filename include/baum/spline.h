@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Drivers whose law s(t) is a spline.
+ *  Drivers that prescribe a joint coordinate as a spline of time.
  */
 #ifndef BAUM_SPLINE_H
 #define BAUM_SPLINE_H
@@ -21,10 +21,11 @@ typedef struct baum_spline_driver_def {
   size_t struct_size;  /**< Set by the default function. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  const double *times; /**< (count) [s] rising. Copied. Default: NULL, must be set. */
-  /** (count) [rad or m] values of s at the times. Copied. Default: NULL, must be set. */
+  const double *times; /**< (count) [s] times, rising. Copied. Default: NULL, must be set. */
+  /** (count) [rad or m] values of the law s(t) at the times in `times`. Copied. Default: NULL, must
+   *  be set. */
   const double *values;
-  int32_t count; /**< [-] >= 3. Default: 0, must be set. */
+  int32_t count; /**< [-] >= 3, number of times. Default: 0, must be set. */
   /** True: the spline repeats; the first and the last value must then be equal. Default: false, a
    *  natural spline. */
   bool periodic;

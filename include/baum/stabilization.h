@@ -48,8 +48,10 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_SCALED = 2, /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
   /** alpha = 1/h, beta = sqrt(2)/h (equations 10 and 11); fixed step only. */
   BAUM_GAINS_TAYLOR = 3,
-  BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f with a frequency f; alpha = damping ratio x beta. */
-  BAUM_GAINS_DEADBEAT = 5,  /**< Gains for which both roots z are zero; fixed step only. */
+  /** beta = 2 pi f and alpha = zeta beta, where the natural frequency f [Hz] and the damping ratio
+   *  zeta are given. */
+  BAUM_GAINS_FREQUENCY = 4,
+  BAUM_GAINS_DEADBEAT = 5, /**< Gains for which both roots z are zero; fixed step only. */
   /** alpha = beta, proportional to the angular velocity of the motion, but not above a limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
@@ -66,15 +68,16 @@ typedef struct baum_gains {
  *  h^2) lies in the region of stability of the method. With CVODE BDF and IDA they are stable if
  *  alpha >= 0.618 beta, and with the other variable-step methods always.
  *
- *  With alpha = beta, a violation decays as exp(-alpha t). Each step adds a new violation, so that
- *  a steady violation remains. With the Euler methods, the steady |Phi'| is about h |gamma| / 2,
- *  and the steady |Phi| is about h |gamma| / alpha. With other methods, a steady violation is
- *  approximately proportional to h^p, where p is the order of the method.
+ *  With alpha = beta, a violation decays approximately as exp(-alpha t). Each step adds a new
+ *  violation, so that a steady violation remains. With the Euler methods, the steady |Phi'| is
+ *  about h |gamma| / 2, and the steady |Phi| is about h |gamma| alpha / beta^2. With other methods,
+ *  a steady violation is approximately proportional to h^p, where p is the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
  *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
  *  variable-step method grows in proportion to alpha.
- *  @param alpha,beta  [1/s] >= 0
+ *  @param alpha  [1/s] >= 0
+ *  @param beta   [1/s] >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
@@ -193,7 +196,7 @@ typedef struct baum_amplification {
 /** Compute the amplification at a point (alpha h, beta^2 h^2), as in the first figure of Flores et
  *  al.
  *  @param      integrator   the method
- *  @param      alpha_h      [-] |alpha h|, finite
+ *  @param      alpha_h      [-] alpha h, finite
  *  @param      beta2_h2     [-] (beta h)^2, finite
  *  @param[out] out          the result
  *  @param      caller_size  sizeof *out
@@ -202,8 +205,9 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
-/** Compute the amplification of rows of velocity level, J v = nu. With gains, their equation is J a
- *  = gamma - alpha (J v - nu). It has a single mode x, with x' = -alpha x, so z[1] is NaN.
+/** Compute the amplification for rows of velocity level, which are the rows of non-holonomic
+ *  constraints J v = nu. With gains, the equation of these rows is J a = gamma - alpha (J v - nu).
+ *  Their violation x = J v - nu has a single mode, x' = -alpha x, so z[1] is NaN.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] alpha h, finite
  *  @param[out] out          the result
@@ -212,7 +216,8 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrator, double alpha_h,
                                                 baum_amplification *out, size_t caller_size);
 
-/** Find the alpha h up to which violations of rows of velocity level decay.
+/** Find the alpha h up to which violations of non-holonomic constraints J v = nu decay; see
+ *  baum_stability_velocity_at().
  *  @param      integrator  a method with a fixed step
  *  @param[out] alpha_h     [-] the limit
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region of stability) */
@@ -224,8 +229,8 @@ BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integr
  *  @return  static text; NULL if the argument is NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
-/** Find the stability limit for gains of a given damping ratio, alpha = damping_ratio x beta: they
- *  are stable from alpha h = 0 up to this limit.
+/** Find the stability limit for gains of a given damping ratio alpha / beta: these gains are stable
+ *  from alpha h = 0 up to this limit.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param[out] alpha_h        [-] the limit; 0 if even small gains are unstable. Beyond the limit
@@ -235,22 +240,25 @@ BAUM_API const char *baum_stability_statement(const baum_integrator *integrator)
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
 
-/** Find all intervals of alpha h in which gains of a given damping ratio, alpha = damping_ratio x
- *  beta, are stable. Most methods have one interval, which begins at 0. The function may miss
- *  intervals, and gaps between intervals, that are narrower than 1 % of their alpha h.
+/** Find all intervals of alpha h in which gains of a given damping ratio alpha / beta are stable.
+ *  Most methods have one interval, which begins at 0. The function may miss intervals, and gaps
+ *  between intervals, that are narrower than 1 % of their alpha h.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] size of the arrays; >= 0
- *  @param[out] from,to        [-] (capacity) the first intervals in order; `to` may be infinite.
- *                             NULL if capacity is 0.
- *  @param[out] count          [-] number of intervals, which may exceed the capacity
+ *  @param[out] from           [-] (capacity) lower ends of the intervals, in rising order. NULL if
+ *                             capacity is 0.
+ *  @param[out] to             [-] (capacity) upper ends of the intervals; the last one may be
+ *                             infinite. NULL if capacity is 0.
+ *  @param[out] count          [-] number of intervals. If it exceeds the capacity, `from` and `to`
+ *                             receive only the first intervals.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
                                               double damping_ratio, int32_t capacity, double *from,
                                               double *to, int32_t *count);
 
-/** Find the alpha h at which violations decay fastest, among all gains of a given damping ratio,
- *  alpha = damping_ratio x beta.
+/** Find the alpha h at which violations decay fastest, among all gains of a given damping ratio
+ *  alpha / beta.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param[out] alpha_h        [-] the best alpha h; 0 if no gains of this damping ratio are stable
@@ -262,15 +270,17 @@ BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrato
  *  dead-beat point if the method has one. If several points are equally good, the function returns
  *  the one with the smallest gains. The search takes tens of milliseconds for Adams-Bashforth
  *  methods.
- *  @param      integrator        the method
- *  @param[out] alpha_h,beta2_h2  [-] the point
+ *  @param      integrator  the method
+ *  @param[out] alpha_h     [-] alpha h of the point
+ *  @param[out] beta2_h2    [-] (beta h)^2 of the point
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_best(const baum_integrator *integrator, double *alpha_h,
                                          double *beta2_h2);
 
-/** Find the dead-beat point, where all roots are zero; see baum_gains_deadbeat().
- *  @param      integrator        the method
- *  @param[out] alpha_h,beta2_h2  [-] the point
+/** Find the dead-beat point, where both roots z are zero; see baum_gains_deadbeat().
+ *  @param      integrator  the method
+ *  @param[out] alpha_h     [-] alpha h of the point
+ *  @param[out] beta2_h2    [-] (beta h)^2 of the point
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region, or a multistep method,
  *           which has no such point) */
 BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
@@ -279,10 +289,12 @@ BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, 
 /** Find the point with a spectral radius of at most 0.9 that is nearest to a given point in the
  *  plane of (alpha h, beta^2 h^2). The distance to the point found is at most 1 % larger than the
  *  least distance.
- *  @param      integrator                  the method
- *  @param      alpha_h,beta2_h2            [-] finite, the requested point
- *  @param[out] good_alpha_h,good_beta2_h2  [-] the point found; the requested point itself if its
- *                                          spectral radius is <= 0.9
+ *  @param      integrator     the method
+ *  @param      alpha_h        [-] finite, alpha h of the given point
+ *  @param      beta2_h2       [-] finite, (beta h)^2 of the given point
+ *  @param[out] good_alpha_h   [-] alpha h of the point found, which is the given point itself if
+ *                             its spectral radius is at most 0.9
+ *  @param[out] good_beta2_h2  [-] (beta h)^2 of the point found
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
                                             double beta2_h2, double *good_alpha_h,
@@ -290,9 +302,10 @@ BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, d
 
 /** Compute spectral radii on a rectangular grid in the plane of (alpha h, beta^2 h^2).
  *  @param      integrator    the method
- *  @param      alpha_h       [-] (2) alpha h of the first and last column, finite
- *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and last row, finite
- *  @param      columns,rows  [-] >= 1; a single column or row is at the first value
+ *  @param      alpha_h       [-] (2) alpha h of the first and of the last column, finite
+ *  @param      beta2_h2      [-] (2) (beta h)^2 of the first and of the last row, finite
+ *  @param      columns       [-] >= 1, number of columns; a single column is at alpha_h[0]
+ *  @param      rows          [-] >= 1, number of rows; a single row is at beta2_h2[0]
  *  @param[out] radius        [-] (rows x columns) row-major; infinite where a value overflows
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],
@@ -308,14 +321,16 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  point to point, the region is to the right. Between two curves there is one point of NaNs. The
  *  points of the outline lie where the spectral radius is equal to `radius`; where an axis bounds
  *  the region, they lie on the axis. The function may miss parts that are smaller than about a
- *  hundredth of the whole region. It uses 30 kB of stack.
- *  @param      integrator        the method
- *  @param      radius            [-] > 0, finite
- *  @param      capacity          [-] size of the arrays; >= 0. 2000 is enough for every integrator
- *                                of the library.
- *  @param[out] alpha_h,beta2_h2  [-] (capacity) the first points. NULL if capacity is 0.
- *  @param[out] count             [-] number of points, which may exceed the capacity; 0 if the
- *                                spectral radius is larger than `radius` everywhere
+ *  hundredth of the whole region. The call uses 30 kB of stack.
+ *  @param      integrator  the method
+ *  @param      radius      [-] > 0, finite
+ *  @param      capacity    [-] size of the arrays; >= 0. 2000 is enough for every integrator of the
+ *                          library.
+ *  @param[out] alpha_h     [-] (capacity) alpha h of each point. NULL if capacity is 0.
+ *  @param[out] beta2_h2    [-] (capacity) (beta h)^2 of each point. NULL if capacity is 0.
+ *  @param[out] count       [-] number of points; 0 if the spectral radius is larger than `radius`
+ *                          everywhere. If it exceeds the capacity, the arrays receive only the
+ *                          first points.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                             int32_t capacity, double *alpha_h, double *beta2_h2,

@@ -7,10 +7,10 @@
  *  before its end because your program asked for it. A status of 10 or more means that the call has
  *  reached its end with warnings. A negative status means that the call has failed.
  *
- *  If a call fails, it leaves its object unchanged and does not write its outputs, except that it
- *  sets pointers to new objects to NULL. A run that fails keeps the state after its last good step.
- *  The library never prints, exits or aborts. SUNDIALS is an exception: if memory runs out while a
- *  run with CVODE or IDA is created, SUNDIALS may print a line or crash.
+ *  If a call fails, it leaves the object that it works on unchanged and does not write its outputs,
+ *  except that it sets pointers to new objects to NULL. A run that fails keeps the state after its
+ *  last good step. The library never prints, exits or aborts. SUNDIALS is an exception: if memory
+ *  runs out while a run with CVODE or IDA is created, SUNDIALS may print a line or crash.
  *
  *  Threads: each thread has its own message. All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
@@ -22,7 +22,8 @@
 extern "C" {
 #endif
 
-/** All statuses: name, value, text. Values are part of the ABI and are never reused. */
+/** The list of all statuses. Each line is X(name, value, meaning). The values are part of the ABI
+ *  and are never reused. */
 #define BAUM_STATUS_LIST(X)                                                                 \
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \

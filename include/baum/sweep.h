@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Sweeps: many runs of one mechanism in several threads. Each run uses a copy of the mechanism
- *  with other data.
+ *  Sweeps: many runs of one mechanism in several threads. Each run uses its own copy of the
+ *  mechanism, and a function of the program changes data of this copy, such as masses or lengths.
  */
 #ifndef BAUM_SWEEP_H
 #define BAUM_SWEEP_H
@@ -26,13 +26,13 @@ typedef struct baum_sweep_def {
   size_t struct_size;           /**< Set by the default function. Do not write. */
   int64_t count;                /**< [-] > 0, number of runs. Default: 0, must be set. */
   baum_sweep_change_fn *change; /**< Changes the copy for each run. Default: NULL, must be set. */
-  void *user;                   /**< Passed to change, not owned. Default: NULL. */
+  void *user;                   /**< Passed to the function `change`, not owned. Default: NULL. */
   /** (time_count) [s] times of the samples, monotone. Default: NULL, must be set. */
   const double *times;
-  int64_t time_count; /**< [-] > 0. Default: 0, must be set. */
+  int64_t time_count; /**< [-] > 0, number of times. Default: 0, must be set. */
   /** (channel_count) sampled channels. Default: NULL, must be set. */
   const baum_channel *channels;
-  int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
+  int32_t channel_count; /**< [-] > 0, number of channels. Default: 0, must be set. */
   int32_t threads;       /**< [-] 1 to 1024, number of threads. Default: 1. */
 } baum_sweep_def;
 
@@ -56,12 +56,13 @@ static inline baum_sweep_def baum_sweep_def_default(void)
  *  @param      mechanism  frozen; it is not modified
  *  @param[in]  options    options of all runs
  *  @param[in]  def        what the sweep computes
- *  @param[out] rows       (count x time_count x width), see baum_channels_width()
+ *  @param[out] rows       (count x time_count x width) samples of all runs; width is
+ *                         baum_channels_width() of the channels
  *  @param[out] statuses   (count) the baum_status of each run. May be NULL.
- *  @return  BAUM_OK if no run has failed. Otherwise the status of the failed run with the smallest
- *           number; the message begins with this number. If an argument is wrong
- *           (BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT) or the mechanism is not frozen (BAUM_ERR_STATE),
- *           no run is started. */
+ *  @return  BAUM_OK if no run has failed. Otherwise the status of the first failed run, which is
+ *           the one with the smallest run number; the message begins with this run number. If an
+ *           argument is wrong (BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT) or the mechanism is not frozen
+ *           (BAUM_ERR_STATE), no run is started. */
 BAUM_API baum_status baum_sweep(const baum_mechanism *mechanism,
                                 const baum_simulation_options *options, const baum_sweep_def *def,
                                 double *rows, int32_t *statuses);

@@ -27,7 +27,7 @@ BAUM_API const char *baum_version(void);
 
 /** Tell whether an optional part of the library is built in.
  *  @param[in] feature  "sundials" (CVODE and IDA); NULL and unknown names give false
- *  @return  true if it can be used */
+ *  @return  true if the program can use the part */
 BAUM_API bool baum_has(const char *feature);
 
 #ifdef __cplusplus
