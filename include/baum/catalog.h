@@ -56,8 +56,10 @@ typedef struct baum_catalog_entry {
   /** [-] number of correct digits of the reference positions: the error of a position q is at most
    *  10^-digits_q max(1, |q|). NaN if there is no reference. */
   double digits_q;
-  double digits_v; /**< [-] the same for velocities. */
-  bool exact;      /**< True if the reference consists of formulas. */
+  /** [-] number of correct digits of the reference velocities: the error of a velocity v is at most
+   *  10^-digits_v max(1, |v|). NaN if there is no reference. */
+  double digits_v;
+  bool exact; /**< True if the reference consists of formulas. */
   /** True if the motion with default parameters passes through no singular configuration. */
   bool smooth;
 } baum_catalog_entry;
@@ -68,7 +70,7 @@ typedef struct baum_catalog_parameter {
   const char *name;    /**< Such as "eccentricity". */
   const char *unit;    /**< Such as "kg m^2"; "-" for a pure number. */
   const char *meaning; /**< What the parameter describes. */
-  double value;        /**< [unit] the default. */
+  double value;        /**< [unit] default value of the parameter. */
   bool positive;       /**< True if the value must be > 0. */
   bool whole;          /**< True if the value must be an integer. */
 } baum_catalog_parameter;
@@ -82,15 +84,15 @@ typedef struct baum_catalog_setting {
 /** A choice: which mechanism of the catalogue to build, and with which parameters. */
 typedef struct baum_catalog_choice {
   const char *name;                     /**< Name of the entry. */
-  const baum_catalog_setting *settings; /**< (setting_count) NULL if there are none. */
-  int32_t setting_count;                /**< [-] >= 0; parameters not listed have their defaults. */
+  const baum_catalog_setting *settings; /**< (setting_count) values; NULL if there are none. */
+  int32_t setting_count; /**< [-] >= 0, number of settings; other parameters have their defaults. */
 } baum_catalog_choice;
 
 /** Count the entries of the catalogue. @return number of entries */
 BAUM_CATALOG_API int32_t baum_catalog_count(void);
 
 /** Read an entry.
- *  @param      k            0 to baum_catalog_count() - 1
+ *  @param      k            number of the entry, 0 to baum_catalog_count() - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -107,7 +109,7 @@ BAUM_CATALOG_API baum_status baum_catalog_find(const char *name, baum_catalog_en
 
 /** Read a parameter of an entry.
  *  @param[in]  name         name of the entry
- *  @param      k            0 to parameter_count - 1
+ *  @param      k            number of the parameter, 0 to parameter_count - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -128,8 +130,8 @@ BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choic
 
 /* ---- references ------------------------------------------------------------------------------ */
 
-/** Read the times of the samples of a reference. If the reference consists of formulas, these are
- *  times at equal distances.
+/** Read the times of the samples of a reference. If the reference consists of formulas, the times
+ *  have equal distances.
  *  @param[in]  name   name of the entry
  *  @param[out] times  (sample_count) [s] rising, from start_time to end_time
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (the entry has no reference) */
@@ -149,10 +151,11 @@ BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *c
 
 /** A function to pass to baum_study_set_solution(). It computes q and v by
  *  baum_catalog_reference(). Use it for mechanisms whose reference consists of formulas.
- *  @param      t       [s]
- *  @param[out] q,v     (nq), (nv)
+ *  @param      t       [s] time
+ *  @param[out] q       (nq) positions
+ *  @param[out] v       (nv) velocities
  *  @param[out] lambda  not written, because the reference has no multipliers
- *  @param[in]  user    const baum_catalog_choice *
+ *  @param[in]  user    the choice, a const baum_catalog_choice *
  *  @return  0, or -1 if baum_catalog_reference() fails */
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
@@ -167,13 +170,15 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q; /**< [-] largest error of positions over all times; NaN if a state is not finite. */
-  double v; /**< [-] the same for velocities; NaN also if the argument v was NULL. */
+  /** [-] largest error of velocities over all times; NaN if a state is not finite, or if the
+   *  argument v was NULL. */
+  double v;
   double q_final; /**< [-] error of positions at the last time. */
   double v_final; /**< [-] error of velocities at the last time. */
   double q_time;  /**< [s] time of the largest error of positions. */
   double v_time;  /**< [s] time of the largest error of velocities. */
   double q_floor; /**< [-] uncertainty of the positions of the reference. */
-  double v_floor; /**< [-] the same for velocities. */
+  double v_floor; /**< [-] uncertainty of the velocities of the reference. */
 } baum_catalog_error;
 
 /** Compare states with the reference.

@@ -34,7 +34,7 @@ extern "C" {
 /** Forms of outlines. */
 typedef enum baum_outline_form {
   BAUM_OUTLINE_POLYGON = 0,  /**< A flat polygon with the corners `points`. It may be concave. */
-  BAUM_OUTLINE_CIRCLE = 1,   /**< A disc parallel to the x-y plane. */
+  BAUM_OUTLINE_CIRCLE = 1,   /**< A disc parallel to the x-y plane of the body. */
   BAUM_OUTLINE_BOX = 2,      /**< A box with edges parallel to the axes of the body. */
   BAUM_OUTLINE_CYLINDER = 3, /**< A circular cylinder from `start` to `end`. */
   BAUM_OUTLINE_SPHERE = 4,   /**< A sphere about `center`. */
@@ -55,17 +55,20 @@ typedef struct baum_outline {
   /** (triangle_count x 3) [-] the three vertices of each triangle of a mesh, as indices of rows of
    *  `points`, counted from 0. Default: NULL, must be set. */
   const int32_t *triangles;
-  int32_t triangle_count; /**< [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES. Default: 0, must be set. */
-  double center[3];       /**< [m] centre of a circle, box or sphere. Default: (0, 0, 0). */
-  /** [m] >= 0, lengths of the edges of a box; one of them may be 0. Default: (0, 0, 0), must be
-   *  set. */
+  /** [-] 1 to BAUM_OUTLINE_MAX_TRIANGLES, number of triangles of a mesh.
+   *  Default: 0, must be set. */
+  int32_t triangle_count;
+  double center[3]; /**< [m] centre of a circle, box or sphere. Default: (0, 0, 0). */
+  /** [m] >= 0, lengths of the edges of a box along x, y and z; one of them may be 0.
+   *  Default: (0, 0, 0), must be set. */
   double size[3];
   double start[3]; /**< [m] centre of one end of a cylinder. Default: (0, 0, 0). */
   /** [m] centre of the other end of a cylinder; must differ from `start`. Default: (0, 0, 0). */
   double end[3];
   /** [m] > 0, radius of a circle, cylinder or sphere. Default: 0, must be set. */
   double radius;
-  const char *color; /**< "#rrggbb". Default: NULL, the library chooses a colour for the body. */
+  /** Colour, as "#rrggbb". Default: NULL, the library chooses a colour for the body. */
+  const char *color;
 } baum_outline;
 
 /** Set every field to its default.
@@ -91,7 +94,8 @@ static inline baum_outline baum_outline_default(void)
  *                        a body has no position in space
  *  @param[in] outlines   (count) replace all earlier outlines of the body. Copied. NULL if count is
  *                        0.
- *  @param     count      [-] >= 0; with 0 the body is drawn with the shape that the library chooses
+ *  @param     count      [-] >= 0, number of outlines; with 0 the body is drawn with the shape that
+ *                        the library chooses
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum_body_id body,
                                                  const baum_outline *outlines, int32_t count);
@@ -102,10 +106,11 @@ BAUM_API baum_status baum_mechanism_set_outlines(baum_mechanism *mechanism, baum
  *  @return [-] number of outlines; 0 if there is no such body */
 BAUM_API int32_t baum_mechanism_outline_count(const baum_mechanism *mechanism, baum_body_id body);
 
-/** Read an outline. Its pointers stay valid until the outlines of the body are set again.
+/** Read an outline. The pointers in the outline stay valid until the outlines of the body are set
+ *  again.
  *  @param      mechanism    frozen or not
  *  @param      body         a body of the mechanism
- *  @param      k            [-] 0 <= k < baum_mechanism_outline_count()
+ *  @param      k            [-] number of the outline, 0 to baum_mechanism_outline_count() - 1
  *  @param[out] out          receives the outline
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -140,7 +145,7 @@ BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, c
 
 /** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
  *  configuration in which assembly stopped; red lines then show the joints in conflict.
- *  @param      mechanism  need not be frozen
+ *  @param      mechanism  frozen or not
  *  @param[out] text       (capacity) as in baum_mechanism_svg()
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
@@ -156,29 +161,32 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 /** A kind of mark on the time axis of a page. Each kind has a different colour and shape. */
 typedef enum baum_mark_kind {
   BAUM_MARK_WARNING = 0,  /**< A warning of the run. */
-  BAUM_MARK_SINGULAR = 1, /**< Near a singular configuration. */
+  BAUM_MARK_SINGULAR = 1, /**< A near-singular interval of the run. */
   BAUM_MARK_EVENT = 2     /**< An event of the run. */
 } baum_mark_kind;
 
 /** The content of an HTML page: samples of a run as baum_simulation_sample() records them. All
  *  pointers belong to the caller and are read only during the call. */
 typedef struct baum_page {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
-  const char *title;   /**< Default: NULL, the title "Mechanism". */
-  const double *times; /**< (count) [s] monotone. Default: NULL, must be set. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
+  const char *title;  /**< Default: NULL, the title "Mechanism". */
+  /** (count) [s] times of the samples, monotone. Default: NULL, must be set. */
+  const double *times;
   /** [-] > 0, number of samples. A page keeps at most 600 samples. It always keeps those at which a
    *  plotted column has its largest or its smallest value. Default: 0, must be set. */
   int64_t count;
   /** (channel_count) the channels that each row of `rows` contains. BAUM_Q must be one of them.
    *  Reactions (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */
   const baum_channel *channels;
-  int32_t channel_count; /**< [-] > 0. Default: 0, must be set. */
-  /** (count x baum_channels_width()) samples. Default: NULL, must be set. */
+  int32_t channel_count; /**< [-] > 0, number of channels. Default: 0, must be set. */
+  /** (count x width) the samples, where width is baum_channels_width() of the channels.
+   *  Default: NULL, must be set. */
   const double *rows;
   /** (count x plot_count) columns to plot over time. This pointer may point into `rows`; for
-   *  example, `rows` + 9 plots the columns from index 9 on. Default: NULL, none. */
+   *  example, `rows` + 9 plots the columns from index 9 on if plot_stride is the width of `rows`.
+   *  Default: NULL, none. */
   const double *plots;
-  int32_t plot_count; /**< [-] >= 0. Default: 0. */
+  int32_t plot_count; /**< [-] >= 0, number of columns in `plots`. Default: 0. */
   /** [-] number of doubles from the start of one row of `plots` to the start of the next row.
    *  Default: 0, which means plot_count. */
   int32_t plot_stride;
@@ -188,14 +196,14 @@ typedef struct baum_page {
   /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE.
    *  Default: NULL, none. */
   const baum_channel *traces;
-  int32_t trace_count; /**< [-] >= 0. Default: 0. */
+  int32_t trace_count; /**< [-] >= 0, number of traces. Default: 0. */
   /** (mark_count) [s] times of the marks, which stand for events and warnings. Default: NULL. */
   const double *mark_times;
   const char *const *mark_texts; /**< (mark_count) labels of the marks. Default: NULL. */
   /** (mark_count) kinds of the marks, as values of baum_mark_kind. Default: NULL, all are
    *  BAUM_MARK_WARNING. */
   const int32_t *mark_kinds;
-  int32_t mark_count; /**< [-] >= 0. Default: 0. */
+  int32_t mark_count; /**< [-] >= 0, number of marks. Default: 0. */
 } baum_page;
 
 /** Set every field to its default.

@@ -7,11 +7,11 @@
  *  one, two and three quarters of the step. It also evaluates them at the times of outputs. If the
  *  sign of a function has changed, the run searches for the time of the event. The search needs
  *  states inside the step. The run computes these states in the same way as outputs: variable-step
- *  methods interpolate the step, and fixed-step methods take shorter steps from its start. A joint
- *  coordinate may pass its value and return between two evaluations. The run usually detects both
- *  events, because it also knows the rate of the coordinate. If an event function passes zero twice
- *  between two evaluations, the run detects neither event. To avoid this, reduce max_step for
- *  variable-step methods, or the step for fixed-step methods.
+ *  methods interpolate the step, and fixed-step methods take shorter steps from the start of the
+ *  step. A joint coordinate may pass its value and return between two evaluations. The run usually
+ *  detects both events, because it also knows the rate of the coordinate. A user function may also
+ *  pass zero twice between two evaluations, but then the run detects neither of these events. To
+ *  avoid this, reduce max_step for variable-step methods, or the step for fixed-step methods.
  *
  *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
  *  input changes (baum/breaks.h). This jump is an event at the time of the break. In a backward
@@ -55,21 +55,21 @@ extern "C" {
 typedef struct baum_event_def {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  /** The event function. It writes one number to out; q (nq) and v (nv) are those of the whole
-   *  mechanism. The run calls it when a step is complete, so the function cannot ask for a smaller
-   *  step: if it returns a number other than 0, the call that advances the run fails.
-   *  Default: NULL, the coordinate of `joint` is used. */
+  /** The event function. It writes one number to its argument `out`; its arguments q (nq) and v
+   *  (nv) are those of the whole mechanism. The run calls it when a step is complete, so the
+   *  function cannot ask for a smaller step: if it returns a number other than 0, the call that
+   *  advances the run fails. Default: NULL, the coordinate of `joint` is used. */
   baum_force_fn *function;
   /** A joint with a coordinate. Must be set if function is NULL, and only then. Default: none. */
   baum_joint_id joint;
   double value; /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
   /** [-] which zeros are events. 1: only those where the function rises in time; -1: only those
-   *  where it falls; 0: both. Default: 0. */
+   *  where it falls; 0: all zeros. Default: 0. */
   int32_t direction;
   bool terminal; /**< The run stops at the event (BAUM_STOP_EVENT). Default: true. */
   /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
   double tolerance;
-  void *user; /**< Passed to function. Not owned. Default: NULL. */
+  void *user; /**< Passed to `function`. Not owned. Default: NULL. */
   /** [-] which coordinate of `joint`. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_event_def;

@@ -445,7 +445,7 @@ class CatalogParameter(NamedTuple):
     name: Such as "eccentricity".
     unit: Such as "kg m^2"; "-" for a pure number.
     meaning: What the parameter describes.
-    value: [unit] the default.
+    value: [unit] default value of the parameter.
     positive: True if the value must be > 0.
     whole: True if the value must be an integer.
     """
@@ -473,7 +473,8 @@ class CatalogEntry(NamedTuple):
     end_time: [s] end of the motion and of its reference.
     digits_q: [-] number of correct digits of the reference positions: the error of a position q
         is at most 10^-digits_q max(1, |q|). NaN if there is no reference.
-    digits_v: [-] the same for velocities.
+    digits_v: [-] number of correct digits of the reference velocities: the error of a velocity
+        v is at most 10^-digits_v max(1, |v|). NaN if there is no reference.
     exact: True if the reference consists of formulas.
     smooth: True if the motion with default parameters passes through no singular configuration.
     parameters: Its parameters by name.
@@ -499,13 +500,14 @@ class CatalogError(NamedTuple):
     """How far a run is from the reference of the catalogue.
 
     q: [-] largest error of positions over all times; NaN if a state is not finite.
-    v: [-] the same for velocities; NaN also if the argument v was None.
+    v: [-] largest error of velocities over all times; NaN if a state is not finite, or if the
+        argument v was None.
     q_final: [-] error of positions at the last time.
     v_final: [-] error of velocities at the last time.
     q_time: [s] time of the largest error of positions.
     v_time: [s] time of the largest error of velocities.
     q_floor: [-] uncertainty of the positions of the reference.
-    v_floor: [-] the same for velocities.
+    v_floor: [-] uncertainty of the velocities of the reference.
     """
 
     q: float
