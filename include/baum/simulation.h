@@ -115,7 +115,7 @@ BAUM_API const baum_integrator *baum_kinematics(void);
 /** List all integrators, for bindings and tables. A program that calls this function is linked with
  *  all integrators, including SUNDIALS.
  *  @param k  0, 1, ...
- *  @return  NULL past the end */
+ *  @return  the integrator; NULL if there are at most k integrators */
 BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
 
 /** Name of an integrator.
@@ -182,9 +182,9 @@ typedef enum baum_start {
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
-/** Solver of the linear equations of motion (7). baum_simulation_explain() states which solver a
- *  run uses, and why. This option affects neither assembly nor the multipliers of redundant rows:
- *  both are always computed with KLU and QR. */
+/** Solver of the linear equations of motion, which are equation (7) of the page "docs/notation.md".
+ *  baum_simulation_explain() states which solver a run uses, and why. This option affects neither
+ *  assembly nor the multipliers of redundant rows: both are always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
    *  configurations where BLOCK is not accurate. */
@@ -258,12 +258,14 @@ typedef struct baum_simulation_options {
   baum_progress_fn *progress; /**< The run calls this function repeatedly. Default: NULL, none. */
   /** [s] of wall time, >= 0, between two calls of progress. Default: 0.05. */
   double progress_interval;
-  void *user; /**< Passed to progress, not owned. Default: NULL. */
+  void *user; /**< Passed to the function `progress`, not owned. Default: NULL. */
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for positions. Refused with a
    *  fixed step. Default: 1.
    */
   double tolerance_q;
-  double tolerance_v; /**< [-] > 0, finite, the same for velocities. Default: 1. */
+  /** [-] > 0, finite; rtol and atol are multiplied by this factor for velocities. Refused with a
+   *  fixed step. Default: 1. */
+  double tolerance_v;
   /** [-] > 0; rtol is multiplied by this factor for multipliers. This factor may be finite only for
    *  IDA with BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is
    *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
@@ -378,12 +380,12 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
 
 /** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
  *  and the new state violates the constraints by no more than the run has violated them so far
- *  (counters.max_phi and counters.max_phi_rate), it is used as it is. Otherwise the option `start`
- *  decides whether the new state is assembled, refused or used as it is. q determines angles of
- *  spatial joints only up to whole revolutions. Each such angle takes the possible value that is
- *  nearest to its last value. There is one exception: if a driver prescribes the angle, and t
- *  differs from the time of the run, the angle takes the possible value that is nearest to the
- *  value of the driver. baum_simulation_set_angle() chooses another value.
+ *  (counters.max_phi and counters.max_phi_rate), the new state is used as it is. Otherwise the
+ *  option `start` decides whether the new state is assembled, refused or used as it is. q
+ *  determines angles of spatial joints only up to whole revolutions. Each such angle takes the
+ *  possible value that is nearest to its last value. There is one exception: if a driver prescribes
+ *  the angle, and t differs from the time of the run, the angle takes the possible value that is
+ *  nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -400,7 +402,10 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
  *  wound up. The run restarts at its present state, as after baum_simulation_set_state(), and the
  *  angle has the possible value that is nearest to `angle`.
  *  @param simulation  unchanged on failure
- *  @param joint,coordinate,angle  as for baum_workspace_set_angle()
+ *  @param joint       a spatial joint
+ *  @param coordinate  one of the angles of the joint; BAUM_COORDINATE_FIRST is allowed if the first
+ *                     coordinate of the joint is an angle
+ *  @param angle       [rad] finite
  *  @return  as baum_simulation_set_state() */
 BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum_joint_id joint,
                                                baum_joint_coordinate coordinate, double angle);
@@ -517,7 +522,7 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
 BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer,
                                              size_t size);
 
-/** Present time. @param simulation  may be NULL @return [s]; NaN for NULL */
+/** Present time. @param simulation  may be NULL @return [s] the time; NaN for NULL */
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions.
  *  @param simulation  may be NULL
@@ -536,9 +541,9 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
  *  rad, N, N m and s. The units of user coordinates and user constraints are your choice. The unit
  *  of a multiplier is J per unit of its row.
  *
- *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) at the
- *  present state. This equation contains no stabilization terms. The run computes this solution
- *  only if a channel needs it. */
+ *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) of the
+ *  page "docs/notation.md" at the present state. This equation contains no stabilization terms. The
+ *  run computes this solution only if a channel needs it. */
 typedef enum baum_quantity {
   BAUM_Q = 1,        /**< Positions (nq). */
   BAUM_V = 2,        /**< Velocities (nv). */
@@ -593,7 +598,9 @@ typedef struct baum_channel {
  *  @param      caller_size  sizeof *channel; no byte beyond it is written */
 BAUM_API void baum_channel_init(baum_channel *channel, size_t caller_size);
 
-/** Make a channel for the whole mechanism. @param quantity  what it records @return the channel */
+/** Make a channel for the whole mechanism.
+ *  @param quantity  what the channel records
+ *  @return  the channel */
 static inline baum_channel baum_channel_of(baum_quantity quantity)
 {
   baum_channel channel;
@@ -616,7 +623,9 @@ static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_bod
 /** Make a channel for a point of a body.
  *  @param quantity  what the channel records
  *  @param body      a body of the mechanism
- *  @param x,y,z     [m] in body axes
+ *  @param x         [m] coordinate x of the point in body axes
+ *  @param y         [m] coordinate y of the point in body axes
+ *  @param z         [m] coordinate z of the point in body axes
  *  @return  the channel */
 static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_body_id body,
                                                  double x, double y, double z)
@@ -643,7 +652,7 @@ static inline baum_channel baum_channel_of_joint(baum_quantity quantity, baum_jo
  *  @param     mechanism  frozen
  *  @param[in] channels   (count) May be NULL if count is 0.
  *  @param     count      [-] >= 0
- *  @return  -1 if a channel is not valid; baum_message() says why */
+ *  @return  number of columns; -1 if a channel is not valid, and baum_message() says why */
 BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
                                      int32_t count);
 
@@ -664,8 +673,8 @@ BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulat
  *  @param      count       [-] >= 0
  *  @param[out] row         (baum_channels_width()); may be NULL if count is 0
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
- *           (BAUM_ENERGY_ACCOUNT without the option), BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- *           BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY */
+ *           (BAUM_ENERGY_ACCOUNT without the option energy_account), BAUM_ERR_SINGULAR,
+ *           BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
 
@@ -678,10 +687,10 @@ BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum
  *  @param      n           [-] >= 0
  *  @param[in]  channels    (count)
  *  @param      count       [-] >= 0
- *  @param[out] rows        (n x width)
+ *  @param[out] rows        (n x width) samples; width is baum_channels_width() of the channels
  *  @param[out] done        [-] number of rows written, also on failure. May be NULL.
  *  @return  as baum_simulation_advance_to(); BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
- *           (BAUM_ENERGY_ACCOUNT without the option) */
+ *           (BAUM_ENERGY_ACCOUNT without the option energy_account) */
 BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const double *times,
                                             int64_t n, const baum_channel *channels, int32_t count,
                                             double *rows, int64_t *done);
@@ -707,7 +716,7 @@ typedef struct baum_counters {
    *  generalized-alpha. */
   int64_t nonlinear_iterations;
   int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
-  /** [-] evaluations in which the matrix in (7) was almost singular. */
+  /** [-] evaluations in which the matrix in equation (7) was almost singular. */
   int64_t near_singular;
   /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
   int64_t warnings;
@@ -720,7 +729,8 @@ typedef struct baum_counters {
    *  |gamma_i|, where h is the step, and gamma is the right-hand side of J a = gamma. It is known
    *  only for the Euler methods with stable gains of at least 0.1/h, otherwise it is NaN. */
   double predicted_phi;
-  /** [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|. */
+  /** [m/s or rad/s] prediction of the steady |Phi'| that the gains leave, (h/2) max |gamma_i|, with
+   *  h and gamma as for predicted_phi. It is NaN in the same cases as predicted_phi. */
   double predicted_phi_rate;
   /** [J] change of kinetic plus potential energy since the start. It contains the error of the
    *  method, but also the work of drivers, inputs and dampers. */
@@ -748,15 +758,15 @@ typedef struct baum_counters {
   /** [J] energy that errors of the method have added so far, according to the energy account. NaN
    *  without the option energy_account. */
   double energy_residual;
-  int64_t doubts; /**< [-] kinds of warnings that put the motion in doubt. */
+  int64_t doubts; /**< [-] number of kinds of warnings that put the motion in doubt. */
   /** [-] estimate of the largest global error of the positions since the start. Errors of lengths
    *  are relative to the characteristic length, and errors of angles are in radians. NaN means that
    *  the error is unknown, for example because the estimate failed or would cost too much. Without
    *  the option error_check, the estimate shows only whether the error is large: values up to 0.01
-   *  may be errors of the estimate itself. In this case, a run with a fixed step has the estimate 0
-   *  as long as its local errors are negligible, and NaN if inputs change every few steps. A run
-   *  with variable steps has the estimate NaN, except after a singularity crossing at a loose
-   *  tolerance. */
+   *  may be errors of the estimate itself. Without the option, a run with a fixed step has the
+   *  estimate 0 as long as its local errors are negligible, and NaN if inputs change every few
+   *  steps; a run with variable steps has the estimate NaN, except after a singularity crossing at
+   *  a loose tolerance. */
   double error_estimate;
 } baum_counters;
 
@@ -778,9 +788,9 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  evaluation for the account fails, the account ends with a warning. Its work terms and the
  *  residual are then NaN. The account does not change the motion.
  *
- *  The account costs additional evaluations of equation (7) or (5) in each step. With a fixed step,
- *  most methods need 3 evaluations. dp5 needs 18 and rk8 needs 48, because they subdivide the step
- *  for the account. With variable steps, most methods need 4; rk8 needs 7, including the
+ *  The account costs additional evaluations of the equations of motion in each step. With a fixed
+ *  step, most methods need 3 evaluations. dp5 needs 18 and rk8 needs 48, because they subdivide the
+ *  step for the account. With variable steps, most methods need 4; rk8 needs 7, including the
  *  evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations are needed. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
@@ -809,7 +819,7 @@ typedef struct baum_energy_account {
   double gains;
   /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
   double residual;
-  /** [-] evaluations of the equations (5) and (7) of docs/notation.md for the account. The
+  /** [-] evaluations of the equations (5) and (7) (page "docs/notation.md") for the account. The
    *  counters of the run do not include them. */
   int64_t evaluations;
 } baum_energy_account;
@@ -827,9 +837,10 @@ BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
  *  cross. */
 typedef enum baum_branch {
   BAUM_BRANCH_CONTINUED = 1, /**< The motion continues smoothly. */
-  /** The velocity has jumped: the motion is on another branch. Do not trust it. */
+  /** The velocity has jumped: the motion is on another branch. Do not trust the motion from then
+   *  on. */
   BAUM_BRANCH_LEFT = 2,
-  BAUM_BRANCH_UNKNOWN = 3 /**< The steps do not allow a decision. */
+  BAUM_BRANCH_UNKNOWN = 3 /**< The run cannot decide whether the motion has left its branch. */
 } baum_branch;
 
 /** A near-singular interval: an interval of time in which a run was near a singular configuration.
@@ -843,9 +854,11 @@ typedef enum baum_branch {
  *  only a constraint violation has kept p above 1e-3, the run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] time of the last state at the end of a step before the interval. */
-  double end;         /**< [s] time of the first state at the end of a step after the interval. */
-  double t;           /**< [s] time of the smallest pivot, which may be inside a step. */
+  double begin;       /**< [s] end of a step; the interval does not begin before this time. */
+  /** [s] end of a step; the interval ends before this time, unless the motion stays close to
+   *  singular configurations. */
+  double end;
+  double t; /**< [s] time of the smallest pivot, which may be inside a step. */
   /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
    *  largest value that the smallest pivot has had at any state of the run so far. */
   double pivot;
@@ -859,7 +872,8 @@ typedef struct baum_near_singular {
 
 /** Read a near-singular interval. Runs with baum_kinematics() have no such intervals.
  *  @param      simulation   the run
- *  @param      k            0 to counters.near_singular_intervals - 1; the first 64 are kept
+ *  @param      k            number of the interval, 0 to counters.near_singular_intervals - 1; a
+ *                           run keeps the first 64
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
@@ -871,17 +885,21 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  result. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow or not decay. */
+  BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow, or may not decay. */
   /** rtol is smaller than the error of derivatives that are computed by differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,
   /** IDA runs with INDEX3, which is meant only for comparisons. */
   BAUM_WARNING_INDEX3 = 4,
-  /** Ill-conditioned rows determine the velocities only inaccurately. */
+  /** Ill-conditioned constraint rows make the computed velocities inaccurate. */
   BAUM_WARNING_LOOSE_VELOCITIES = 5,
-  BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
+  /** An evaluation for the energy account failed. The work terms and the residual of the account
+   *  are NaN from then on. */
+  BAUM_WARNING_ENERGY_ACCOUNT = 6,
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  BAUM_WARNING_ERROR_UNKNOWN = 9,       /**< The estimate of the error has ended. */
+  /** The error of the motion is unknown, because the second integration that estimates it failed or
+   *  became too expensive. */
+  BAUM_WARNING_ERROR_UNKNOWN = 9,
   BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */
@@ -919,7 +937,7 @@ typedef struct baum_warning {
 /** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
  *  warnings.
  *  @param      simulation   the run
- *  @param      k            0 to counters.warnings - 1
+ *  @param      k            number of the kind, 0 to counters.warnings - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */

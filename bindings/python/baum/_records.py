@@ -122,7 +122,7 @@ class Counters(NamedTuple):
     nonlinear_iterations: [-] iterations of kinematics and of the implicit methods: CVODE, IDA,
         RATTLE and generalized-alpha.
     restarts: [-] restarts of multistep and variable-step methods.
-    near_singular: [-] evaluations in which the matrix in (7) was almost singular.
+    near_singular: [-] evaluations in which the matrix in equation (7) was almost singular.
     warnings: [-] number of kinds of warnings that occurred, see warnings.
     wall: [s] wall time inside advance_to, step and sample.
     max_phi: [m or rad] largest violation |Phi| over all steps.
@@ -133,7 +133,9 @@ class Counters(NamedTuple):
         (alpha/beta^2) h max |gamma_i|, where h is the step, and gamma is the right-hand side of
         J a = gamma. It is known only for the Euler methods with stable gains of at least 0.1/h,
         otherwise it is NaN.
-    predicted_phi_rate: [m/s or rad/s] the same prediction for |Phi'|, (h/2) max |gamma_i|.
+    predicted_phi_rate: [m/s or rad/s] prediction of the steady |Phi'| that the gains leave,
+        (h/2) max |gamma_i|, with h and gamma as for predicted_phi. It is NaN in the same cases
+        as predicted_phi.
     energy_change: [J] change of kinetic plus potential energy since the start. It contains the
         error of the method, but also the work of drivers, inputs and dampers.
     start_change: [-] largest displacement of a body in the last assembly, in characteristic
@@ -154,15 +156,15 @@ class Counters(NamedTuple):
         although their error estimate is above the tolerance.
     energy_residual: [J] energy that errors of the method have added so far, according to the
         energy account. NaN without the option energy_account.
-    doubts: [-] kinds of warnings that put the motion in doubt.
+    doubts: [-] number of kinds of warnings that put the motion in doubt.
     error_estimate: [-] estimate of the largest global error of the positions since the start.
         Errors of lengths are relative to the characteristic length, and errors of angles are in
         radians. NaN means that the error is unknown, for example because the estimate failed or
         would cost too much. Without the option error_check, the estimate shows only whether the
-        error is large: values up to 0.01 may be errors of the estimate itself. In this case, a
-        run with a fixed step has the estimate 0 as long as its local errors are negligible, and
-        NaN if inputs change every few steps. A run with variable steps has the estimate NaN,
-        except after a singularity crossing at a loose tolerance.
+        error is large: values up to 0.01 may be errors of the estimate itself. Without the
+        option, a run with a fixed step has the estimate 0 as long as its local errors are
+        negligible, and NaN if inputs change every few steps; a run with variable steps has the
+        estimate NaN, except after a singularity crossing at a loose tolerance.
     """
 
     steps: int
@@ -218,7 +220,7 @@ class EnergyAccount(NamedTuple):
     gains: [J] work of the gains. It is already contained in the fields `drivers` and
         `violation`, so do not add it to these fields.
     residual: [J] kinetic + potential - start, minus the sum of all work terms except gains.
-    evaluations: [-] evaluations of the equations (5) and (7) of docs/notation.md for the
+    evaluations: [-] evaluations of the equations (5) and (7) (page "docs/notation.md") for the
         account. The counters of the run do not include them.
     """
 
@@ -242,8 +244,9 @@ class NearSingular(NamedTuple):
     """An interval in which a run was near a singular configuration. branch is "continued", "left"
     or "unknown". The joint is a handle or None, and a name after unpickling.
 
-    begin: [s] time of the last state at the end of a step before the interval.
-    end: [s] time of the first state at the end of a step after the interval.
+    begin: [s] end of a step; the interval does not begin before this time.
+    end: [s] end of a step; the interval ends before this time, unless the motion stays close to
+        singular configurations.
     t: [s] time of the smallest pivot, which may be inside a step.
     pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot, divided
         by the largest value that the smallest pivot has had at any state of the run so far.
