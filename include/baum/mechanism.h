@@ -38,8 +38,8 @@
  *  NULL: pointers must not be NULL unless their comment allows it.
  *
  *  Names: messages contain the names of elements, inputs and events. If a name is NULL, the library
- *  chooses a default name, such as "joint<k>", where <k> stands for the number of the joint,
- *  counted from 1. Empty names and names with control characters are refused.
+ *  chooses a default name, such as "joint<k>" with the number k of the joint, counted from 1. Empty
+ *  names and names with control characters are refused.
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
@@ -206,13 +206,13 @@ typedef struct baum_coordinates_def {
    *  Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate; /**< Computes q' = N(q) v. Default: NULL, q' = v. */
-  /** Moves q by the displacement h v. Default: NULL; must be set if `rate` is set. */
+  /** Moves q by a displacement. Default: NULL; must be set if `rate` is set. */
   baum_move_fn *move;
   /** Computes the displacement between two positions. Default: NULL; must be set if `rate` is set.
    */
   baum_difference_fn *difference;
-  /** Moves q onto the configuration manifold. Not needed if every q is on this manifold. Default:
-   *  NULL. */
+  /** Moves q onto the configuration manifold. Not needed if every q is on this manifold.
+   *  Default: NULL. */
   baum_normalize_fn *normalize;
   int32_t position_count; /**< [-] number of positions. Default: 0, which means `size`. */
 } baum_coordinates_def;
@@ -479,8 +479,8 @@ typedef struct baum_user_force_def {
   const baum_body_id *bodies;
   int32_t body_count;   /**< [-] number of bodies, > 0. Default: 0, must be set. */
   baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
-  /** Derivatives of the force with respect to displacements of the bodies: out (nv x nv). Default:
-   *  NULL, computed by differences. */
+  /** Derivatives of the force with respect to displacements of the bodies: out (nv x nv).
+   *  Default: NULL, computed by differences. */
   baum_force_fn *force_q;
   /** Derivatives of the force with respect to v: out (nv x nv). Default: NULL, computed by
    *  differences. */
