@@ -514,7 +514,8 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 /* ---- springs of joints ----------------------------------------------------------------------- */
 
 /** The law of a spring: computes the tension or the torque of the spring, and the derivatives of
- *  this value.
+ *  this value. When the library checks the derivatives, it also calls the law in configurations
+ *  that the motion does not reach.
  *  @param      length  distance between the two points of the spring [m]; for a cable its length
  *                      [m]; for a torsion spring the angle of body_b relative to body_a [rad]; for
  *                      a joint spring the coordinate of the joint
@@ -525,8 +526,7 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
  *                      respect to length [N/m or N m/rad], and out[2] is the derivative of out[0]
  *                      with respect to rate [N s/m or N m s/rad]
  *  @param      user    the definition's `user`
- *  @return  as baum_q_fn. When the library checks the derivatives, it also calls the law in
- *           configurations that the motion does not reach. */
+ *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
 
 /** A linear spring and damper in parallel, or a law of your own, that acts on a coordinate of a

@@ -197,10 +197,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_curve(baum_mechanism *mechanism,
 /* ---- rolling disc ---------------------------------------------------------------------------- */
 
 /** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. The joint has
- *  three rows. The first is a constraint on positions: the height of the disc over the plane [m].
- *  The other two are rows of velocity level [m/s]: the velocities of the contact point in two
- *  directions of the plane. Rows of velocity level do not restrict positions. A mechanism with such
- *  rows therefore has more degrees of freedom of position than of velocity (see baum_mobility).
+ *  three rows. The first is a constraint on positions: the height of the lowest point of the disc
+ *  over the plane [m]. The other two are rows of velocity level [m/s]: the velocities of the
+ *  contact point in two directions of the plane. Rows of velocity level do not restrict positions.
+ *  A mechanism with such rows therefore has more degrees of freedom of position than of velocity
+ *  (see baum_mobility).
  *
  *  The rim has a circular cross-section with the radius rim_radius. If rim_radius is 0, the disc is
  *  thin; if it is equal to radius, the disc is a sphere. Contact is permanent: the normal force may
