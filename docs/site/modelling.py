@@ -73,6 +73,7 @@ SYMBOLS = {
     "r_a and": r"\br_a\b",
     "A joint in space": r"\b[xyz]_[ab]\b",
     "z_a is": r"^(?!d; x_a\.y_b).*\b[xyz]_[ab]\b",  # all except welds
+    "z_b is": r"^(?!d; x_a\.y_b).*\b[xyz]_b\b",
     "The directions": r"\b[xy]_[ab]\.[xyz]_b",
 }
 VELOCITY_LEVEL = ("planar_knife_edge", "spatial_knife_edge", "spatial_rolling_disc", "user_constraint")
@@ -126,6 +127,15 @@ def written():
     return found
 
 
+def text_of(part):
+    """Return the text of a comment, with names in backticks, so that the site does not typeset them as mathematics."""
+    for code in part.iter("computeroutput"):
+        code.text = f"`{''.join(code.itertext())}`"
+        for child in list(code):
+            code.remove(child)
+    return "".join(part.itertext()).strip()
+
+
 def fields(xml, name):
     """Return the table of the fields of a definition, from the comments of the header."""
     root = ET.parse(xml / f"structbaum__{name.replace('_', '__')}__def.xml").getroot()
@@ -135,10 +145,7 @@ def fields(xml, name):
         if field in ("struct_size", "name"):
             continue
         type_ = "".join(member.find("type").itertext()) + (member.findtext("argsstring") or "")
-        about = " ".join(
-            "".join(part.itertext()).strip()
-            for part in (member.find("briefdescription"), member.find("detaileddescription"))
-        )
+        about = " ".join(text_of(member.find(part)) for part in ("briefdescription", "detaileddescription"))
         about = re.sub(r"\s+", " ", about).replace("|", "\\|").strip()
         text += f"| `{field}` | `{type_.strip()}` | {about} |\n"
     return text
@@ -183,7 +190,8 @@ def about_channels(name, found):
         turn = {"planar_body": " and the angle", "spatial_body": " and the quaternion"}.get(name, "")
         return (
             f" `pose` contains the position of the centre of mass{turn}. `velocity` contains the velocity of the centre of mass"
-            f"{' and the angular velocity' if rotates else ''}, and `acceleration` the time derivative of `velocity`."
+            f"{' and the angular velocity' if rotates else ''}{', both in ground axes' if name == 'spatial_body' else ''}."
+            " `acceleration` contains the time derivative of `velocity`."
         )
     text = " Each coordinate is recorded with its time derivative." if "`coordinate` (2)" in found else ""
     if name in ("planar_gear", "coupling", "user_constraint"):
@@ -235,26 +243,43 @@ class Page:
         text += self.equations()
         python, c = self.programs()
         text += f"## Code\n\n```python\n{python}```\n\n```c\n{c}```\n\n"
-        text += "In this code, `m` or `mechanism` is the mechanism; the other names stand for bodies and joints that were added "
-        text += "before.\n\n"
+        text += "In this code, `m` in Python and `mechanism` in C is the mechanism. Bodies and joints that the code names but "
+        text += "does not add were added before.\n\n"
         text += f"## What goes wrong\n\n{self.mistake}\n\n"
-        text += "## Fields\n\nThe arguments of the Python method have the same names."
         table = fields(xml, self.name)
-        count = re.search(r"`(count|point_count|body_count)`", table)
-        text += f" The field `{count[1]}` has no argument in Python, because a list has a length." if count else ""
-        text += f" Fields that are not set keep their defaults.\n\n{table}\n"
+        text += f"## Fields\n\nThe table lists the fields of the C struct `baum_{self.name}_def`. {self.arguments(table)}"
+        text += " Fields that are not set keep their defaults. Units are in brackets, where [-] means a pure number."
+        shape = re.search(r"\| (\([a-z_]+\)) ", table)
+        text += f" An entry that begins with {shape[1]} is an array with this number of elements." if shape else ""
+        text += f"\n\n{table}\n"
         found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
         if found:
             first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
-            text += f"## What a run can record\n\nFor example, `{first}`. The following names can follow the dot; the number in "
-            text += f"parentheses is the number of values: {', '.join(found)}."
+            text += f"## What a run can record\n\nThe argument `record` names what a run records, as in `{first}`. The following "
+            text += f"names can follow the dot; the number in parentheses is the number of values: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
         links = uses(self.method)
         text += f"Used in: {'; '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
 
+    def arguments(self, table):
+        """Return what the arguments of the Python method are called."""
+        known = inspect.signature(getattr(baum.Mechanism, self.method)).parameters
+        absent = [name for name in re.findall(r"^\| `(\w+)`", table, flags=re.M) if name not in known]
+        text = "The arguments of the Python method have the same names as these fields."
+        for name in absent:
+            if name == "row_count":
+                text += " The argument for `row_count` is `rows`."
+            elif name == "point":
+                text += " The method has no argument `point`."
+            elif name.endswith("count"):
+                text += f" The method has no argument `{name}`, because it counts the entries of the lists."
+            else:
+                sys.exit(f"modelling.py: Mechanism.{self.method} has no argument {name}")
+        return text
+
     def equations(self):
-        what = {"body": "Coordinates", "joint": "Rows Phi = 0", "force": "Acts with"}[self.kind.family]
+        what = {"body": "Coordinates", "joint": "Rows Φ = 0", "force": "Acts with"}[self.kind.family]
         what = "Prescribed coordinate s(t)" if "driver" in self.name else what
         text = f"**{what}:** {self.cells[0]}\n\n"
         if self.kind.family == "joint" and len(self.cells) > 2:

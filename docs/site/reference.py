@@ -65,7 +65,7 @@ def c_pages(folder):
     names = [name for name in HEADERS.split() if name in found_headers()]
     names += sorted(found_headers() - set(names))
     text = (
-        "# C reference\n\nEvery header of `include/baum`, with its contracts, units and defaults. "
+        "# C reference\n\nEach header of `include/baum` has a page with its comments, which give units and defaults. "
     )
     text += "`#include <baum/baum.h>` includes all of them except `catalog.h`.\n\n| header | contents |\n|---|---|\n"
     for name in names:

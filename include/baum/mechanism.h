@@ -38,7 +38,8 @@
  *  NULL: pointers must not be NULL unless their comment allows it.
  *
  *  Names: messages contain the names of elements, inputs and events. If a name is NULL, the library
- *  chooses a default name. Empty names and names with control characters are refused.
+ *  chooses a default name, such as "joint<k>" with the number k of the joint, counted from 1. Empty
+ *  names and names with control characters are refused.
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
@@ -142,9 +143,10 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
 
-/** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. q may lie
- *  off the configuration manifold, which is the set of all valid q, by the error of a step. If the
- *  result for q is dq, the result for c q, with a number c, must be c dq. */
+/** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. The
+ *  configuration manifold is the set of all valid q. The function must also accept a q whose
+ *  distance from this manifold is the error of a step. If the result for q is dq, then for every
+ *  number c the result for c q, with the same v, must be c dq. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
 /** Moves q for the time h with the constant velocity v, and overwrites q with the result. The
@@ -173,7 +175,7 @@ typedef void baum_normalize_fn(double *q, void *user);
  *  product of dPhi/dq and N. The functions rate, move, difference and normalize report a failure by
  *  writing NaN. */
 typedef struct baum_coordinates_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_coordinates_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
   /** (position_count) positions in the design configuration; they must lie on the configuration
@@ -197,29 +199,32 @@ typedef struct baum_coordinates_def {
   baum_force_fn *force_v;
   baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
   bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
-  bool held;                /**< True if assembly must not move the body. Default: false. */
+  bool held;                /**< True if assembly must not change q. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
   /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
    *  Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate; /**< Computes q' = N(q) v. Default: NULL, q' = v. */
-  baum_move_fn *move; /**< Moves q along v. Default: NULL; must be set if `rate` is set. */
+  /** Moves q by a displacement. Default: NULL; must be set if `rate` is set. */
+  baum_move_fn *move;
   /** Computes the displacement between two positions. Default: NULL; must be set if `rate` is set.
    */
   baum_difference_fn *difference;
-  /** Moves q onto the manifold. Not needed if every q is on the manifold. Default: NULL. */
+  /** Moves q onto the configuration manifold. Not needed if every q is on this manifold.
+   *  Default: NULL. */
   baum_normalize_fn *normalize;
   int32_t position_count; /**< [-] number of positions. Default: 0, which means `size`. */
 } baum_coordinates_def;
 
-/** Set every field to its default. Bindings to other languages call this function; C programs call
- *  the function below.
- *  @param[out] def          NULL is ignored
- *  @param      caller_size  sizeof *def; no byte beyond it is written */
+/** Set every field to its default. This function is for bindings to other languages. C programs
+ *  call the function whose name ends in `_def_default` instead.
+ *  @param[out] def          the struct to fill; if it is NULL, the function does nothing
+ *  @param      caller_size  sizeof *def; the function writes no byte beyond this size */
 BAUM_API void baum_coordinates_def_init(baum_coordinates_def *def, size_t caller_size);
 
-/** Get a struct with every field at its default. Change the fields that you need.
+/** Get a struct with every field at its default. In this struct, change the fields that need other
+ *  values.
  *  @return  the struct */
 static inline baum_coordinates_def baum_coordinates_def_default(void)
 {
@@ -240,12 +245,13 @@ BAUM_API baum_status baum_mechanism_add_coordinates(baum_mechanism *mechanism,
                                                     const baum_coordinates_def *def,
                                                     baum_body_id *id);
 
-/** Read the definition of an element as it was given. The pointers in the definition belong to the
- *  mechanism and are valid until the definition is set again.
+/** Read the definition of an element as it was given. The name and the arrays in the definition
+ *  belong to the mechanism. They are valid until the definition is replaced or the mechanism is
+ *  destroyed.
  *  @param      mechanism    frozen or not
- *  @param      id           an element of this kind
+ *  @param      id           an element of the kind in the name of this function
  *  @param[out] out          receives the definition
- *  @param      caller_size  sizeof *out; no byte beyond it is written
+ *  @param      caller_size  sizeof *out; the function writes no byte beyond this size
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechanism,
                                                     baum_body_id id, baum_coordinates_def *out,
@@ -255,7 +261,7 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
  *  that the element acts on, the number of its rows or coordinates, and, for user coordinates,
  *  whether the function `rate` is given.
  *  @param     mechanism  not frozen; unchanged on failure
- *  @param     id         an element of this kind
+ *  @param     id         an element of the kind in the name of this function
  *  @param[in] def        the new definition, copied as by the add function
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY
  */
@@ -279,7 +285,7 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  time units before and after t, and the differences for gamma up to 0.05 time units. If `phi` is
  *  not defined before t = 0, give `nu` and `gamma`. */
 typedef struct baum_user_constraint_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_user_constraint_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
@@ -338,7 +344,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  revolutions. A workspace does not know the past of the motion, so its functions use angles
  *  between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions. */
 typedef enum baum_joint_coordinate {
-  /** The first coordinate that the list above gives for the joint. Most joints have only one. */
+  /** The first coordinate that the list above gives for the joint. Most joints have only one
+   *  coordinate. */
   BAUM_COORDINATE_FIRST = 0,
   /** [m] displacement from body_a's point to body_b's point, along the axis. */
   BAUM_COORDINATE_DISPLACEMENT = 1,
@@ -347,7 +354,8 @@ typedef enum baum_joint_coordinate {
   /** [m] displacement from body_a's point to body_b's point, along the x axis of a spatial planar
    *  joint. */
   BAUM_COORDINATE_X = 4,
-  /** [m] the same displacement, along the y axis in the plane of the joint, perpendicular to x. */
+  /** [m] displacement from body_a's point to body_b's point, along the y axis of a spatial planar
+   *  joint, which lies in the plane of the joint and is perpendicular to its x axis. */
   BAUM_COORDINATE_Y = 5
 } baum_joint_coordinate;
 
@@ -358,16 +366,16 @@ typedef enum baum_joint_coordinate {
  *  value, rate and acceleration are fields of the definition, or it is a law of your own. Whole
  *  revolutions of an angle of a spatial joint do not change the value of this row. */
 typedef struct baum_driver_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_driver_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  double value;        /**< [rad or m] s at t = 0. Default: 0. */
-  double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
-  double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */
+  double value;        /**< [rad or m] value of s at t = 0. Default: 0. */
+  double rate;         /**< [rad/s or m/s] value of s' at t = 0. Default: 0. */
+  double acceleration; /**< [rad/s^2 or m/s^2] value of s'', which is constant. Default: 0. */
   /** A law that replaces value, rate and acceleration, which must then be 0. Default: NULL. */
   baum_law_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of the joint that the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_driver_def;
 
@@ -417,22 +425,24 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  each velocity of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints
  *  appears once, and ground does not appear. */
 typedef struct baum_coupling_def {
-  size_t struct_size;    /**< Set by the default function. Do not write. */
+  size_t struct_size;    /**< Set by baum_coupling_def_default(). Do not change it. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_joint_id joint_a; /**< A joint with a coordinate. Default: none, must be set. */
   /** A joint with a coordinate. It may be the same joint as joint_a, to couple two coordinates of
    *  this joint. Default: none, must be set. */
   baum_joint_id joint_b;
-  double ratio; /**< [unit of coordinate_b / unit of coordinate_a] ratio in f(x). Default: 1. */
-  /** [rad or m] offset in f(x). Default: NaN, the value that satisfies the row in the design
-   *  configuration. */
+  /** [unit of coordinate_b / unit of coordinate_a] factor of coordinate_a in the row. Default: 1.
+   */
+  double ratio;
+  /** [rad or m] value of coordinate_b if coordinate_a is 0. Default: NaN, the value that
+   *  satisfies the row in the design configuration. */
   double offset;
   /** A law that replaces ratio and offset, which must then have their defaults. Default: NULL. */
   baum_coupling_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** [-] which coordinate of joint_a. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of joint_a that is coupled. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate_a;
-  /** [-] which coordinate of joint_b. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of joint_b that is coupled. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate_b;
 } baum_coupling_def;
 
@@ -463,16 +473,16 @@ BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum
  *  it consists of a force x, y, z in ground axes and a moment x, y, z in body axes. The force acts
  *  at the centre of mass, and the moment is about the centre of mass. */
 typedef struct baum_user_force_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_user_force_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
   int32_t body_count;   /**< [-] number of bodies, > 0. Default: 0, must be set. */
   baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
-  /** Derivatives of force along displacements: out (nv x nv). Default: NULL, computed by
-   *  differences. */
+  /** Derivatives of the force with respect to displacements of the bodies: out (nv x nv).
+   *  Default: NULL, computed by differences. */
   baum_force_fn *force_q;
-  /** Derivatives of force with respect to v: out (nv x nv). Default: NULL, computed by
+  /** Derivatives of the force with respect to v: out (nv x nv). Default: NULL, computed by
    *  differences. */
   baum_force_fn *force_v;
   baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
@@ -504,7 +514,8 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
 /* ---- springs of joints ----------------------------------------------------------------------- */
 
 /** The law of a spring: computes the tension or the torque of the spring, and the derivatives of
- *  this value.
+ *  this value. When the library checks the derivatives, it also calls the law in configurations
+ *  that the motion does not reach.
  *  @param      length  distance between the two points of the spring [m]; for a cable its length
  *                      [m]; for a torsion spring the angle of body_b relative to body_a [rad]; for
  *                      a joint spring the coordinate of the joint
@@ -515,8 +526,7 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
  *                      respect to length [N/m or N m/rad], and out[2] is the derivative of out[0]
  *                      with respect to rate [N s/m or N m s/rad]
  *  @param      user    the definition's `user`
- *  @return  as baum_q_fn. When the library checks the derivatives, it also calls the law in
- *           configurations that the motion does not reach. */
+ *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
 
 /** A linear spring and damper in parallel, or a law of your own, that acts on a coordinate of a
@@ -527,21 +537,21 @@ typedef int baum_spring_fn(double length, double rate, double out[3], void *user
  *  each revolution. The functions of a workspace use angles between -pi and pi, unless
  *  baum_workspace_set_angle() has chosen other revolutions. */
 typedef struct baum_joint_spring_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_joint_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of the joint on which the spring acts. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
   double stiffness; /**< [N m/rad or N/m] >= 0. Default: 0. */
   double damping;   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
   /** [rad or m] coordinate at which the spring exerts no force. Default: NaN, the value in the
    *  design configuration. */
   double free_value;
-  /** A law that replaces the three fields above, which must then have their defaults; the spring
-   *  then has no potential energy. Default: NULL. */
+  /** A law that replaces stiffness, damping and free_value, which must then have their defaults;
+   *  the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the coordinate. RATTLE requires
+  /** True if law reads its argument `rate`, the time derivative of the coordinate. RATTLE requires
    *  false. Default: true. */
   bool depends_on_velocity;
 } baum_joint_spring_def;
@@ -575,8 +585,8 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
  *  begin with the initial value and keep it until baum_simulation_set_input() or
  *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
- *  @param[in]  name       label in messages. Copied. NULL: "input<k>".
- *  @param      initial    finite, in the unit of your choice
+ *  @param[in]  name       label in messages. Copied. NULL stands for "input<k>".
+ *  @param      initial    the initial value; finite, in a unit of your choice
  *  @param[out] id         receives the id of the input; not written on failure. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name,
@@ -593,12 +603,12 @@ BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, b
 /** Replace the initial value of an input.
  *  @param mechanism  not frozen
  *  @param id         an input of the mechanism
- *  @param initial    finite
+ *  @param initial    the new initial value, finite
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id,
                                               double initial);
 
-/** Count the inputs. @param mechanism  frozen or not @return 0 for NULL */
+/** Count the inputs. @param mechanism  frozen or not @return the number of inputs; 0 for NULL */
 BAUM_API int32_t baum_mechanism_input_count(const baum_mechanism *mechanism);
 
 /* ---- the mechanism --------------------------------------------------------------------------- */
@@ -631,8 +641,9 @@ BAUM_API void baum_mechanism_destroy(baum_mechanism *mechanism);
 
 /** Set gravity, which acts on particles and rigid bodies but not on user coordinates.
  *  @param mechanism  not frozen
- *  @param x,y,z      [m/s^2] finite; planar bodies use x and y. Default of a mechanism: (0, -9.81,
- *                    0).
+ *  @param x          [m/s^2] finite. Default of a mechanism: 0.
+ *  @param y          [m/s^2] finite. Default of a mechanism: -9.81.
+ *  @param z          [m/s^2] finite; does not act on planar bodies. Default of a mechanism: 0.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y,
                                                 double z);
@@ -664,30 +675,34 @@ BAUM_API baum_status baum_mechanism_get_characteristic_length(const baum_mechani
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (no bodies), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_freeze(baum_mechanism *mechanism);
 
-/** Tell whether a mechanism is frozen. @param mechanism  may be NULL @return false for NULL */
+/** Tell whether a mechanism is frozen.
+ *  @param mechanism  may be NULL
+ *  @return  true if it is frozen; false for NULL */
 BAUM_API bool baum_mechanism_is_frozen(const baum_mechanism *mechanism);
 
 /** Read the sizes of a mechanism.
  *  @param      mechanism  frozen
- *  @param[out] nq,nv,nc   [-] numbers of positions, velocities and constraint rows. Each may be
- *                         NULL.
+ *  @param[out] nq         [-] number of positions. May be NULL.
+ *  @param[out] nv         [-] number of velocities. May be NULL.
+ *  @param[out] nc         [-] number of constraint rows. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, int32_t *nv,
                                           int32_t *nc);
 
 /** Find the rows of a joint in Phi and lambda.
- *  @param      mechanism    frozen
- *  @param      joint        a joint of the mechanism
- *  @param[out] first,count  [-] first row and number of rows. Each may be NULL.
+ *  @param      mechanism  frozen
+ *  @param      joint      a joint of the mechanism
+ *  @param[out] first      [-] index of the first row of the joint, counted from 0. May be NULL.
+ *  @param[out] count      [-] number of rows of the joint. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
                                          int32_t *first, int32_t *count);
 
 /** Find the coordinates of a body in q and v.
- *  @param      mechanism        frozen
- *  @param      body             a body of the mechanism
- *  @param[out] first_q,first_v  [-] index of the first coordinate of the body in q and in v. Each
- *                               may be NULL.
+ *  @param      mechanism  frozen
+ *  @param      body       a body of the mechanism, not ground
+ *  @param[out] first_q    [-] index of the first position of the body in q. May be NULL.
+ *  @param[out] first_v    [-] index of the first velocity of the body in v. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen) */
 BAUM_API baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
                                             int32_t *first_q, int32_t *first_v);
@@ -753,11 +768,11 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
  *  from the structure of the mechanism. They do not include the cost of user functions. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
-  int32_t bodies;     /**< [-] bodies without ground. */
-  int32_t joints;     /**< [-] joints, drivers, couplings and user constraints. */
-  int32_t forces;     /**< [-] forces without gravity. */
-  int32_t velocities; /**< [-] nv. */
-  int32_t rows;       /**< [-] nc. */
+  int32_t bodies;     /**< [-] number of bodies, not counting ground. */
+  int32_t joints;     /**< [-] number of joints, drivers, couplings and user constraints. */
+  int32_t forces;     /**< [-] number of forces, not counting gravity. */
+  int32_t velocities; /**< [-] number of velocities, nv. */
+  int32_t rows;       /**< [-] number of constraint rows, nc. */
   /** [-] nv minus the rank of J; -1 if it is not known, see baum_mechanism_mobility(). */
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */

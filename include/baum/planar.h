@@ -4,8 +4,8 @@
  *
  *  Coordinates: a planar body has three coordinates (x, y, angle), and a particle has two (x, y).
  *  The velocities are the time derivatives of these coordinates. x and y are the position of the
- *  centre of mass in ground axes. Angles are counter-clockwise; they grow continuously over several
- *  revolutions.
+ *  centre of mass in ground axes. Angles are positive counter-clockwise; they grow continuously
+ *  over several revolutions.
  *
  *  Points: give a joint or a spring either `point`, or both `point_a` and `point_b`. NaN means that
  *  a point is not given. `point` is a single point in ground axes, which both bodies share in the
@@ -33,7 +33,7 @@ extern "C" {
 
 /** A rigid body in the plane. The origin of its body axes is the centre of mass. */
 typedef struct baum_planar_body_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_planar_body_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
@@ -42,7 +42,7 @@ typedef struct baum_planar_body_def {
   double angle; /**< [rad] angle of the body axes in the design configuration. Default: 0. */
   /** [m/s] velocity of the centre of mass at the start. Default: NaN, assembly determines it. */
   double velocity[2];
-  double angular_velocity; /**< [rad/s] at the start. Default: NaN, assembly determines it. */
+  double angular_velocity; /**< [rad/s] value at the start. Default: NaN, assembly determines it. */
   bool held;               /**< True if assembly must not move the body. Default: false. */
 } baum_planar_body_def;
 
@@ -71,11 +71,11 @@ BAUM_API baum_status baum_mechanism_set_planar_body(baum_mechanism *mechanism, b
 
 /** A point mass in the plane. It has no angle, so joints that need an angle refuse it. */
 typedef struct baum_planar_particle_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_planar_particle_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
-  double velocity[2]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
+  double position[2]; /**< [m] position in the design configuration. Default: (0, 0). */
+  double velocity[2]; /**< [m/s] velocity at the start. Default: NaN, assembly determines it. */
   bool held;          /**< True if assembly must not move the body. Default: false. */
 } baum_planar_particle_def;
 
@@ -106,13 +106,15 @@ BAUM_API baum_status baum_mechanism_set_planar_particle(baum_mechanism *mechanis
 /** A pin (revolute joint): the points of both bodies coincide. The joint has two rows [m]: x and y
  *  of the vector from body_b's point to body_a's point. */
 typedef struct baum_planar_revolute_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_revolute_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
 } baum_planar_revolute_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -144,13 +146,15 @@ BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanis
  *  The first is the distance of body_b's point from the axis [m], and the second is angle_b -
  *  angle_a - angle [rad]. */
 typedef struct baum_planar_translational_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_translational_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
@@ -188,13 +192,14 @@ BAUM_API baum_status baum_mechanism_set_planar_translational(
  *  the row is approximately the change of the length of the rod. The row is a smooth function of
  *  the coordinates everywhere, whereas the length itself is not smooth where it is 0. */
 typedef struct baum_planar_distance_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_distance_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] must not be given, because then both points would coincide. Default: NaN, not given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   double length;     /**< [m] > 0. Default: NaN, the value in the design configuration. */
 } baum_planar_distance_def;
 
@@ -226,13 +231,15 @@ BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanis
  *  is constant. The joint has three rows: x and y of the vector from body_b's point to body_a's
  *  point [m], and angle_b - angle_a - angle [rad]. */
 typedef struct baum_planar_fixed_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_fixed_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [rad] constant value of angle_b - angle_a. Default: NaN, the value in the design
    *  configuration. */
   double angle;
@@ -264,24 +271,25 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
 /** A linear spring and damper in parallel between two points, or a law of your own. The force acts
  *  along the line through the points. The force is zero when the points coincide. */
 typedef struct baum_planar_spring_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] must not be given, because then both points would coincide. Default: NaN, not given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   double stiffness;  /**< [N/m] >= 0. Default: 0. */
   double damping;    /**< [N s/m] >= 0. Default: 0. */
   /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law that replaces the three fields above, which must then have their defaults; the spring
-   *  then has no potential energy. Default: NULL. */
+  /** A law that replaces stiffness, damping and free_length, which must then have their defaults;
+   *  the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
-   *  Default: true. */
+  /** True if law reads its argument `rate`, the time derivative of the length. RATTLE requires
+   *  false. Default: true. */
   bool depends_on_velocity;
 } baum_planar_spring_def;
 
@@ -312,7 +320,7 @@ BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism,
  *  angle angle_b - angle_a. The relative angle grows continuously over several revolutions. Both
  *  bodies must have an angle, which particles do not have. One of the bodies may be ground. */
 typedef struct baum_planar_torsion_spring_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_torsion_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -321,12 +329,12 @@ typedef struct baum_planar_torsion_spring_def {
   /** [rad] relative angle at which the spring exerts no torque. Default: NaN, the value in the
    *  design configuration. */
   double free_angle;
-  /** A law that replaces the three fields above, which must then have their defaults; the spring
-   *  then has no potential energy. Default: NULL. */
+  /** A law that replaces stiffness, damping and free_angle, which must then have their defaults;
+   *  the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the angle. RATTLE requires false.
-   *  Default: true. */
+  /** True if law reads its argument `rate`, the time derivative of the angle. RATTLE requires
+   *  false. Default: true. */
   bool depends_on_velocity;
 } baum_planar_torsion_spring_def;
 
@@ -359,11 +367,11 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
  *  direction in ground axes, or it rotates with the body. A load in ground axes that has neither a
  *  torque nor an input has a potential energy; other loads have none. */
 typedef struct baum_planar_load_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_planar_load_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[2];    /**< [m] where the force acts, in body axes. Default: (0, 0). */
-  /** [N] in ground axes, or in body axes if `follows_body` is true. Default: (0, 0). */
+  /** [N] the force in ground axes, or in body axes if `follows_body` is true. Default: (0, 0). */
   double force[2];
   double torque; /**< [N m] counter-clockwise. Default: 0. */
   /** True if the force rotates with the body. Default: false, the force is in ground axes. */

@@ -19,13 +19,15 @@ extern "C" {
  *  this axis [m]. The coordinate of the joint is the displacement from body_a's point to body_b's
  *  point along the axis [m]. body_a must have an angle; body_b may be a particle. */
 typedef struct baum_planar_pin_in_slot_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_pin_in_slot_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
@@ -69,13 +71,15 @@ BAUM_API baum_status baum_mechanism_set_planar_pin_in_slot(baum_mechanism *mecha
  *  of the pinion; for the axis (1, 0), the rack is below the pinion. Both bodies must have an
  *  angle. */
 typedef struct baum_planar_rack_and_pinion_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_rack_and_pinion_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (1, 0). */
   double axis[2];
@@ -128,7 +132,7 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  each velocity of body_a, body_b and the carrier; ground is omitted. It contains only torques:
  *  its force components are zero, because the row contains only angles. */
 typedef struct baum_planar_gear_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_gear_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
@@ -181,23 +185,26 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
 
 /** A point of body_b stays on a curve that is fixed in body_a. Examples are a cam with a pointed
- *  follower, and a bead on a wire. The joint has one row, the value of F at body_b's point [m]. If
+ *  follower, and a bead on a wire. The equation of the curve is F(x, y) = 0, and the field `curve`
+ *  is the function that computes F. The joint has one row, the value of F at body_b's point [m]. If
  *  the follower is a roller, give the curve on which the centre of the roller moves. If you know
  *  the lift of a cam as a function of its angle, use a coupling with a law instead (mechanism.h).
  *
- *  If `point` is given, the origin of the curve is at this point in the design configuration.
- *  body_a must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares
- *  the derivatives of F with differences. Integrators that need third derivatives compute them by
+ *  The coordinates x and y in F are relative to body_a's point and in the axes of body_a. body_a
+ *  must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares the
+ *  derivatives of F with differences. Integrators that need third derivatives compute them by
  *  differences of the second derivatives. */
 typedef struct baum_planar_curve_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2];    /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[2];    /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  baum_curve_fn *curve; /**< The function F. Default: NULL, must be set. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2];    /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[2];    /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
+  baum_curve_fn *curve; /**< The function that computes F. Default: NULL, must be set. */
   void *user;           /**< Passed to curve. Not owned. Default: NULL. */
 } baum_planar_curve_def;
 
@@ -234,12 +241,14 @@ BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, 
  *  Both bodies must have an angle. The reaction of the joint is the force and the moment on body_b
  *  at the point where the blade touches it. */
 typedef struct baum_planar_knife_edge_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_planar_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
   baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
-  double point[2]; /**< [m] in ground axes, in the design configuration. Default: NaN, not given. */
-  double point_a[2]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
+  double point[2];
+  double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   /** [-] direction of the blade, not zero; in ground axes if `point` is given, otherwise in the
    *  axes of body_a. Default: (1, 0). */
   double axis[2];

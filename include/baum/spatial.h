@@ -32,7 +32,7 @@ extern "C" {
 
 /** A rigid body in space. The origin of its body axes is the centre of mass. */
 typedef struct baum_spatial_body_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_spatial_body_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
   /** [kg m^2] inertia tensor about the centre of mass in body axes, in the order xx, yy, zz, xy,
@@ -49,7 +49,7 @@ typedef struct baum_spatial_body_def {
   /** [m/s] velocity of the centre of mass at the start, in ground axes. Default: NaN, assembly
    *  determines it. */
   double velocity[3];
-  /** [rad/s] at the start, in body axes. Default: NaN, assembly determines it. */
+  /** [rad/s] value at the start, in body axes. Default: NaN, assembly determines it. */
   double angular_velocity[3];
   bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_body_def;
@@ -79,11 +79,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_body(baum_mechanism *mechanism, 
 
 /** A point mass in space. */
 typedef struct baum_spatial_particle_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_spatial_particle_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double position[3]; /**< [m] in the design configuration. Default: (0, 0, 0). */
-  double velocity[3]; /**< [m/s] at the start. Default: NaN, assembly determines it. */
+  double position[3]; /**< [m] position in the design configuration. Default: (0, 0, 0). */
+  double velocity[3]; /**< [m/s] velocity at the start. Default: NaN, assembly determines it. */
   bool held;          /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_particle_def;
 
@@ -115,25 +115,25 @@ BAUM_API baum_status baum_mechanism_set_spatial_particle(baum_mechanism *mechani
  *  stiffness (length - free_length) + damping (d/dt length); a positive tension pulls the points
  *  together. The force is zero when the points coincide. */
 typedef struct baum_spatial_spring_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] must not be given, because then both points would coincide. Default: NaN, not given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   double stiffness;  /**< [N/m] >= 0. Default: 0. */
   double damping;    /**< [N s/m] >= 0. Default: 0. */
   /** [m] >= 0, length at which the spring exerts no force. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law that replaces the three fields above, which must then have their defaults; the spring
-   *  then has no potential energy. Default: NULL. */
+  /** A law that replaces stiffness, damping and free_length, which must then have their defaults;
+   *  the spring then has no potential energy. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
-   *  Default: true. */
+  /** True if law reads its argument `rate`, the time derivative of the length. RATTLE requires
+   *  false. Default: true. */
   bool depends_on_velocity;
 } baum_spatial_spring_def;
 
@@ -178,12 +178,13 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
  *  its other parts. If a point passes through its neighbour, the force jumps. The bodies may also
  *  be planar bodies and planar particles, which stay in the plane z = 0. */
 typedef struct baum_spatial_cable_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_spatial_cable_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (point_count) the body of each point, in the order of the path. Copied. Default: NULL, must be
    *  set. */
   const baum_body_id *bodies;
-  /** (point_count x 3) [m] points in axes of their bodies. Copied. Default: NULL, must be set. */
+  /** (point_count x 3) [m] points, each in the axes of its body. Copied. Default: NULL, must be
+   *  set. */
   const double *points;
   int32_t point_count; /**< Number of points, at least 2. Default: 0, must be set. */
   double stiffness;    /**< [N/m] >= 0. Default: 0. */
@@ -196,8 +197,8 @@ typedef struct baum_spatial_cable_def {
    *  where the cable is slack. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the length. RATTLE requires false.
-   *  Default: true. */
+  /** True if law reads its argument `rate`, the time derivative of the length. RATTLE requires
+   *  false. Default: true. */
   bool depends_on_velocity;
   /** [m] >= 0, stretch s at which the damper reaches its full strength (w = 1). Default: NaN, 1e-4
    *  times free_length. */
@@ -241,15 +242,16 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  rotation changes the angle by up to 2 pi. If the steps of a run are too long to follow this
  *  change of the angle, the run warns with BAUM_WARNING_BUSHING. */
 typedef struct baum_spatial_torsion_spring_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_torsion_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
   baum_body_id body_b;
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] axis, with any length except 0; in ground axes if point is given, otherwise in the axes
    *  of body_a. Default: (0, 0, 1). */
   double axis[3];
@@ -260,12 +262,12 @@ typedef struct baum_spatial_torsion_spring_def {
   double damping;   /**< [N m s/rad] >= 0. Default: 0. */
   /** [rad] angle at which the spring exerts no torque. Default: NaN, which means 0. */
   double free_angle;
-  /** A law for the torque [N m], which replaces the three numbers above; they must then have
-   *  their defaults. Default: NULL. */
+  /** A law for the torque [N m] that replaces stiffness, damping and free_angle, which must then
+   *  have their defaults. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** True if law reads its argument rate, the time derivative of the angle. RATTLE requires false.
-   *  Default: true. */
+  /** True if law reads its argument `rate`, the time derivative of the angle. RATTLE requires
+   *  false. Default: true. */
   bool depends_on_velocity;
 } baum_spatial_torsion_spring_def;
 
@@ -305,15 +307,16 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
  *
  *  The potential energy is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_bushing_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
   baum_body_id body_b;
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] the z axis of the bushing, with any length except 0; in ground axes if point is given,
    *  otherwise in the axes of body_a. Default: (0, 0, 1). */
   double axis[3];
@@ -359,12 +362,14 @@ BAUM_API baum_status baum_mechanism_set_spatial_bushing(baum_mechanism *mechanis
 /** A force at a point of a body, and a moment on the body. If `input` names an input, the value of
  *  this input multiplies the force and the moment. */
 typedef struct baum_spatial_load_def {
-  size_t struct_size; /**< Set by the default function. Do not write. */
+  size_t struct_size; /**< Set by baum_spatial_load_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body;  /**< Default: none, must be set; must not be ground. */
   double point[3];    /**< [m] where the force acts, in body axes. Default: (0, 0, 0). */
-  double force[3];    /**< [N] see follows_body for the axes. Default: (0, 0, 0). */
-  double moment[3];   /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
+  /** [N] the force in ground axes, or in body axes if `follows_body` is true. Default: (0, 0, 0).
+   */
+  double force[3];
+  double moment[3]; /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
   /** An input whose value multiplies force and moment. Default: none. */
   baum_input_id input;
   /** True if force and moment are in body axes and rotate with the body, false if they are in

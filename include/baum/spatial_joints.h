@@ -31,14 +31,15 @@ extern "C" {
 /** A ball joint (spherical joint): the points of both bodies coincide. The joint has three rows
  *  [m]. */
 typedef struct baum_spatial_spherical_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_spherical_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
 } baum_spatial_spherical_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -71,14 +72,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechan
  *  The coordinate of the joint is the angle of body_b relative to body_a about the axis [rad]. It
  *  is 0 in the design configuration. */
 typedef struct baum_spatial_revolute_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_revolute_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -120,14 +122,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
  *  BAUM_COORDINATE_ANGLE is the angle of the cross relative to body_a about `axis`, and
  *  BAUM_COORDINATE_ANGLE_B is the angle of body_b relative to the cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_universal_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -167,14 +170,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechan
  *  displacement from body_a's point to body_b's point along the axis [m], and the angle about the
  *  axis [rad]. The angle is 0 in the design configuration. */
 typedef struct baum_spatial_cylindrical_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_cylindrical_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -214,14 +218,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
  *  axis [-]. The coordinate of the joint is the displacement from body_a's point to body_b's point
  *  along the axis [m]. */
 typedef struct baum_spatial_prismatic_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_prismatic_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -262,23 +267,24 @@ BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechan
  *  in the design configuration. The direction of y is the cross product of the normal and the
  *  direction of x. */
 typedef struct baum_spatial_planar_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_planar_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
    *  Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
-  /** [-] direction of x, projected onto the plane; in ground axes if `point` is given, otherwise in
-   *  the axes of body_a. Default: NaN, the direction of the ground x axis in the design
-   *  configuration, or of the ground y axis if the normal is along x. */
+  /** [-] direction of the coordinate x, projected onto the plane; in ground axes if `point` is
+   *  given, otherwise in the axes of body_a. Default: NaN, the direction of the ground x axis in
+   *  the design configuration, or of the ground y axis if the normal is along x. */
   double x_axis[3];
 } baum_spatial_planar_def;
 
@@ -310,14 +316,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism
  *  orientation of the design configuration. The joint has six rows: three for the points [m] and
  *  three for the orientation [-]. */
 typedef struct baum_spatial_fixed_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_fixed_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
 } baum_spatial_fixed_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -349,15 +356,16 @@ BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism,
  *  last row is evaluated modulo the pitch, so it does not depend on the number of revolutions. The
  *  coordinates of the joint are displacement and angle, as for the cylindrical joint. */
 typedef struct baum_spatial_screw_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_screw_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
   baum_body_id body_b;
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] axis, with any length except 0; in ground axes if `point` is given, otherwise in the axes
    *  of body_a. Default: (0, 0, 1). */
   double axis[3];
@@ -402,20 +410,21 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
  *  axes must stay below 180 degrees. The derivatives of the fourth row are proportional to the
  *  cosine of half this angle, so the joint is ill-conditioned close to 180 degrees. */
 typedef struct baum_spatial_constant_velocity_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  size_t struct_size; /**< Set by baum_spatial_constant_velocity_def_default(). Do not change it. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set; must not be a particle. */
   /** Default: none, must be set; must differ from body_a and must not be a particle. */
   baum_body_id body_b;
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  /** [-] axis of the shaft body_a, with any length except 0; in ground axes if `point` is given,
-   *  otherwise in the axes of body_a. Default: (0, 0, 1). */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
+  /** [-] axis of the first shaft, body_a, with any length except 0; in ground axes if `point` is
+   *  given, otherwise in the axes of body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] axis of the shaft body_b; in ground axes if `point` is given, otherwise in the axes of
-   *  body_b. Default: NaN, equal to axis in the design configuration. */
+  /** [-] axis of the second shaft, body_b; in ground axes if `point` is given, otherwise in the
+   *  axes of body_b. Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
 } baum_spatial_constant_velocity_def;
 

@@ -17,14 +17,14 @@ extern "C" {
 /** A massless rod between two points. The joint has one row [m], (d.d - length^2) / (2 length),
  *  where d is the vector from body_a's point to body_b's point. */
 typedef struct baum_spatial_distance_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_distance_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] must not be given, because then both points would coincide. Default: NaN, not given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   double length;     /**< [m] > 0. Default: NaN, the distance in the design configuration. */
 } baum_spatial_distance_def;
 
@@ -57,14 +57,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechani
  *  The joint has two rows [m]. The coordinate of the joint is the displacement from body_a's point
  *  to body_b's point along the line [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_line_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_point_on_line_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -97,14 +98,15 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
 /** A point of body_b stays in a plane of body_a. The plane contains body_a's point, and the axis is
  *  its normal. The joint has one row [m]. body_b may be a particle. */
 typedef struct baum_spatial_point_on_plane_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_point_on_plane_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3]; /**< [m] on body_b, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
   /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
    *  Default: (0, 0, 1). */
   double axis[3];
@@ -147,25 +149,28 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *user);
 
 /** A point of body_b stays on a curve that is fixed in body_a, as a bead on a wire does. The joint
- *  has two rows, the values of F and G at body_b's point [m]. If the curve is given by a parameter
- *  u, such as the helix (r cos u, r sin u, c u), eliminate the parameter: F = x - r cos(z / c),
- *  G = y - r sin(z / c).
+ *  has two rows, the values of F and G at body_b's point [m]. The curve is the intersection of the
+ *  surfaces F(x, y, z) = 0 and G(x, y, z) = 0, and the field `curve` is the function that computes
+ *  F and G. If a curve is given by a parameter u, such as the helix (r cos u, r sin u, c u),
+ *  eliminate the parameter: F = x - r cos(z / c), G = y - r sin(z / c).
  *
- *  If `point` is given, the origin of the curve is at this point in the design configuration.
+ *  The coordinates x, y and z in F and G are relative to body_a's point and in the axes of body_a.
  *  body_a must have an orientation; body_b may be a particle. baum_mechanism_check_derivatives()
  *  compares the derivatives of F and G with differences. Integrators that need third derivatives
  *  compute them by differences of the second derivatives. */
 typedef struct baum_spatial_curve_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; must differ from body_a. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] common point of both bodies in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3];            /**< [m] on body_a, in its axes. Default: NaN, not given. */
-  double point_b[3];            /**< [m] on body_b, in its axes. Default: NaN, not given. */
-  baum_spatial_curve_fn *curve; /**< The functions F and G. Default: NULL, must be set. */
-  void *user;                   /**< Passed to curve. Not owned. Default: NULL. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
+  double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
+  baum_spatial_curve_fn
+    *curve;   /**< The function that computes F and G. Default: NULL, must be set. */
+  void *user; /**< Passed to curve. Not owned. Default: NULL. */
 } baum_spatial_curve_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -192,10 +197,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_curve(baum_mechanism *mechanism,
 /* ---- rolling disc ---------------------------------------------------------------------------- */
 
 /** A disc, wheel or sphere of body_b rolls without slipping on a plane of body_a. The joint has
- *  three rows. The first is a constraint on positions: the height of the disc over the plane [m].
- *  The other two are rows of velocity level [m/s]: the velocities of the contact point in two
- *  directions of the plane. Rows of velocity level do not restrict positions. A mechanism with such
- *  rows therefore has more degrees of freedom of position than of velocity (see baum_mobility).
+ *  three rows. The first is a constraint on positions: the height of the lowest point of the disc
+ *  over the plane [m]. The other two are rows of velocity level [m/s]: the velocities of the
+ *  contact point in two directions of the plane. Rows of velocity level do not restrict positions.
+ *  A mechanism with such rows therefore has more degrees of freedom of position than of velocity
+ *  (see baum_mobility).
  *
  *  The rim has a circular cross-section with the radius rim_radius. If rim_radius is 0, the disc is
  *  thin; if it is equal to radius, the disc is a sphere. Contact is permanent: the normal force may
@@ -204,16 +210,17 @@ BAUM_API baum_status baum_mechanism_set_spatial_curve(baum_mechanism *mechanism,
  *  point. The multipliers are the forces [N] on body_b along the normal and along the two
  *  directions, with the opposite sign. */
 typedef struct baum_spatial_rolling_disc_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
-  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_body_id body_a; /**< The body with the plane; not body_b. Default: BAUM_GROUND. */
+  size_t struct_size; /**< Set by baum_spatial_rolling_disc_def_default(). Do not change it. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id
+    body_a; /**< The body with the plane; must differ from body_b. Default: BAUM_GROUND. */
   baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
   double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
   /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
   double normal[3];
   double centre[3]; /**< [m] centre of the disc, in axes of body_b. Default: (0, 0, 0). */
   double axis_b[3]; /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
-  double radius;    /**< [m] > 0, largest radius. Default: 0, must be set. */
+  double radius;    /**< [m] > 0, largest radius of the disc. Default: 0, must be set. */
   /** [m] radius of the cross-section of the rim, from 0 to radius. Default: 0. */
   double rim_radius;
 } baum_spatial_rolling_disc_def;
@@ -254,13 +261,14 @@ BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
  *  this joint is perpendicular to the blade. Both bodies must have an orientation. The reaction of
  *  the joint is the force and the moment on body_b at this point of the blade. */
 typedef struct baum_spatial_knife_edge_def {
-  size_t struct_size;  /**< Set by the default function. Do not write. */
+  size_t struct_size;  /**< Set by baum_spatial_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
   baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
-  /** [m] in ground axes, in the design configuration. Default: NaN, not given. */
+  /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
+   *  given. */
   double point[3];
-  double point_a[3]; /**< [m] on body_a, in its axes. Default: NaN, not given. */
+  double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   /** [-] direction in which the point does not move, not zero; in ground axes if `point` is given,
    *  otherwise in the axes of body_a. Default: (0, 0, 1). */
   double axis[3];

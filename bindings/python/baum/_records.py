@@ -51,11 +51,11 @@ class Report(NamedTuple):
     """What an evaluation of the accelerations costs, and which work it skips. nv and nc are the
     numbers of velocities and of constraint rows, and J is the velocity Jacobian of the constraints.
 
-    bodies: [-] bodies without ground.
-    joints: [-] joints, drivers, couplings and user constraints.
-    forces: [-] forces without gravity.
-    velocities: [-] nv.
-    rows: [-] nc.
+    bodies: [-] number of bodies, not counting ground.
+    joints: [-] number of joints, drivers, couplings and user constraints.
+    forces: [-] number of forces, not counting gravity.
+    velocities: [-] number of velocities, nv.
+    rows: [-] number of constraint rows, nc.
     degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
     redundant_rows: [-] rows omitted from every solution.
     constant_rows: [-] rows that do not depend explicitly on time.

@@ -136,8 +136,8 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Body:
-        """Add `size` generalized coordinates. Your functions compute their mass matrix and their
-        forces.
+        """Add `size` generalized coordinates. Functions of yours compute the mass matrix and the
+        forces of these coordinates.
 
         mass(t, q): the mass matrix M (size x size).
         force(t, q, v): the force vector g (size).
@@ -374,7 +374,7 @@ class Adding:
         body_b: BodyLike | None = None,
     ) -> Joint:
         """Let a point of body_a move only in the direction of a blade that is fixed in body_a.
-        Examples are a skate, and a wheel in a plane that is seen from above.
+        Examples are a skate, and a wheel seen from above.
 
         The joint has one row at velocity level [m/s]: the velocity of the point across the blade is
         zero. Give either `point` or point_a.
