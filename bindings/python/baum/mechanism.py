@@ -141,8 +141,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @classmethod
     def of_library(cls, address: Any) -> Mechanism:
-        """Make a Mechanism of the mechanism that a C function has built at this address, and own
-        it."""
+        """Make a Mechanism from the address of a mechanism that a C function has built. From then
+        on, the Mechanism frees the memory at this address."""
         made = cls.__new__(cls)
         made._adopt(address)
         counts: dict[str, int] = {}
@@ -211,8 +211,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     def find(self, family: str, value: Any) -> Any:
         """Return the element of a family ("body", "joint" or "input") for a handle, a name or an
-        id of the library. The id "none" gives None. Raises KeyError or TypeError for other
-        values."""
+        id of the library, and None for an id that stands for no element. Raises KeyError or
+        TypeError for other values."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
@@ -554,7 +554,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
         t: times (n) [s], rising or falling.
         q: positions (n x nq). The page shows them unchanged, including their constraint violations.
-        path: file to write.
+        path: file to write. None writes no file; the returned page has a method save().
         traces: paths to draw, as in Run.page().
         plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
             same unit are drawn in the same plot.

@@ -350,9 +350,10 @@ class Study(_calls.Closing):
     def run(self) -> Study:
         """Compute the reference, and run the entries that are not done. Returns the study.
 
-        A study without entries first adds its grid. A Python warning is issued if the reference
-        cannot be trusted, or if the time budget is spent. If a function of the mechanism raises an
-        exception in a run of an entry, this entry fails, and its message contains the exception.
+        If the study has no entries, this call first adds those of the option `grid`. A Python
+        warning is issued if the reference cannot be trusted, or if the time budget is spent. If a
+        function of the mechanism raises an exception in a run of an entry, this entry fails, and
+        its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
