@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of uniform rods. The first link starts at the origin, and every other link starts at the
- * end of the link before it. Angles are measured from the x axis. */
+/* A chain of uniform rods. The first link starts at the origin, and each further link starts at the
+ * end of the previous one. Angles are measured from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>
