@@ -81,7 +81,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .source = "chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 19 digits; "
-    "another model in double precision agrees to 14.1 digits",
+    "a second, independent model in double precision agrees to 14.1 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS_3, build_3, state_3, "mmr", 3),
   .defaults = (const double[1]){9.81},
   .end = 2.0,

@@ -111,7 +111,7 @@ const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
             "rotate, was chosen here",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.3 digits; "
-    "another model in double precision agrees to 13.3 digits",
+    "a second, independent model in double precision agrees to 13.3 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.08, 0.3, 0.1, 0.12, 0.12, 0.5, 2.0, 1e-4, 4e-4, 4e-3, 1e-3,
                                     9.81, 0.0, 6.0},
