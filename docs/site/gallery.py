@@ -136,7 +136,7 @@ def motion(page, up):
     title = page.stem.replace("_", " ")
     return (
         f'```{{raw}} html\n<iframe class="motion" loading="lazy" title="{title}" src="{up}motion/{page.name}"></iframe>\n'
-        f'<p><a href="{up}motion/{page.name}">Open only the page that shows the motion</a></p>\n```\n\n'
+        f'<p><a href="{up}motion/{page.name}">Open the motion on a page of its own</a></p>\n```\n\n'
     )
 
 

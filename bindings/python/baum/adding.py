@@ -405,7 +405,7 @@ class Adding:
         The joint has one row. A coupling of the two coordinates of one cylindrical joint makes this
         joint a screw. A coupling with a law can describe a cam.
 
-        ratio: in the unit of b per unit of a.
+        ratio: change of b divided by change of a, in the unit of b per unit of a.
         offset: in the unit of b, [rad] or [m]. By default the offset is such that the design
             configuration satisfies the row.
         law(a): f(a), its first and its second derivative. The law replaces ratio and offset, which

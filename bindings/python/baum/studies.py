@@ -120,8 +120,8 @@ class Study(_calls.Closing):
         run = m.simulate(t, **best)
 
     error: channels or their names. The error of a run is the largest difference of these channels
-        from the reference, divided by `unit`. By default it is the largest error of all positions,
-        with lengths divided by the characteristic length, and angles in radians.
+        from the reference, divided by `unit`. By default the error of a run is the largest error of
+        all positions, with lengths divided by the characteristic length, and angles in radians.
     reference: a known motion, which replaces the reference that the study computes itself. It is a
         tuple (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time.
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
