@@ -63,7 +63,7 @@ SECTIONS = {
 IN_C = {
     "cart_pole": {
         "control_loop": "A controller in C keeps a crank at constant speed, and measures the time of its intervals",
-        "predictive_control": "A controller in C tries torques on the run, and then restores its saved state",
+        "predictive_control": "A controller in C tries torques by simulating ahead, and restores the saved run after each trial",
     },
     "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
     "known_rolling_disc": {"rolling_disc": "Two discs in C, one of which rolls steadily"},
