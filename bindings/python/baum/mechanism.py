@@ -587,9 +587,9 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         """Run through times (n) [s]. Return a Run with q, v and the channels in `record` at each
         time.
 
-        The run starts at the option start_time. baum.Simulation describes the options and the
-        errors. Exceptions that this method raises have the attribute `run` with the samples
-        recorded so far.
+        The run starts at the time that the option start_time gives. baum.Simulation describes the
+        options and the errors. Exceptions that this method raises have the attribute `run` with the
+        samples recorded so far.
         """
         return Simulation(self, integrator, **options).sample(times, record)
 

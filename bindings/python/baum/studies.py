@@ -474,9 +474,9 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
-        stays within this limit also from perturbed starts and over twice the time span. If this is
-        not possible, the field `why` of the result says so. Raises baum.Error if no setting has so
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, this setting
+        keeps the limit also in runs from perturbed starts and over twice the time span. If no
+        setting does, the field `why` of the result says so. Raises baum.Error if no setting has so
         small an error."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)
