@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Two legs of Theo Jansen's beach animals, moved by one driven crank. Jansen chose thirteen
-numbers, which are the lengths of the rods. With these lengths, a foot moves along a nearly straight
-line while it is on the ground. The program writes a drawing, and a page that shows the motion."""
+lengths: those of the crank and of the rods, and two distances from the crank to the hip. With these
+lengths, a foot moves along a nearly straight line while it is on the ground. The program writes a
+drawing, and a page that shows the motion."""
 
 import sys
 from pathlib import Path

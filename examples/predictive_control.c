@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Predictive control: a controller tries torques on the run itself. Every two milliseconds it saves
- * the run, simulates one revolution of the crank with each of two torques, and restores the saved
- * run after each trial. It then chooses the torque with which the mean speed is closer to the set
- * point. Saving and restoring allocate no memory. With a one-step method and the block solver, the
- * run continues as if there had been no trial. */
+/* Predictive control of a slider-crank: a controller tries torques of the motor on the run itself.
+ * Every two milliseconds the controller saves the run, simulates one revolution of the crank with
+ * each of two torques, and restores the saved run after each trial. It then chooses the torque with
+ * which the mean speed of the crank is closer to the set point. Saving and restoring allocate no
+ * memory. With a one-step method and the block solver, the run continues as if there had been no
+ * trial. */
 #include <time.h>
 
 #include "slider_crank_model.h"

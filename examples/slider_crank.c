@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* This program reproduces Fig. 3 of Flores et al. 2008. The figure shows the constraint violation
- * Phi_3 of the eccentric slider-crank, whose crank is driven at constant speed. The integrator is
- * explicit Euler, with eight sets of Baumgarte's gains.
+/* This program reproduces Fig. 3 of Flores et al. (EuCoMeS 2008) qualitatively. The figure shows
+ * the constraint violation Phi_3 of the eccentric slider-crank, whose crank is driven at constant
+ * speed. The integrator is explicit Euler, with eight sets of Baumgarte's gains.
  *
  * Phi_3 can be predicted. One step of Euler from the exact motion causes a violation d of Phi_3 and
  * a violation e of Phi_3'. Violations of earlier steps follow equation (6) of the paper. Together

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""This program reproduces Fig. 3 of Flores et al. 2008. The crank of the eccentric slider-crank is
-driven at constant speed. The integrator is explicit Euler, with eight sets of Baumgarte's gains.
+"""This program reproduces Fig. 3 of Flores et al. (EuCoMeS 2008) qualitatively. The crank of the
+eccentric slider-crank is driven at constant speed. The integrator is explicit Euler, with eight
+sets of Baumgarte's gains.
 
 Lengths, masses and inertias are those of Flores, Leine, Glocker, Multibody System Dynamics 23
 (2010) 165, Table 1. The eccentricity and the other numbers are chosen here, because Flores et al.

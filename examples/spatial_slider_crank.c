@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A slider-crank in space. The crank rotates about the z axis. The slider moves on a line parallel
- * to x, which lies beside and above the crank. With these joints the mechanism has one degree of
- * freedom:
+ * to x, which lies beside and above the crank. With the following chain of joints, the mechanism
+ * has one degree of freedom:
  *
  *   ground - revolute - crank - spherical - rod - universal - slider - prismatic - ground
  *

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study of a mechanism that is given entirely by Python functions: a bead moves in oil on a wire
-y = x^2 - x^4 / 4. Most of the time is spent in these functions, so the method with the fewest
-evaluations is the fastest."""
+y = x^2 - x^4 / 4. Most of the time is spent in these functions, so for a given error, the method
+that needs the fewest evaluations is usually the fastest."""
 
 import sys
 

@@ -63,7 +63,7 @@ SECTIONS = {
 IN_C = {
     "cart_pole": {
         "control_loop": "A controller in C keeps a crank at constant speed, and measures the time of its intervals",
-        "predictive_control": "A controller in C tries torques on the run, and then restores its saved state",
+        "predictive_control": "A controller in C tries torques by simulating ahead, and restores the saved run after each trial",
     },
     "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
     "known_rolling_disc": {"rolling_disc": "Two discs in C, one of which rolls steadily"},
@@ -136,7 +136,7 @@ def motion(page, up):
     title = page.stem.replace("_", " ")
     return (
         f'```{{raw}} html\n<iframe class="motion" loading="lazy" title="{title}" src="{up}motion/{page.name}"></iframe>\n'
-        f'<p><a href="{up}motion/{page.name}">Open only the page that shows the motion</a></p>\n```\n\n'
+        f'<p><a href="{up}motion/{page.name}">Open the motion on a page of its own</a></p>\n```\n\n'
     )
 
 

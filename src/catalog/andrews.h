@@ -42,10 +42,10 @@ static const double ANDREWS_C[2] = {.014, .072};
 #define ANDREWS_SOURCE                                                                         \
   "Bari test set, andrews.f (copy in cran/deTestSet); E. Hairer, G. Wanner, Solving ODEs II, " \
   "p. 530 ff"
-#define ANDREWS_PROVENANCE                                                                   \
-  "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.5 digits; "  \
-  "another model in double precision agrees to 13.1 digits; the published values at 0.03 s " \
-  "have 10 digits"
+#define ANDREWS_PROVENANCE                                                                       \
+  "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.5 digits; "      \
+  "a second, independent model in double precision agrees to 13.1 digits; the published values " \
+  "at 0.03 s have 10 digits"
 
 enum { ANDREWS_ANGLES = 7 };
 

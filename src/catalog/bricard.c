@@ -89,8 +89,8 @@ const baum_i_catalog_mechanism baum_i_bricard = {
   .source = "IFToMM and A Coruna library of benchmarks, A04",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 17.1 digits; "
-    "another model in double precision agrees to 9 digits; baum raises the axial inertia of the "
-    "rods from 0 to 1e-10 of the transverse inertia",
+    "a second, independent model in double precision agrees to 9 digits; baum raises the axial "
+    "inertia of the rods from 0 to 1e-10 of the transverse inertia",
   .note = "one redundant row",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", RODS),
   .defaults = (const double[COUNT]){1.0, 1.0, 0.0, 9.81, 0.0, 0.0},

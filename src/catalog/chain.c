@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chain of uniform rods. The first link starts at the origin, and every other link starts at the
- * end of the link before it. Angles are measured from the x axis. */
+/* A chain of uniform rods. The first link starts at the origin, and each further link starts at the
+ * end of the previous one. Angles are measured from the x axis. */
 #include "catalog/chain.h"
 
 #include <math.h>
@@ -81,7 +81,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .source = "chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 19 digits; "
-    "another model in double precision agrees to 14.1 digits",
+    "a second, independent model in double precision agrees to 14.1 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS_3, build_3, state_3, "mmr", 3),
   .defaults = (const double[1]){9.81},
   .end = 2.0,

@@ -118,7 +118,7 @@ const baum_i_catalog_mechanism baum_i_chaplygin_sleigh = {
   .name = "chaplygin_sleigh",
   .title = "Chaplygin's sleigh, whose blade does not slip sideways",
   .source = "S. A. Chaplygin (1911)",
-  .provenance = "closed form of angle and velocities; their integral for the path",
+  .provenance = "closed form of angle and velocities; quadrature for the path of the blade",
   .note = "one row of velocity level",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "mmr", 1),
   .defaults = (const double[COUNT]){2.0, 0.15, 0.3, 0.5, 1.3},

@@ -111,7 +111,7 @@ const baum_i_catalog_mechanism baum_i_flyball = {
             "of the example of EXUDYN",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.2 digits; "
-    "another model in double precision agrees to 12.5 digits",
+    "a second, independent model in double precision agrees to 12.5 digits",
   .defaults =
     (const double[COUNT]){5.0, 4000.0, 200.0, 9.81, 0.5235987755982989, 1.0053096491487339},
   BAUM_I_CATALOG_STORED(FLYBALL, 14),

@@ -82,7 +82,7 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .source = "chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 17 digits; "
-    "another model in double precision agrees to 12.4 digits",
+    "a second, independent model in double precision agrees to 12.4 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 3),
   .defaults = (const double[COUNT]){1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0},
   .end = 5.0,

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A gyroscope in two gimbals, in steady precession. The outer ring rotates by a about z, the inner
- * ring by b about the x axis of the outer ring, and the rotor by c about the y axis of the inner
- * ring. A weight of mass m on the inner ring is at the distance l from the centre, on the axis of
- * the rotor. A and C are the moments of inertia of the rotor across and along its axis. J is the
- * moment of inertia of the inner ring about the normal of its plane, which is its z axis. About x
- * and y, the moment of inertia is J / 2. n = c' + a' sin b is constant. Lagrange's equation for b
- * shows that b is constant if
+/* A gyroscope in two gimbals, in steady precession. The rotation angles are a, b and c: the outer
+ * ring rotates by the angle a about z, the inner ring by the angle b about the x axis of the outer
+ * ring, and the rotor by the angle c about the y axis of the inner ring. A weight of mass m on the
+ * inner ring is at the distance l from the centre, on the axis of the rotor. A and C are the
+ * moments of inertia of the rotor across and along its axis. J is the moment of inertia of the
+ * inner ring about the normal of its plane, which is its z axis. About x and y, the moment of
+ * inertia of the inner ring is J / 2. The component n = c' + a' sin b of the angular velocity of
+ * the rotor along its axis is constant. Lagrange's equation for b shows that b is constant if
  *
  *   C n a' = m g l + (A + J / 2 + m l^2) a'^2 sin b
  */

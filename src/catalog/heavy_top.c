@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A heavy top: a disc on an axis through a fixed point. The axis is the y axis of the body. Its
- * angles are the precession a about z, the elevation b of the axis above the horizontal, and the
- * spin c about the axis. A and C are the moments of inertia about the fixed point: A across the
- * axis, and C along it. The component of the angular velocity along the axis is n. m is the mass,
- * and l the distance of the centre of mass from the fixed point. Then
+/* A heavy top: a disc on an axis through a fixed point. The axis is the y axis of the body. Three
+ * angles give the orientation of the top: the precession a about z, the elevation b of the axis
+ * above the horizontal, and the spin c about the axis. A and C are the moments of inertia about the
+ * fixed point: A across the axis, and C along it. The component of the angular velocity along the
+ * axis is n. m is the mass, and l the distance of the centre of mass from the fixed point. Then
  *
  *   A a' cos(b)^2 + C n sin b = const,  C n = C (c' + a' sin b) = const
  *   A b'' = -A a'^2 sin b cos b + C n a' cos b - m g l cos b

@@ -6,10 +6,10 @@
  *
  *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
  *
- * This is the pendulum equation for th + pi / 2. When the cranks lie on the x axis, the two cranks
- * of each window (two cranks and a coupler) may change from parallel to crossed. With all cranks on
- * the x axis, the rank of the constraint Jacobian J is lower by N than in neighbouring
- * configurations.
+ * This is the pendulum equation for th + pi / 2. A window consists of two neighbouring cranks and
+ * their coupler. When the cranks lie on the x axis, the two cranks of each window may change from
+ * parallel to crossed. With all cranks on the x axis, the rank of the constraint Jacobian J is
+ * lower by N than in neighbouring configurations.
  */
 #include "catalog/catalog.h"
 

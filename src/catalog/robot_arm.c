@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A robot arm with six revolute joints, about z, y, y, x, y and x. When all angles are 0, the first
- * link points up, and the others are stretched along x. A driver sets the angle of joint k to
- * A_k sin w_k t. */
+ * link points up, and the others are stretched along x. A driver sets the angle of joint k to A_k
+ * sin(w_k t), with the amplitude A_k and the angular frequency w_k. */
 #include <float.h>
 #include <math.h>
 

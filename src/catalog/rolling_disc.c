@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A thin disc that rolls on a plane in steady motion. Its centre moves on a circle. The axis of the
- * disc is the y axis of the body. Its angles are the heading a about z, the constant elevation b of
- * the axis above the plane, and the spin c about the axis. m and R are mass and radius; A and C are
- * the moments of inertia across and along the axis. n = c' + a' sin b is the component of the
- * angular velocity along the axis. The centre has the velocity R n, so the circle has the radius
- * R n / a'. The balance of moments about the centre gives
+ * disc is the y axis of the body. Three angles give the orientation of the disc: the heading a
+ * about z, the constant elevation b of the axis above the plane, and the spin c about the axis. m
+ * and R are mass and radius; A and C are the moments of inertia across and along the axis. n = c' +
+ * a' sin b is the component of the angular velocity along the axis. The centre has the velocity R
+ * n, so the circle has the radius R n / a'. The balance of moments about the centre gives
  *
  *   n a' cos b (C + m R^2) = A a'^2 sin b cos b - m g R sin b
  */

@@ -146,7 +146,7 @@ const baum_i_catalog_mechanism baum_i_slider_crank = {
   .source = FLORES,
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 18 digits; "
-    "another model in double precision agrees to 12.8 digits",
+    "a second, independent model in double precision agrees to 12.8 digits",
   .defaults = CENTRIC,
 };
 
@@ -158,7 +158,7 @@ const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
   .source = FLORES "; the eccentricity was chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 17 digits; "
-    "another model in double precision agrees to 12.8 digits",
+    "a second, independent model in double precision agrees to 12.8 digits",
   .defaults = baum_i_slider_crank_data,
 };
 

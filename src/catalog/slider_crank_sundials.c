@@ -110,8 +110,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank_sundials = {
   .source = "LLNL/sundials, examples/ida/serial/idaSlCrank_dns.c (R. Serban)",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 24 digits; "
-    "another model in double precision agrees to 14.9 digits; the 41 published rows have 5 "
-    "digits; they contain the error of a run at rtol 1e-6",
+    "a second, independent model in double precision agrees to 14.9 digits; the 41 published rows "
+    "have 5 digits; they contain the error of a run at rtol 1e-6",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 2),
   .defaults = (const double[COUNT]){0.5, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0},
   .end = 10.0,

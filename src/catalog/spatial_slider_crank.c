@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A spatial slider-crank. The crank rotates about an axis parallel to x, which is beside and above
- * the line on which the slider moves. If the angle of the crank is a and its tip is at (0, y, z),
- * the slider is at (x, 0, 0). With the lengths l1 of the crank and l2 of the rod:
+ * the line on which the slider moves. Let a be the angle of the crank, (0, y, z) the position of
+ * its tip, and (x, 0, 0) the position of the slider. With the lengths l1 of the crank and l2 of the
+ * rod:
  *
  *   y = beside - l1 sin a,  z = above + l1 cos a,  x = sqrt(l2^2 - y^2 - z^2)
  *
@@ -110,7 +111,7 @@ const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
             "rotate, was chosen here",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.3 digits; "
-    "another model in double precision agrees to 13.3 digits",
+    "a second, independent model in double precision agrees to 13.3 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 3),
   .defaults = (const double[COUNT]){0.08, 0.3, 0.1, 0.12, 0.12, 0.5, 2.0, 1e-4, 4e-4, 4e-3, 1e-3,
                                     9.81, 0.0, 6.0},

@@ -152,7 +152,7 @@ class Adding:
         inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
             False.
-        user: the last argument of compiled functions, an address or an object of ctypes.
+        user: passed to compiled functions as the last argument: an address or an object of ctypes.
 
         If the positions do not form a vector, for example if they are a unit quaternion, also give
         the arguments below. Derivatives with respect to q are then derivatives along displacements,
@@ -354,12 +354,12 @@ class Adding:
         Choose F such that the length of its gradient is about 1 near the curve. F is then
         approximately the distance from the curve. Give either `point`, or both point_a and point_b.
 
-        curve(xy): the numbers F [m], F_x, F_y, F_xx, F_xy, F_yy at the point xy [m]. The
-            coordinates xy are in the axes of body_a, with body_a's point as origin.
+        curve(xy): F [m] and its partial derivatives F_x, F_y, F_xx, F_xy, F_yy at the point xy [m].
+            The coordinates xy are in the axes of body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
         point_a, point_b: the origin of the curve in the axes of body_a, and the point of body_b in
             the axes of body_b [m].
-        user: the last argument of a compiled function.
+        user: passed to a compiled function as its last argument.
         """
         return self._add(Joint, "planar_curve", locals())
 
@@ -405,12 +405,12 @@ class Adding:
         The joint has one row. A coupling of the two coordinates of one cylindrical joint makes this
         joint a screw. A coupling with a law can describe a cam.
 
-        ratio: in the unit of b per unit of a.
+        ratio: change of b divided by change of a, in the unit of b per unit of a.
         offset: in the unit of b, [rad] or [m]. By default the offset is such that the design
             configuration satisfies the row.
         law(a): f(a), its first and its second derivative. The law replaces ratio and offset, which
             must then have their defaults.
-        user: the last argument of a compiled function.
+        user: passed to a compiled function as its last argument.
         coordinate_a, coordinate_b: which coordinate of each joint, as in driver().
         """
         return self._add(Joint, "coupling", locals())
@@ -439,7 +439,7 @@ class Adding:
         acceleration: second derivative, constant [rad/s^2] or [m/s^2].
         law(t): the value, its first and its second derivative at the time t [s]. The law replaces
             value, rate and acceleration, which must then be 0.
-        user: the last argument of a compiled function.
+        user: passed to a compiled function as its last argument.
         coordinate: which coordinate of the joint. The list below gives the names for each type of
             joint, and "first" stands for the first of these names.
 
@@ -495,7 +495,7 @@ class Adding:
         nu(t, q): minus the partial derivative of Phi with respect to t (rows).
         gamma(t, q, v): gamma, the right-hand side of the equation J a = gamma for the accelerations
             a (rows).
-        user: the last argument of compiled functions.
+        user: passed to compiled functions as the last argument.
 
         Only `phi` is required. If you do not give the other functions, the library computes them by
         differences, for which it calls `phi` often: for two coordinates, about 150 times in a step
@@ -552,7 +552,7 @@ class Adding:
             The spring then has no potential energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
             False.
-        user: the last argument of a compiled function.
+        user: passed to a compiled function as its last argument.
         """
         return self._add(Force, "planar_spring", locals())
 
@@ -660,7 +660,7 @@ class Adding:
             inputs=["torque"] the library calls force(t, q, v, torque).
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
             False.
-        user: the last argument of compiled functions.
+        user: passed to compiled functions as the last argument.
         """
         return self._add(Force, "user_force", locals())
 

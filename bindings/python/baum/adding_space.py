@@ -339,13 +339,13 @@ class AddingInSpace:
         the curve. For a helix with the radius r and the rise c per radian, F = x - r cos(z / c) and
         G = y - r sin(z / c). Give either `point`, or both point_a and point_b.
 
-        curve(xyz): 20 numbers at the point xyz [m]: F [m], F_x, F_y, F_z, F_xx, F_xy, F_xz, F_yy,
-            F_yz, F_zz, and then the same ten numbers of G. The coordinates xyz are in the axes of
-            body_a, with body_a's point as origin.
+        curve(xyz): 20 numbers at the point xyz [m]: F [m] and its partial derivatives F_x, F_y,
+            F_z, F_xx, F_xy, F_xz, F_yy, F_yz, F_zz, and then the same ten numbers of G. The
+            coordinates xyz are in the axes of body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
         point_a, point_b: the origin of the curve in the axes of body_a, and the point of body_b in
             the axes of body_b [m].
-        user: the last argument of a compiled function.
+        user: passed to a compiled function as its last argument.
         """
         return self._add(Joint, "spatial_curve", locals())
 
@@ -443,9 +443,9 @@ class AddingInSpace:
         axis: ArrayLike = (0.0, 0.0, 1.0),
         axis_b: ArrayLike | None = None,
     ) -> Joint:
-        """Connect two shafts that meet at a point and rotate with equal angular velocities about
-        their axes. The angle between the axes may have any value below 180 degrees. The joint has
-        four rows: three for the points [m] and one for the rotation [-].
+        """Connect two shafts that meet at a point, so that they rotate with equal angular
+        velocities about their axes. The angle between the axes may have any value below 180
+        degrees. The joint has four rows: three for the points [m] and one for the rotation [-].
 
         axis, axis_b: directions of the shafts. All arguments are given as in spatial_revolute().
         """

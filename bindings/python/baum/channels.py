@@ -42,8 +42,11 @@ class Channel:
 
     @classmethod
     def of_bytes(cls, key: str, struct: bytes, tag: int) -> Channel:
-        """Make a channel from the bytes of its struct. The ids in the struct get the tag that
-        identifies a mechanism."""
+        """Make a channel from the bytes of its struct in C.
+
+        tag: a number that identifies the mechanism. The ids of bodies and joints in the channel get
+            this number.
+        """
         made = cls(key, 0)
         made.struct = _abi.baum_channel.from_buffer_copy(struct)
         for id in (made.struct.body, made.struct.joint):

@@ -208,7 +208,7 @@ class Joint(Element):
 
     @property
     def phi(self) -> Channel:
-        """Channel: constraint violation Phi [m], [rad], with one column for each row."""
+        """Channel of the constraint violation Phi [m], [rad], with one column for each row."""
         return self._channel("phi", _Q.BAUM_PHI)
 
     @property
@@ -219,7 +219,7 @@ class Joint(Element):
 
     @property
     def multipliers(self) -> Channel:
-        """Channel: Lagrange multipliers of the rows [N], [N m]."""
+        """Channel of the Lagrange multipliers [N], [N m], with one column for each row."""
         return self._channel("multipliers", _Q.BAUM_LAMBDA)
 
     @property
@@ -227,14 +227,14 @@ class Joint(Element):
         """Channel: the force [N] and the moment [N m] that the joint exerts on body_b, in ground
         axes. The moment is about the joint's point on body_b. For joints in space, force and moment
         have three components each. For a gear, a coupling or a user constraint, the channel has the
-        generalized force -J^T lambda, with one number for each velocity of its bodies. J is the
-        Jacobian of the rows, and lambda are their multipliers."""
+        generalized force -J^T lambda, with one number for each velocity of the bodies. J is the
+        Jacobian of the joint's rows, and lambda are the multipliers of these rows."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
     def coordinate(self) -> Channel:
-        """Channel: the coordinate of the joint and its velocity. They are in [rad], [rad/s] for a
-        revolute joint, and in [m], [m/s] for a joint along an axis.
+        """Channel: the coordinate of the joint and the time derivative of this coordinate. They are
+        in [rad], [rad/s] for a revolute joint, and in [m], [m/s] for a joint along an axis.
 
         If a joint has several coordinates, the channel has the first one: the displacement of a
         cylindrical joint, the angle of a universal joint, or x of a planar joint in space.
@@ -243,27 +243,30 @@ class Joint(Element):
 
     @property
     def displacement(self) -> Channel:
-        """Channel: displacement along the axis and its velocity [m], [m/s]."""
+        """Channel of the displacement [m] and of the velocity [m/s] along the axis."""
         return self._coordinate("displacement")
 
     @property
     def angle(self) -> Channel:
-        """Channel: angle about the axis and its velocity [rad], [rad/s]."""
+        """Channel of the angle [rad] and of the angular velocity [rad/s] about the axis."""
         return self._coordinate("angle")
 
     @property
     def angle_b(self) -> Channel:
-        """Channel: angle of a universal joint about axis_b and its velocity [rad], [rad/s]."""
+        """Channel of the angle [rad] and of the angular velocity [rad/s] about axis_b of a
+        universal joint."""
         return self._coordinate("angle_b")
 
     @property
     def x(self) -> Channel:
-        """Channel: first displacement of a planar joint in space and its velocity [m], [m/s]."""
+        """Channel of the displacement [m] and of the velocity [m/s] along x of a planar joint in
+        space."""
         return self._coordinate("x")
 
     @property
     def y(self) -> Channel:
-        """Channel: second displacement of a planar joint in space and its velocity [m], [m/s]."""
+        """Channel of the displacement [m] and of the velocity [m/s] along y of a planar joint in
+        space."""
         return self._coordinate("y")
 
     @property

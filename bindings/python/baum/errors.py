@@ -117,7 +117,7 @@ class RedundantRowsWarning(Warning):
 
 
 class GainsWarning(Warning):
-    """With these gains, constraint violations may grow, or not decay, or decay slowly."""
+    """With the gains of the run, constraint violations may grow, or not decay, or decay slowly."""
 
     code = 2
 
@@ -141,7 +141,8 @@ class LooseVelocitiesWarning(Warning):
 
 
 class EnergyAccountWarning(Warning):
-    """The energy account has ended, because an evaluation for it failed."""
+    """An evaluation for the energy account has failed. The run continues, but the works in the
+    account are NaN from then on."""
 
     code = 6
 
@@ -159,7 +160,8 @@ class SingularityCrossedWarning(Warning):
 
 
 class ErrorUnknownWarning(Warning):
-    """The estimate of the error has ended, so the error of the motion is unknown."""
+    """The error of the motion is unknown, because the second integration that estimates it has
+    failed or was too expensive. The run itself is not affected."""
 
     code = 9
 

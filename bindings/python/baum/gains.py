@@ -83,8 +83,8 @@ def auto() -> Gains:
     """Gains that suit the speed of the motion: alpha = beta = c omega.
 
     omega is the mean angular velocity of the motion. A short run at the beginning measures it while
-    the mechanism rotates through its first radians. The factor c is 0.05 to 0.35 and depends on the
-    integrator. With these gains the integrator keeps its order. If drivers prescribe all degrees of
-    freedom, the gains are larger.
+    the mechanism rotates through its first radians. The factor c depends on the integrator. It is
+    0.05 to 0.35, or 0.6 to 40 if drivers prescribe all degrees of freedom. With these gains the
+    integrator keeps its order.
     """
     return Gains("auto")

@@ -141,8 +141,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @classmethod
     def of_library(cls, address: Any) -> Mechanism:
-        """Make a Mechanism of the mechanism that a C function has built at this address, and own
-        it."""
+        """Make a Mechanism from the address of a mechanism that a C function has built. From then
+        on, the Mechanism frees the memory at this address."""
         made = cls.__new__(cls)
         made._adopt(address)
         counts: dict[str, int] = {}
@@ -211,8 +211,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     def find(self, family: str, value: Any) -> Any:
         """Return the element of a family ("body", "joint" or "input") for a handle, a name or an
-        id of the library. The id "none" gives None. Raises KeyError or TypeError for other
-        values."""
+        id of the library, and None for an id that stands for no element. Raises KeyError or
+        TypeError for other values."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self._handle(value, [family]) if isinstance(value, str) else value
@@ -243,8 +243,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         return struct
 
     def kept_objects(self) -> Iterator[tuple[int, tuple[Any, tuple[int, ...]]]]:
-        """Return the functions and `user` objects of all definitions. Each comes with its address
-        and with the indices of the inputs that it receives."""
+        """Return the functions and `user` objects of all definitions, each with its address and
+        with the indices of the inputs whose values it receives."""
         for kept in self._keep:
             wrapped, value, inputs = kept if isinstance(kept, tuple) else (kept, kept, ())
             try:
@@ -554,7 +554,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
         t: times (n) [s], rising or falling.
         q: positions (n x nq). The page shows them unchanged, including their constraint violations.
-        path: file to write.
+        path: file to write. None writes no file; the returned page has a method save().
         traces: paths to draw, as in Run.page().
         plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
             same unit are drawn in the same plot.
@@ -587,9 +587,9 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         """Run through times (n) [s]. Return a Run with q, v and the channels in `record` at each
         time.
 
-        The run starts at the option start_time. baum.Simulation describes the options and the
-        errors. Exceptions that this method raises have the attribute `run` with the samples
-        recorded so far.
+        The run starts at the time that the option start_time gives. baum.Simulation describes the
+        options and the errors. Exceptions that this method raises have the attribute `run` with the
+        samples recorded so far.
         """
         return Simulation(self, integrator, **options).sample(times, record)
 

@@ -115,8 +115,8 @@ class Run(Strict):
     q: positions (n x nq).
     v: velocities (n x nv).
     status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early.
-    failure: the message of the error if the run has failed, otherwise None. The attribute `run` of
-        the exception is then this Run.
+    failure: the message of the error if the run has failed, otherwise None. The baum.Error that a
+        failed run raises has this Run as its attribute `run`.
     counters: what the run has cost.
     explain: the methods of the run in words.
     warnings: a list with one baum.Warning for each kind of warning.
@@ -124,7 +124,7 @@ class Run(Strict):
         the whole simulation up to the last sample.
     energy_account: the energy account at the last sample; None without the option energy_account.
 
-    run["B.phi"] or run[m["B"].phi] is a recorded channel (n x columns). Poses and velocities of
+    run["B.phi"] or `run[m["B"].phi]` is a recorded channel (n x columns). Poses and velocities of
     bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
     available.
     """
@@ -381,8 +381,8 @@ class Run(Strict):
 
         Warnings and events are marks on the time axis. A page keeps at most 600 samples. The
         samples at which a plotted column has its largest or its smallest value are among them.
-        Raises ValueError for a run without its mechanism, and KeyError for a channel that was not
-        recorded.
+        Raises ValueError if the attribute `mechanism` is None, and KeyError for a channel that was
+        not recorded.
         """
         self._page(title, traces, forces, plots).save(path)
 
@@ -441,7 +441,7 @@ class Run(Strict):
         velocities at both samples, and reactions are interpolated linearly. The frame of the
         picture is large enough for the whole motion, so that pictures at several times have the
         same scale; m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a
-        time outside of the run, and for a run without its mechanism.
+        time outside of the run, and if the attribute `mechanism` is None.
         """
         motion = _motion.of_run(self, self._recorded(), traces, forces)
         time = number(t, "t")
@@ -473,7 +473,7 @@ class Run(Strict):
             after each frame.
 
         Raises ImportError without Matplotlib, RuntimeError without ffmpeg, and ValueError for other
-        suffixes and for a run without its mechanism.
+        suffixes and if the attribute `mechanism` is None.
         """
         motion = _motion.of_run(self, self._recorded(), traces, forces)
         movies.write(self, motion, path, fps, speed, size, progress)

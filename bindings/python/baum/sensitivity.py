@@ -89,7 +89,7 @@ def sensitivities(
     derivative differ by more than 1e-4 of the largest derivative, unless rounding explains this.
     For a channel, the largest derivative is taken over all samples of a column. Each kind of
     warning that runs have caused is issued once. Raises baum.Error if a run fails. Raises
-    ValueError for a step that is not > 0, or that is below 1e-8 times the number.
+    ValueError if the change of a number is not positive, or is below 1e-8 times the number.
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")

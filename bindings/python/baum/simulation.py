@@ -208,8 +208,8 @@ class Simulation(_calls.Closing):
     step: length of a fixed step [s], positive.
     rtol: tolerance of the local error [-], between 0 and 1, relative to typical sizes of q and v
         (their scales).
-    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. By
-        default there is none.
+    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. None
+        adds nothing.
     max_step: longest variable step [s], by default unlimited. Set max_step if a force is zero at
         first and begins to act later: a long step could miss this beginning. Also set it if an
         event function may pass zero twice within a quarter of a step.
@@ -229,17 +229,18 @@ class Simulation(_calls.Closing):
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts such a configuration and does not assemble it.
     solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
-    check_derivatives: True first compares the derivatives of your functions with finite
-        differences, and does so again at some states of the run. If a derivative is wrong there,
-        the run warns with WrongDerivativeWarning.
-    max_steps: number of steps after which a call fails.
+    check_derivatives: True compares the derivatives of your functions with finite differences, at
+        the start and at some later states of the run. A derivative that is wrong at the start
+        raises baum.Error. For one that is wrong later, the run issues a WrongDerivativeWarning.
+    max_steps: largest number of steps in one call that advances the run. A call that needs more
+        steps fails.
     energy_account: True computes the work of all forces during the run. The property and the
         channel `energy_account` report this work.
     error_check: True estimates the error of the motion by a second integration
-        (counters.error_estimate), and warns if the error is large or if this estimate ends. rtol
-        must be at least 2e-14. Without this option, a run with
-        fixed steps makes this second integration only if the sum of its local errors becomes large
-        enough to matter.
+        (counters.error_estimate). The run warns if the error is large, or if the second integration
+        fails or becomes too expensive, so that the error is unknown. rtol must be at least 2e-14.
+        Without this option, a run with fixed steps makes a second integration only if the sum of
+        its local errors becomes large enough to matter.
     progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
         of its steps is not known in advance. A function progress(t) is called every
         progress_interval seconds of wall time. It cancels the run if it returns a true value.
@@ -422,7 +423,8 @@ class Simulation(_calls.Closing):
     def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
         """Set the number of whole revolutions in an angle of a spatial joint, for example after
         set_state() has given a new run the state of another run. The run restarts at its present
-        state, and the angle has the possible value that is nearest to the given one [rad].
+        state. Of all values that differ from the present angle by whole revolutions, the angle
+        takes the one that is nearest to the given angle [rad].
 
         coordinate: which angle of the joint, as in Mechanism.driver().
         """
@@ -507,7 +509,8 @@ class Simulation(_calls.Closing):
         the function passes zero twice within a quarter of a step, the run may miss both events. To
         avoid this, set the option max_step, or take a smaller step.
 
-        direction: 1 if only a rising function counts, -1 if only a falling one counts, 0 for both.
+        direction: 1 if the event happens only when the coordinate or the function rises, -1 if it
+            happens only when the coordinate or the function falls, 0 for both.
         terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
             call continues. False only records the event in `events`.
         name: name of the event in messages and in `events`, by default "event 0", "event 1", ...
@@ -564,8 +567,8 @@ class Simulation(_calls.Closing):
         """Restore a state from save() of this run, or of another run with the same mechanism and
         the same options.
 
-        Raises baum.Error with Status.ERR_BUFFER for other bytes. Python warnings of the saved run
-        are not issued again.
+        Raises baum.Error with Status.ERR_BUFFER for bytes that no such run has saved. Python
+        warnings of the saved run are not issued again.
         """
         given = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, given, len(given))

@@ -120,8 +120,8 @@ class Study(_calls.Closing):
         run = m.simulate(t, **best)
 
     error: channels or their names. The error of a run is the largest difference of these channels
-        from the reference, divided by `unit`. By default it is the largest error of all positions,
-        with lengths divided by the characteristic length, and angles in radians.
+        from the reference, divided by `unit`. By default the error of a run is the largest error of
+        all positions, with lengths divided by the characteristic length, and angles in radians.
     reference: a known motion, which replaces the reference that the study computes itself. It is a
         tuple (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time.
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
@@ -350,9 +350,10 @@ class Study(_calls.Closing):
     def run(self) -> Study:
         """Compute the reference, and run the entries that are not done. Returns the study.
 
-        A study without entries first adds its grid. A Python warning is issued if the reference
-        cannot be trusted, or if the time budget is spent. If a function of the mechanism raises an
-        exception in a run of an entry, this entry fails, and its message contains the exception.
+        If the study has no entries, this call first adds those of the option `grid`. A Python
+        warning is issued if the reference cannot be trusted, or if the time budget is spent. If a
+        function of the mechanism raises an exception in a run of an entry, this entry fails, and
+        its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -473,9 +474,9 @@ class Study(_calls.Closing):
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error
-        stays within this limit also from perturbed starts and over twice the time span. If this is
-        not possible, the field `why` of the result says so. Raises baum.Error if no setting has so
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, this setting
+        keeps the limit also in runs from perturbed starts and over twice the time span. If no
+        setting does, the field `why` of the result says so. Raises baum.Error if no setting has so
         small an error."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)

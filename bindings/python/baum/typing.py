@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Types for annotations of your own functions and variables.
 
-from baum.typing import Array
+    from baum.typing import Array
 
-def drag(t: float, q: Array, v: Array) -> Array:
-    return -0.1 * v
+    def drag(t: float, q: Array, v: Array) -> Array:
+        return -0.1 * v
 """
 
 from __future__ import annotations

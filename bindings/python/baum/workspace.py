@@ -77,7 +77,8 @@ class Workspace(_calls.Closing):
     def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
         """Set the number of whole revolutions in an angle of a spatial joint. Positions determine
         such an angle only up to whole revolutions. From this call on, the workspace uses the value
-        that is nearest to the given angle [rad]. Before the first such call, the given angle is 0.
+        that is nearest to the given angle [rad]. Before the first such call, it uses the value that
+        is nearest to 0.
 
         coordinate: which angle of the joint, as in Mechanism.driver().
         """
