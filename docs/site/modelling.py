@@ -78,6 +78,10 @@ SYMBOLS = {
 VELOCITY_LEVEL = ("planar_knife_edge", "spatial_knife_edge", "spatial_rolling_disc", "user_constraint")
 CHANNELS = """pose velocity acceleration coordinate displacement angle angle_b x y reaction effort multipliers phi
  phi_rate""".split()
+# What the channels are called in C. All other channels are BAUM_JOINT_COORDINATE.
+QUANTITIES = {"pose": "BAUM_BODY_POSE", "velocity": "BAUM_BODY_VELOCITY", "acceleration": "BAUM_BODY_ACCELERATION"}
+QUANTITIES |= {"reaction": "BAUM_JOINT_REACTION", "effort": "BAUM_DRIVE_EFFORT", "multipliers": "BAUM_LAMBDA"}
+QUANTITIES |= {"phi": "BAUM_PHI", "phi_rate": "BAUM_PHI_RATE"}
 
 
 def equations():
@@ -140,7 +144,9 @@ def fields(xml, name):
             for part in (member.find("briefdescription"), member.find("detaileddescription"))
         )
         about = re.sub(r"\s+", " ", about).replace("|", "\\|").strip()
-        text += f"| `{field}` | `{type_.strip()}` | {about} |\n"
+        type_ = type_.strip()
+        type_ = f"{{c:type}}`{type_[:-2]}` \\*" if type_.endswith("_fn *") else f"`{type_}`"
+        text += f"| `{field}` | {type_} | {about} |\n"
     return text
 
 
@@ -249,12 +255,23 @@ class Page:
             text += f"## What a run can record\n\nFor example, `{first}`. The following names can follow the dot; the number in "
             text += f"parentheses is the number of values: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
+            text += self.in_c(found)
         links = uses(self.method)
         text += f"Used in: {'; '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
 
+    def in_c(self, found):
+        """Return how C names the channels of the element."""
+        quantities = [QUANTITIES.get(one[1:].split("`")[0], "BAUM_JOINT_COORDINATE") for one in found]
+        names = ", ".join(f"`{name}`" for name in dict.fromkeys(quantities))
+        of = "body" if self.kind.family == "body" else "joint"
+        text = f"In C, {{c:func}}`baum_channel_of_{of}` makes a channel of one of these quantities: {names}."
+        if any(f"`{one}`" in " ".join(found) for one in ("angle_b", "x", "displacement")):
+            text += " The field `coordinate` of the channel selects the coordinate."
+        return text + "\n\n"
+
     def equations(self):
-        what = {"body": "Coordinates", "joint": "Rows Phi = 0", "force": "Acts with"}[self.kind.family]
+        what = {"body": "Coordinates", "joint": "Rows Φ = 0", "force": "Acts with"}[self.kind.family]
         what = "Prescribed coordinate s(t)" if "driver" in self.name else what
         text = f"**{what}:** {self.cells[0]}\n\n"
         if self.kind.family == "joint" and len(self.cells) > 2:
