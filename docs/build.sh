@@ -28,7 +28,8 @@ source=$PWD/build/site-source
 rm -rf "$source" build/site build/site-doctrees build/site-extra
 mkdir -p "$source/bindings/python" build/site-doxygen
 cp -Rp docs "$source/docs"
-cp -p docs/site/index.md README.md "$source"
+cp -p docs/site/index.md "$source"
+sed '1s/.*/# Overview/' README.md >"$source/README.md"  # the first page is called baum, too
 cp -p bindings/python/README.md "$source/bindings/python"
 ln -s "$PWD/include" "$PWD/examples" "$PWD/LICENSE" "$source"
 

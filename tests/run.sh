@@ -182,12 +182,16 @@ stage_browser() {
     "$venv/bin/python" tests/browser/check_shapes.py build/browser
 }
 
-# Builds the documentation site, and runs all programs of the cookbook, including those that need SciPy.
+# Builds the documentation site, and runs the programs of the cookbook and of docs/scenes.md, including those that need SciPy,
+# Numba, SALib or Optuna.
 stage_site() {
   build_dev
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so sh docs/build.sh
-  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
-    build/site-venv/bin/python -m unittest discover -s tests/python -p test_cookbook.py
+  quietly build/site-venv/bin/python -m pip install --quiet numba==0.68.1 SALib==1.6.0 optuna==5.0.0
+  for programs in test_cookbook.py test_recipes.py; do
+    BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+      build/site-venv/bin/python -m unittest discover -s tests/python -p "$programs"
+  done
   need_packages chromium
   build/site-venv/bin/python tests/browser/check_site.py build/site
 }

@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "docs" / "site"))
 project = "baum"
 author = "the authors of baum"
 version = release = baum.library_version
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "docstrings", "equations", "tabs"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "docstrings", "equations", "links", "tabs"]
 exclude_patterns = ["examples", "include", "docs/site"]
 highlight_language = "none"
 smartquotes = False  # Phi'' is a second derivative

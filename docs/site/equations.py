@@ -39,7 +39,14 @@ def typeset_line(line, wide):
         lambda m: m[1].translate(SUPERSCRIPTS).ljust(len(m[0]) if wide else 1),
         new,
     )
-    return re.sub(r" {3,}(?=\(\d+\)$)", lambda m: m[0] + " " * (len(line) - len(new)), new)
+    return new
+
+
+def move_numbers(lines):
+    """Move the numbers of equations from the right margin to the longest line, so that a phone shows them, too."""
+    parts = [re.fullmatch(r"(.*?)(?: {3,}(\(\d+\)))?", line).groups() for line in lines]
+    width = max(len(equation) for equation, _ in parts) + 4
+    return [equation.ljust(width) + number if number else equation for equation, number in parts]
 
 
 class Translator(HTML5Translator):
@@ -69,7 +76,7 @@ class Translator(HTML5Translator):
         if plain and name.startswith(("docs/theory/", "docs/notation", "docs/space")):
             lines = node.astext().split("\n")
             wide = len(lines) > 1 and "[" in lines[0]
-            node.rawsource = "\n".join(typeset_line(line, wide) for line in lines)
+            node.rawsource = "\n".join(move_numbers([typeset_line(line, wide) for line in lines]))
             node.children = [nodes.Text(node.rawsource)]
         super().visit_literal_block(node)
 

@@ -79,6 +79,10 @@ SYMBOLS = {
 VELOCITY_LEVEL = ("planar_knife_edge", "spatial_knife_edge", "spatial_rolling_disc", "user_constraint")
 CHANNELS = """pose velocity acceleration coordinate displacement angle angle_b x y reaction effort multipliers phi
  phi_rate""".split()
+# What the channels are called in C. All other channels are BAUM_JOINT_COORDINATE.
+QUANTITIES = {"pose": "BAUM_BODY_POSE", "velocity": "BAUM_BODY_VELOCITY", "acceleration": "BAUM_BODY_ACCELERATION"}
+QUANTITIES |= {"reaction": "BAUM_JOINT_REACTION", "effort": "BAUM_DRIVE_EFFORT", "multipliers": "BAUM_LAMBDA"}
+QUANTITIES |= {"phi": "BAUM_PHI", "phi_rate": "BAUM_PHI_RATE"}
 
 
 def equations():
@@ -147,7 +151,9 @@ def fields(xml, name):
         type_ = "".join(member.find("type").itertext()) + (member.findtext("argsstring") or "")
         about = " ".join(text_of(member.find(part)) for part in ("briefdescription", "detaileddescription"))
         about = re.sub(r"\s+", " ", about).replace("|", "\\|").strip()
-        text += f"| `{field}` | `{type_.strip()}` | {about} |\n"
+        type_ = type_.strip()
+        type_ = f"{{c:type}}`{type_[:-2]}` \\*" if type_.endswith("_fn *") else f"`{type_}`"
+        text += f"| `{field}` | {type_} | {about} |\n"
     return text
 
 
@@ -258,6 +264,7 @@ class Page:
             text += f"## What a run can record\n\nThe argument `record` names what a run records, as in `{first}`. The following "
             text += f"names can follow the dot; the number in parentheses is the number of values: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
+            text += self.in_c(found)
         links = uses(self.method)
         text += f"Used in: {'; '.join(links)}.\n\n" if links else ""
         return text + f"Reference: {{py:meth}}`baum.Mechanism.{self.method}`, {{c:struct}}`baum_{self.name}_def`.\n"
@@ -277,6 +284,16 @@ class Page:
             else:
                 sys.exit(f"modelling.py: Mechanism.{self.method} has no argument {name}")
         return text
+
+    def in_c(self, found):
+        """Return how C names the channels of the element."""
+        quantities = [QUANTITIES.get(one[1:].split("`")[0], "BAUM_JOINT_COORDINATE") for one in found]
+        names = ", ".join(f"`{name}`" for name in dict.fromkeys(quantities))
+        of = "body" if self.kind.family == "body" else "joint"
+        text = f"In C, {{c:func}}`baum_channel_of_{of}` makes a channel of one of these quantities: {names}."
+        if any(f"`{one}`" in " ".join(found) for one in ("angle_b", "x", "displacement")):
+            text += " The field `coordinate` of the channel selects the coordinate."
+        return text + "\n\n"
 
     def equations(self):
         what = {"body": "Coordinates", "joint": "Rows Φ = 0", "force": "Acts with"}[self.kind.family]
