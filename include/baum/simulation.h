@@ -718,8 +718,7 @@ typedef struct baum_counters {
   int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
   /** [-] evaluations in which the matrix in equation (7) was almost singular. */
   int64_t near_singular;
-  /** [-] number of kinds of warnings that occurred, see baum_simulation_warning(). */
-  int64_t warnings;
+  int64_t warnings;                 /**< [-] number of kinds of warnings that occurred. */
   double wall;                      /**< [s] wall time inside advance_to, step and sample. */
   double max_phi;                   /**< [m or rad] largest violation |Phi| over all steps. */
   double max_phi_rate;              /**< [m/s or rad/s] largest rate |Phi'| over all steps. */
@@ -748,7 +747,7 @@ typedef struct baum_counters {
    *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
    *  spectral_radius is NaN. */
   double damping;
-  /** [-] number of near-singular intervals, see baum_simulation_near_singular(). */
+  /** [-] number of intervals in which the run was near a singular configuration. */
   int64_t near_singular_intervals;
   /** [-] near-singular intervals after which the motion is, or may be, on another branch. */
   int64_t branch_warnings;

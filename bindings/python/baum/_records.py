@@ -123,7 +123,7 @@ class Counters(NamedTuple):
         RATTLE and generalized-alpha.
     restarts: [-] restarts of multistep and variable-step methods.
     near_singular: [-] evaluations in which the matrix in equation (7) was almost singular.
-    warnings: [-] number of kinds of warnings that occurred, see warnings.
+    warnings: [-] number of kinds of warnings that occurred.
     wall: [s] wall time inside advance_to, step and sample.
     max_phi: [m or rad] largest violation |Phi| over all steps.
     max_phi_rate: [m/s or rad/s] largest rate |Phi'| over all steps.
@@ -149,7 +149,8 @@ class Counters(NamedTuple):
     damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
         alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
         violations grow. NaN if spectral_radius is NaN.
-    near_singular_intervals: [-] number of near-singular intervals, see near_singular.
+    near_singular_intervals: [-] number of intervals in which the run was near a singular
+        configuration.
     branch_warnings: [-] near-singular intervals after which the motion is, or may be, on
         another branch.
     forced_steps: [-] steps of rk8 and dp5 across a singular configuration. They are accepted
