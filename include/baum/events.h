@@ -3,15 +3,16 @@
  *  Events of a run: times at which a function of the state passes zero, or a joint coordinate
  *  passes a value.
  *
- *  Detection: after every step, the run evaluates its event functions at the end of the step and at
- *  one, two and three quarters of the step. It also evaluates them at the times of outputs. If the
- *  sign of a function has changed, the run searches for the time of the event. The search needs
- *  states inside the step. The run computes these states in the same way as outputs: variable-step
- *  methods interpolate the step, and fixed-step methods take shorter steps from the start of the
- *  step. A joint coordinate may pass its value and return between two evaluations. The run usually
- *  detects both events, because it also knows the rate of the coordinate. A user function may also
- *  pass zero twice between two evaluations, but then the run detects neither of these events. To
- *  avoid this, reduce max_step for variable-step methods, or the step for fixed-step methods.
+ *  Detection: after every step, the run evaluates its event functions at the end of the step, and
+ *  after a quarter, a half and three quarters of the step. It also evaluates them at the times of
+ *  outputs. If the sign of a function has changed, the run searches for the time of the event. The
+ *  search needs states inside the step. The run computes these states in the same way as outputs:
+ *  variable-step methods interpolate the step, and fixed-step methods take shorter steps from the
+ *  start of the step. A joint coordinate may pass its value and return between two evaluations. The
+ *  run usually detects both events, because it also knows the rate of the coordinate. A user
+ *  function may also pass zero twice between two evaluations, but then the run detects neither of
+ *  these events. To avoid this, reduce max_step for variable-step methods, or the step for
+ *  fixed-step methods.
  *
  *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
  *  input changes (baum/breaks.h). This jump is an event at the time of the break. In a backward

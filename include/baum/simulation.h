@@ -565,8 +565,9 @@ typedef enum baum_quantity {
   /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
   BAUM_BODY_ACCELERATION = 12, /**< The time derivatives of BAUM_BODY_VELOCITY. */
-  /** Force [N] or torque [N m] that the driver `joint` exerts on the coordinate it prescribes (1).
-   *  The power of the driver is this force or torque times the joint velocity. */
+  /** Force [N] or torque [N m] that a driver exerts on the coordinate it prescribes (1). The field
+   *  `joint` of the channel is the driver. The power of the driver is this force or torque times
+   *  the joint velocity. */
   BAUM_DRIVE_EFFORT = 13,
   /** The fields of baum_energy_account [J] (12): kinetic, potential, loads, springs, dampers,
    *  user_forces, bodies, drivers, violation, projection, gains, residual. Requires the option

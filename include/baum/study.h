@@ -185,11 +185,12 @@ static inline baum_study_grid baum_study_grid_default(void)
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
 /** Add stress settings, which are extreme on purpose. Steps range from 1e-1 to 1e-9 of a period,
- *  and rtol from 1e-2 to 1e-14. Here, a period is 2 pi divided by the rate of the motion, which the
- *  field `constants` of baum_study_grid defines. For BAUMGARTE there are also gains alpha = beta of
- *  0 and of 1e-6 to 1e12 1/s, with a step of 1e-3 of a period or with rtol 1e-7. Every entry should
- *  be as accurate as its setting suggests, or have a message or a warning that says why it is not.
- *  The option entry_limit bounds the CPU time of entries with tiny steps.
+ *  and rtol from 1e-2 to 1e-14. Here, a period is 2 pi divided by the rate of the motion; the
+ *  comment on the field `constants` of baum_study_grid defines this rate. For BAUMGARTE there are
+ *  also gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, with a step of 1e-3 of a period or with
+ *  rtol 1e-7. Every entry should be as accurate as its setting suggests, or have a message or a
+ *  warning that says why it is not. The option entry_limit bounds the CPU time of entries with tiny
+ *  steps.
  *  @param study       unchanged on failure
  *  @param integrator  NULL: all integrators of this build that take the option step or rtol
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build does not contain `integrator`),

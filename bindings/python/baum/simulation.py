@@ -238,9 +238,9 @@ class Simulation(_calls.Closing):
         channel `energy_account` report this work.
     error_check: True estimates the error of the motion by a second integration
         (counters.error_estimate). The run warns if the error is large, or if the second integration
-        fails or becomes too expensive, so that the error is unknown. rtol must be at least 2e-14.
-        Without this option, a run with fixed steps makes a second integration only if the sum of
-        its local errors becomes large enough to matter.
+        fails or becomes too expensive, so that the error is unknown. With this option, rtol must be
+        at least 2e-14. Without it, a run with fixed steps makes a second integration only if the
+        sum of its local errors becomes large enough to matter.
     progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
         of its steps is not known in advance. A function progress(t) is called every
         progress_interval seconds of wall time. It cancels the run if it returns a true value.
