@@ -382,6 +382,22 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
   return path->factor_kernel->eliminate(path->space);
 }
 
+static double correct(const baum_i_block_path *path)
+{
+  path->residual_kernel->find(path->space);
+  return path->space_kernel->correct(path->space);
+}
+
+/* Correct with a residual in working precision. */
+static double correct_simply(const baum_i_block_path *path)
+{
+  if (!baum_i_space_must_refine(path->space)) {
+    return path->space_kernel->correct_rows(path->space);
+  }
+  path->space_kernel->find_rest(path->space);
+  return path->space_kernel->correct(path->space);
+}
+
 /* If `simple` is true, the first refinement needs no residual in twice the working precision.
  * Slender bodies need two refinements, because the second one tells whether refinement
  * converges. */
@@ -393,12 +409,7 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     bool simply = simple && k == 0;
     path->refinements++;
-    if (simply) {
-      kernel->find_rest(path->space);
-    } else {
-      path->residual_kernel->find(path->space);
-    }
-    change = kernel->correct(path->space);
+    change = simply ? correct_simply(path) : correct(path);
     done = change <= (simply ? settled_simply : settled) ||
            (!path->uneven && kernel->check(path->space));
   }

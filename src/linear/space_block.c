@@ -159,6 +159,7 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
         sum -= l[3 * k + i] * body->whiten[4 * k + c];
       }
       body->whiten[4 * i + c] = sum / l[4 * i];
+      body->columns[4 * c + i] = body->whiten[4 * i + c];
       body->unwhite[3 * i + c] = l[3 * c + i];
     }
   }
@@ -230,6 +231,7 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);
     body->whiten[10] = 1.0 / body->unwhite[8];
+    body->columns[10] = body->whiten[10];
   }
   return positive;
 }

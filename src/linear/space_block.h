@@ -109,6 +109,7 @@ typedef struct baum_i_space_measure {
 typedef struct baum_i_space_body {
   double weight[4];   /* W of x: 1 / m three times (planar: twice), then 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
+  double columns[12]; /* L^-T, column-major, each column followed by 0 */
   double inertia[12]; /* I, stored like `whiten` */
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of a thin body, otherwise 0 */
@@ -283,6 +284,8 @@ typedef struct baum_i_space_kernel {
    * accelerations, relative to their largest values in the island. If refinement does not converge
    * quickly for a slender body, returns at least 1. */
   double (*correct)(baum_i_space *space);
+  /* The same for r - J a in working precision, if the residual of the equations of motion is 0. */
+  double (*correct_rows)(baum_i_space *space);
   bool (*read_motion)(const baum_i_space *space, double *a);
   void (*read_lambda)(const baum_i_space *space, double *lambda);
 } baum_i_space_kernel;

@@ -284,9 +284,11 @@ static void find_rest(baum_i_space *b)
 }
 
 /* Returns the angular acceleration L^-T y. */
-BAUM_I_INLINE four unwhitened(const baum_i_space_body *body, four y)
+BAUM_I_INLINE four unwhitened(const baum_i_space_body *body, const double *y)
 {
-  return transposed_times(body->whiten, (column){.low = y}, false);
+  four sum = baum_i_four_times(baum_i_four_load(body->columns), baum_i_four_all(y[0]));
+  sum = baum_i_four_add(sum, baum_i_four_load(body->columns + 4), y[1]);
+  return baum_i_four_add(sum, baum_i_four_load(body->columns + 8), y[2]);
 }
 
 BAUM_I_INLINE four larger(four x, four most)
@@ -330,11 +332,12 @@ BAUM_I_INLINE four without_spin(const baum_i_space_body *body, four angular)
   return baum_i_four_subtract(angular, axis, baum_i_four_sum(baum_i_four_times(axis, angular)));
 }
 
-/* Includes the acceleration of a body in `most`. The constant `thin` tells if any body is thin. */
-BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, four turn, bool thin,
+/* Includes the acceleration (x, y) of a body in `most`. The constant `thin` tells if any body is
+ * thin. */
+BAUM_I_INLINE peaks include(const baum_i_space_body *body, four move, const double *y, bool thin,
                             peaks most)
 {
-  four angular = unwhitened(body, turn);
+  four angular = unwhitened(body, y);
   angular = thin && body->thin ? without_spin(body, angular) : angular;
   return (peaks){larger(move, most.moves), larger(angular, most.turns)};
 }
@@ -354,7 +357,7 @@ BAUM_I_INLINE double largest_motion(const baum_i_space *b, int island, bool thin
   for (const int32_t *at = b->island_bodies + b->body_start[island]; at < last; at++) {
     int t = *at;
     const double *x = b->motion + (ptrdiff_t)MOTION * t;
-    most = include(&b->bodies[t], baum_i_four_load(x), baum_i_four_load(x + 4), thin, most);
+    most = include(&b->bodies[t], baum_i_four_load(x), x + 4, thin, most);
   }
   return size_of(b, most);
 }
@@ -367,7 +370,8 @@ BAUM_I_INLINE peaks include_pushes(const baum_i_space *b, const baum_i_space_nod
   for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
     const baum_i_space_side *side = &b->side_list[s];
     const baum_i_space_body *body = &b->bodies[side->body];
-    four turn = transposed_times(b->sides + side->turn, lambda, tall);
+    double turn[4];
+    baum_i_four_store(turn, transposed_times(b->sides + side->turn, lambda, tall));
     four push = lambda.low; /* if E is +-I: E^T lambda up to its sign; weight[3] is 0 */
     if (side->sign == 0) {
       push = transposed_times(b->sides + side->move, lambda, tall);
@@ -535,8 +539,9 @@ BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const d
   for (const int32_t *t = b->island_bodies + b->body_start[island]; t < last; t++) {
     ptrdiff_t at = (ptrdiff_t)MOTION * *t;
     four x = baum_i_four_minus(baum_i_four_load(b->motion + at), baum_i_four_load(before + at));
-    four y =
-      baum_i_four_minus(baum_i_four_load(b->motion + at + 4), baum_i_four_load(before + at + 4));
+    double y[4];
+    baum_i_four_store(y, baum_i_four_minus(baum_i_four_load(b->motion + at + 4),
+                                           baum_i_four_load(before + at + 4)));
     changes = include(&b->bodies[*t], x, y, thin, changes);
     if (thin && b->bodies[*t].thin) {
       spins = larger_of(change_of_spin(b, *t, before, size), spins);
@@ -545,15 +550,18 @@ BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const d
   return larger_of(ratio(size_of(b, changes), size), spins);
 }
 
-static double correct(baum_i_space *b)
+/* Corrects a and lambda for the right-hand sides that replace lambda. If `pulled` is true, first adds
+ * pull[] to a. */
+BAUM_I_INLINE double correct_all(baum_i_space *b, bool pulled)
 {
   double *before = b->pull_low;
-  gather(b);
   forward(b);
   for (int i = 0; i < MOTION * b->body_count; i += 4) {
     four x = baum_i_four_load(b->motion + i);
     baum_i_four_store(before + i, x);
-    baum_i_four_store(b->motion + i, baum_i_four_plus(x, baum_i_four_load(b->pull + i)));
+    if (pulled) {
+      baum_i_four_store(b->motion + i, baum_i_four_plus(x, baum_i_four_load(b->pull + i)));
+    }
   }
   backward(b, NULL);
   double most = 0.0;
@@ -563,6 +571,34 @@ static double correct(baum_i_space *b)
     most = larger_of(add_changes(b, i), larger_of(moved, most));
   }
   return most;
+}
+
+static double correct(baum_i_space *b)
+{
+  gather(b);
+  return correct_all(b, true);
+}
+
+/* Saves lambda of one node in rest_low[], and then replaces it by J a - r. */
+BAUM_I_INLINE void set_rest(const baum_i_space *b, const baum_i_space_node *node, bool tall)
+{
+  double *lambda = b->nodes + node->at;
+  baum_i_column_store(b->rest_low + node->place, 1, 0, tall,
+                      baum_i_column_load(lambda, 1, 0, tall));
+  column rest = rest_of(b, node, tall, NULL);
+  baum_i_column_store(lambda, 1, 0, tall, baum_i_column_times(rest, -1.0, tall));
+}
+
+static double correct_rows(baum_i_space *b)
+{
+  for (int k = 0; k < b->node_count; k++) {
+    if (b->list[k].rows > 4) {
+      set_rest(b, &b->list[k], true);
+    } else {
+      set_rest(b, &b->list[k], false);
+    }
+  }
+  return correct_all(b, false);
 }
 
 /* ---- results ---- */
@@ -575,7 +611,7 @@ static bool read_motion(const baum_i_space *b, double *a)
     const double *from = b->motion + (ptrdiff_t)MOTION * t;
     double *to = a + body->first;
     four x = baum_i_four_load(from);
-    four w = unwhitened(body, baum_i_four_load(from + 4));
+    four w = unwhitened(body, from + 4);
     sum = baum_i_four_add(baum_i_four_add(sum, x, 0.0), w, 0.0);
     baum_i_store(to, baum_i_four_low(x));
     if (body->size == 6) {
@@ -595,6 +631,7 @@ const baum_i_space_kernel BAUM_I_HOT(baum_i_space_kernel) = {
   .check = check,
   .find_rest = find_rest,
   .correct = correct,
+  .correct_rows = correct_rows,
   .read_motion = read_motion,
   .read_lambda = read_lambda,
 };
