@@ -385,17 +385,17 @@ static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 static double correct(const baum_i_block_path *path)
 {
   path->residual_kernel->find(path->space);
-  return path->space_kernel->correct(path->space);
+  return path->refine_kernel->correct(path->space);
 }
 
 /* Correct with a residual in working precision. */
 static double correct_simply(const baum_i_block_path *path)
 {
   if (!baum_i_space_must_refine(path->space)) {
-    return path->space_kernel->correct_rows(path->space);
+    return path->refine_kernel->correct_rows(path->space);
   }
-  path->space_kernel->find_rest(path->space);
-  return path->space_kernel->correct(path->space);
+  path->refine_kernel->find_rest(path->space);
+  return path->refine_kernel->correct(path->space);
 }
 
 /* If `simple` is true, the first refinement needs no residual in twice the working precision.
@@ -403,7 +403,6 @@ static double correct_simply(const baum_i_block_path *path)
  * converges. */
 static baum_status refine_space(baum_i_block_path *path, bool done, bool simple, double settled)
 {
-  const baum_i_space_kernel *kernel = path->space_kernel;
   double settled_simply = baum_i_space_must_refine(path->space) ? 0.0 : SETTLED_SIMPLY;
   double change = 0.0;
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
@@ -411,7 +410,7 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
     path->refinements++;
     change = simply ? correct_simply(path) : correct(path);
     done = change <= (simply ? settled_simply : settled) ||
-           (!path->uneven && kernel->check(path->space));
+           (!path->uneven && path->refine_kernel->check(path->space));
   }
   return done || change <= SETTLING_IN_SPACE ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
@@ -435,7 +434,7 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
   /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
    * accelerate light bodies. The residual r - J a does not show this error if the constraints
    * permit the direction of the acceleration. */
-  double amplified = path->space_kernel->amplification(space);
+  double amplified = path->refine_kernel->amplification(space);
   return (trust){.good = space->weakest > FAIR_PIVOT && amplified <= MOST_LOST * space->weakest,
                  .simple = amplified <= CANCELLED};
 }
@@ -457,8 +456,8 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   if (of.good && !last) {
     return BAUM_OK;
   }
-  baum_status status = refine_space(path, of.good && kernel->check(space), of.simple,
-                                    last ? SETTLED : SETTLED_IN_SPACE);
+  bool done = of.good && path->refine_kernel->check(space);
+  baum_status status = refine_space(path, done, of.simple, last ? SETTLED : SETTLED_IN_SPACE);
   kernel->read_lambda(space, w->lambda);
   return status;
 }
@@ -513,7 +512,7 @@ static baum_status solve_again(const baum_i_block_path *path, double factor, dou
 {
   bool finite;
   if (path->space) {
-    (void)path->space_kernel->correct(path->space);
+    (void)path->refine_kernel->correct(path->space);
     finite = path->space_kernel->read_motion(path->space, out);
   } else {
     (void)path->kernel->correct(path->block);

@@ -30,6 +30,7 @@ typedef struct baum_i_omitted_row {
 struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
+  const baum_i_space_refine_kernel *refine_kernel;
   const baum_i_space_sides_kernel *space_sides;
   const baum_i_space_factor_kernel *factor_kernel;
   const baum_i_space_residual_kernel *residual_kernel;

@@ -432,6 +432,7 @@ baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
   baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
   BAUM_I_TRY(baum_i_check_memory(path));
   path->space_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_kernel);
+  path->refine_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_refine_kernel);
   path->space_sides = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_sides_kernel);
   path->factor_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_factor_kernel);
   path->residual_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_residual_kernel);

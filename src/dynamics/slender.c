@@ -45,9 +45,9 @@ static void apply_refinements(const baum_i_block_path *path, double *sizes[3])
   measure_twists(space, sizes[0]);
   for (int k = 0; k < TRIALS; k++) {
     measure_twists(space, sizes[1]);
-    path->space_kernel->find_rest(path->space);
+    path->refine_kernel->find_rest(path->space);
     memset(space->rest, 0, (size_t)space->numbers_of_rows * sizeof *space->rest);
-    (void)path->space_kernel->correct(path->space);
+    (void)path->refine_kernel->correct(path->space);
     for (int i = 0; i < numbers; i++) {
       space->motion[i] -= space->pull_low[i]; /* only the change */
     }

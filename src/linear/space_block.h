@@ -269,7 +269,17 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
 /* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
+  /* `lambda` may be NULL. */
   void (*substitute)(baum_i_space *space, double *lambda);
+  bool (*read_motion)(const baum_i_space *space, double *a);
+  void (*read_lambda)(const baum_i_space *space, double *lambda);
+} baum_i_space_kernel;
+
+extern const baum_i_space_kernel baum_i_space_kernel_plain;
+extern const baum_i_space_kernel baum_i_space_kernel_wide;
+
+/* Functions of hot files (base/hot.h) that check and refine solutions. */
+typedef struct baum_i_space_refine_kernel {
   /* Tells how strongly the effects of different nodes cancel. Returns the largest acceleration that
    * the multipliers of one node alone would cause, divided by the largest acceleration in the same
    * island, which all multipliers and forces cause. For the spin that a node causes on a thin body,
@@ -286,11 +296,9 @@ typedef struct baum_i_space_kernel {
   double (*correct)(baum_i_space *space);
   /* The same for r - J a in working precision, if the residual of the equations of motion is 0. */
   double (*correct_rows)(baum_i_space *space);
-  bool (*read_motion)(const baum_i_space *space, double *a);
-  void (*read_lambda)(const baum_i_space *space, double *lambda);
-} baum_i_space_kernel;
+} baum_i_space_refine_kernel;
 
-extern const baum_i_space_kernel baum_i_space_kernel_plain;
-extern const baum_i_space_kernel baum_i_space_kernel_wide;
+extern const baum_i_space_refine_kernel baum_i_space_refine_kernel_plain;
+extern const baum_i_space_refine_kernel baum_i_space_refine_kernel_wide;
 
 #endif

@@ -200,4 +200,28 @@ BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const d
   return u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
 }
 
+/* Returns m^T lambda for a matrix m with three columns. */
+BAUM_I_INLINE baum_i_four baum_i_column_transposed_times(const double *m,
+                                                         baum_i_space_column lambda, bool tall)
+{
+  baum_i_four products[4];
+  for (int c = 0; c < 3; c++) {
+    baum_i_space_column g = baum_i_column_load(m, 3, c, tall);
+    products[c] = baum_i_four_times(g.low, lambda.low);
+    if (tall) {
+      products[c] = baum_i_four_plus(products[c], baum_i_four_of(g.high * lambda.high));
+    }
+  }
+  products[3] = baum_i_four_zero();
+  return baum_i_four_sums(products);
+}
+
+/* Returns the angular acceleration L^-T y. */
+BAUM_I_INLINE baum_i_four baum_i_space_unwhitened(const baum_i_space_body *body, const double *y)
+{
+  baum_i_four sum = baum_i_four_times(baum_i_four_load(body->columns), baum_i_four_all(y[0]));
+  sum = baum_i_four_add(sum, baum_i_four_load(body->columns + 4), y[1]);
+  return baum_i_four_add(sum, baum_i_four_load(body->columns + 8), y[2]);
+}
+
 #endif
