@@ -87,8 +87,11 @@ BAUM_I_INLINE void backward_node(int n, const baum_i_space *b, int k, double *ou
   baum_i_column_store(numbers, 1, 0, tall, lambda);
   if (out) {
     BAUM_I_UNROLL(6)
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n - 1; i++) {
       out[node->row[i]] = numbers[i];
+    }
+    if (node->spin == 0) {
+      out[node->row[n - 1]] = numbers[n - 1];
     }
   }
   scatter(b, node, lambda, tall);
@@ -112,7 +115,7 @@ static void read_lambda(const baum_i_space *b, double *lambda)
 {
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
-    for (int i = 0; i < node->rows; i++) {
+    for (int i = 0; i < baum_i_space_own_rows(node); i++) {
       lambda[node->row[i]] = b->nodes[node->at + i];
     }
   }

@@ -191,13 +191,11 @@ BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
 }
 
-/* Returns u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in
- * space_block.h) contributes u (u . y) to the residual of the equations of motion. */
-BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const double *motion)
+/* Returns the unit vector whose last of n numbers is 1. */
+BAUM_I_INLINE baum_i_space_column baum_i_column_last(int n, bool tall)
 {
-  const double *u = b->lack + (ptrdiff_t)4 * body;
-  const double *y = motion + (ptrdiff_t)BAUM_I_SPACE_MOTION * body + 4;
-  return u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
+  static const double UNITS[14] = {[7] = 1.0};
+  return baum_i_column_load(UNITS + 8 - n, 1, 0, tall);
 }
 
 /* Returns m^T lambda for a matrix m with three columns. */

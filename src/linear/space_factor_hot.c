@@ -329,6 +329,7 @@ BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
   pivot t;
   baum_i_space_measure *measure = &b->measures[k];
   factor_pivot(n, d, numbers, &t, measure->det);
+  measure->det[1] *= b->list[k].spin != 0 ? -1.0 : 1.0; /* D is not positive definite */
   store_factors(n, &t, d, numbers);
   for (const baum_i_space_coupling *f = first; f < end; f++) {
     int rows = b->list[f->later].rows;

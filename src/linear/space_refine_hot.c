@@ -21,8 +21,8 @@ BAUM_I_INLINE column magnitude(column x)
   return (column){baum_i_four_magnitude(x.low), baum_i_magnitude(x.high)};
 }
 
-/* Returns r - J a of one node. If `size` is not NULL, it is set to the sums of the magnitudes of
- * the terms. */
+/* Returns r - J a of one node, for a spin row -u . y - mu. If `size` is not NULL, it is set to the
+ * sums of the magnitudes of the terms. */
 BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                              column *size)
 {
@@ -42,6 +42,14 @@ BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *nod
       if (size) {
         *size = baum_i_column_add(*size, magnitude(g), fabs(y), tall);
       }
+    }
+  }
+  if (node->spin != 0) {
+    double mu = b->nodes[node->at + node->rows - 1];
+    column last = baum_i_column_last(node->rows, tall);
+    rest = baum_i_column_subtract(rest, last, mu, tall);
+    if (size) {
+      *size = baum_i_column_add(*size, last, fabs(mu), tall);
     }
   }
   return rest;
@@ -69,25 +77,6 @@ static bool check(const baum_i_space *b)
     fine = check_node(b, &b->list[k]);
   }
   return fine;
-}
-
-static void find_rest(baum_i_space *b)
-{
-  memset(b->pull, 0, (size_t)(MOTION * b->body_count) * sizeof *b->pull);
-  for (int t = 1; baum_i_space_must_refine(b) && t < b->body_count; t++) {
-    ptrdiff_t at = (ptrdiff_t)MOTION * t + 4;
-    four u = baum_i_four_load(b->lack + (ptrdiff_t)4 * t);
-    baum_i_four_store(b->pull + at,
-                      baum_i_four_times(u, baum_i_four_all(baum_i_space_twist(b, t, b->motion))));
-  }
-  for (int k = 0; k < b->node_count; k++) {
-    const baum_i_space_node *node = &b->list[k];
-    if (node->rows > 4) {
-      baum_i_column_store(b->rest + node->place, 1, 0, true, rest_of(b, node, true, NULL));
-    } else {
-      baum_i_column_store(b->rest + node->place, 1, 0, false, rest_of(b, node, false, NULL));
-    }
-  }
 }
 
 /* ---- amplification ---- */
@@ -371,26 +360,14 @@ static double add_changes(const baum_i_space *b, int island)
   return ratio(largest(changes), largest(sizes));
 }
 
-/* If no joint keeps a slender body from spinning about its axis, corrections of the spin decrease
- * slowly because of the raised moment of inertia: each is more than SLOWEST times the one before.
- * Corrections below NOISE times the accelerations may be rounding errors. */
-static const double SLOWEST = 0.01;
-static const double NOISE = 1e-13;
-
 /* Returns the change of a thin body's spin, relative to the spin or to `others` (the largest other
- * acceleration), whichever is larger; 1 if the body is slender and changes decrease slowly. */
+ * acceleration), whichever is larger. */
 static double change_of_spin(const baum_i_space *b, int t, const double *before, double others)
 {
   const baum_i_space_body *body = &b->bodies[t];
   ptrdiff_t at = (ptrdiff_t)MOTION * t + 4;
   double spin = spin_of(body, b->motion + at);
-  double change = fabs(spin - spin_of(body, before + at));
-  double size = larger_of(fabs(spin), others);
-  const double *u = b->lack + (ptrdiff_t)4 * t;
-  bool slender = baum_i_space_must_refine(b) && (u[0] != 0.0 || u[1] != 0.0 || u[2] != 0.0);
-  bool slow = slender && change > SLOWEST * b->spins[t] && change > NOISE * size;
-  b->spins[t] = change;
-  return slow ? 1.0 : ratio(change, size);
+  return ratio(fabs(spin - spin_of(body, before + at)), larger_of(fabs(spin), others));
 }
 
 /* Returns the largest change of an acceleration in an island, relative to its largest
@@ -470,7 +447,6 @@ static double correct_rows(baum_i_space *b)
 const baum_i_space_refine_kernel BAUM_I_HOT(baum_i_space_refine_kernel) = {
   .amplification = amplification,
   .check = check,
-  .find_rest = find_rest,
   .correct = correct,
   .correct_rows = correct_rows,
 };

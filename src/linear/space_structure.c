@@ -111,6 +111,14 @@ static bool is_lean(const builder *u, const baum_i_row_block *rows, const baum_i
          node->row[points - 1] == rows->row + points - 1 && (node->omitted & 7u) == 0;
 }
 
+/* Adds the spin row of a body to a node. */
+static void add_spin_row(builder *u, int body, baum_i_space_node *node)
+{
+  node->spin = body;
+  node->omitted |= 1u << node->rows++;
+  u->space->bodies[body].raised = true;
+}
+
 /* Adds a node for each group of up to six rows. Omitted rows are skipped, unless the layout marks
  * the row block as `whole`. */
 static baum_status add_nodes(builder *u, int row_block)
@@ -126,6 +134,9 @@ static baum_status add_nodes(builder *u, int row_block)
       }
     }
     if (node.rows > 0) {
+      if (u->layout->spins && u->layout->spins[row_block] > 0) {
+        add_spin_row(u, u->layout->spins[row_block], &node);
+      }
       node.lean = is_lean(u, rows, &node);
       BAUM_I_TRY(add_sides(u, rows, &node));
       baum_i_space_node *added = baum_i_vector_append(&u->nodes);

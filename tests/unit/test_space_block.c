@@ -191,15 +191,6 @@ static void compare_residuals(const pair *p)
   }
   assert_close(p->space[1]->pull, a->pull, motion, 1e-13, 0.0);
   assert_close(p->space[1]->rest, a->rest, a->numbers_of_rows, 1e-13, 0.0);
-  for (int k = 0; k < 2; k++) {
-    double rest[MOST * 2];
-    assert_true(a->numbers_of_rows <= 2 * MOST);
-    memcpy(rest, a->rest, (size_t)a->numbers_of_rows * sizeof *rest);
-    p->path[k]->refine_kernel->find_rest(p->space[k]);
-    assert_close(p->space[k]->rest, rest, a->numbers_of_rows, 1e-11, 0.0);
-    assert_true(largest(p->space[k]->pull, motion) == 0.0);
-    p->path[k]->residual_kernel->find(p->space[k]);
-  }
 }
 
 static void compare_corrections(const pair *p)
