@@ -289,7 +289,10 @@ static baum_status make_couplings(builder *u)
     for (int e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
       int later = b->order.later[e];
       int height = b->list[later].rows > 4 ? 6 : 4;
-      b->couplings[e] = (baum_i_space_coupling){later, b->numbers_off};
+      b->couplings[e] = (baum_i_space_coupling){.later = later,
+                                                .at = b->numbers_off,
+                                                .numbers = b->list[later].at,
+                                                .rows = b->list[later].rows};
       b->numbers_off += rounded(height * b->list[k].rows);
     }
   }
