@@ -109,7 +109,9 @@ typedef struct baum_i_space_pair {
 /* A coupling of a node with a node that is eliminated later. */
 typedef struct baum_i_space_coupling {
   int32_t later;
-  int32_t at; /* start of its block in off[] */
+  int32_t at;      /* start of its block in off[] */
+  int32_t numbers; /* start of the numbers of the later node in nodes[] */
+  int32_t rows;    /* of the later node */
 } baum_i_space_coupling;
 
 /* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.

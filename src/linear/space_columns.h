@@ -19,6 +19,36 @@ BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 #endif
 }
 
+/* Returns (low_0, low_1, high_0, high_1). */
+BAUM_I_INLINE baum_i_four baum_i_four_joined(baum_i_pair low, baum_i_pair high)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_set_m128d(high, low);
+#else
+  return (baum_i_four){low, high};
+#endif
+}
+
+/* Returns (x_0, y_0, x_2, y_2). */
+BAUM_I_INLINE baum_i_four baum_i_four_first(baum_i_four x, baum_i_four y)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_unpacklo_pd(x, y);
+#else
+  return (baum_i_four){{x.low[0], y.low[0]}, {x.high[0], y.high[0]}};
+#endif
+}
+
+/* Returns (x_1, y_1, x_3, y_3). */
+BAUM_I_INLINE baum_i_four baum_i_four_second(baum_i_four x, baum_i_four y)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_unpackhi_pd(x, y);
+#else
+  return (baum_i_four){{x.low[1], y.low[1]}, {x.high[1], y.high[1]}};
+#endif
+}
+
 /* sum - x s */
 BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, double s)
 {

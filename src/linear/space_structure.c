@@ -222,10 +222,18 @@ static baum_status find_order(builder *u)
     status = add_neighbours(u, i, mark);
     u->graph_start[i + 1] = u->neighbours.count;
   }
+  const baum_i_space_node *nodes = u->nodes.items;
+  int32_t *size = mark; /* the marks are no longer needed */
+  for (int32_t i = 0; i < count && status == BAUM_OK; i++) {
+    size[i] = nodes[i].rows;
+  }
+  const baum_i_graph graph = {count, u->graph_start, u->neighbours.items, size};
+  if (status == BAUM_OK) {
+    int most = MOST_COUPLINGS * (count + SMALL);
+    status = baum_i_elimination_create(&graph, most, &u->space->order);
+  }
   baum_i_free(mark);
-  BAUM_I_TRY(status);
-  const baum_i_graph graph = {count, u->graph_start, u->neighbours.items};
-  return baum_i_elimination_create(&graph, MOST_COUPLINGS * (count + SMALL), &u->space->order);
+  return status;
 }
 
 /* ---- nodes in the order of elimination ---- */
@@ -300,7 +308,10 @@ static baum_status make_couplings(builder *u)
     for (int e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
       int later = b->order.later[e];
       int height = b->list[later].rows > 4 ? 6 : 4;
-      b->couplings[e] = (baum_i_space_coupling){later, b->numbers_off};
+      b->couplings[e] = (baum_i_space_coupling){.later = later,
+                                                .at = b->numbers_off,
+                                                .numbers = b->list[later].at,
+                                                .rows = b->list[later].rows};
       b->numbers_off += rounded(height * b->list[k].rows);
     }
   }
