@@ -30,6 +30,7 @@ typedef struct baum_i_omitted_row {
 struct baum_i_block_path {
   baum_i_space *space;
   const baum_i_space_kernel *space_kernel;
+  const baum_i_space_refine_kernel *refine_kernel;
   const baum_i_space_sides_kernel *space_sides;
   const baum_i_space_factor_kernel *factor_kernel;
   const baum_i_space_residual_kernel *residual_kernel;
@@ -85,9 +86,16 @@ baum_status baum_i_space_joints_set(const baum_workspace *workspace, const baum_
                                     baum_i_space_joints *joints);
 void baum_i_space_joints_clear(const baum_i_space_joints *joints);
 
-/* slender.c: raise the moments of inertia of slender bodies if pivots would otherwise be too small.
- * Bodies for which refinement would not converge keep their moments. */
-baum_status baum_i_raise_slender(baum_workspace *workspace, baum_i_block_path *path);
+/* The same with spin rows: spins[k] (joint_count) is the number of the body whose spin row belongs
+ * to joint k, or 0. NULL: no spin rows. */
+baum_status baum_i_block_path_create_with(baum_workspace *workspace, bool for_motion,
+                                          const int *spins, baum_i_block_verdict *verdict,
+                                          baum_i_block_path **out);
+
+/* spin_rows.c: replace a path in space by one with spin rows if this is more accurate. May fail like
+ * baum_i_block_path_create(); *path is then unchanged. */
+baum_status baum_i_add_spin_rows(baum_workspace *workspace, bool for_motion,
+                                 baum_i_block_path **path);
 
 /* The two paths of a workspace: one for all bodies, and one for the motion without fixed bodies.
  * They are the same path if no body is fixed. The verdict of baum_i_paths_create() describes the

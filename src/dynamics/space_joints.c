@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Finds the joints whose geometry space_joints_hot.c computes, and sets their constants. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,8 +9,9 @@
 #include "dynamics/block_path.h"
 #include "mechanism/spatial/spatial_joint.h"
 
-static const char *const SHAPES[BAUM_I_SHAPES] = {"pp",   "ppp",   "pppd", "pppde", "pppded",
-                                                  "dess", "dessd", "des",  "ss",    "s"};
+static const char *const SHAPES[BAUM_I_SHAPES] = {"pp",   "ppp",   "pppd",   "pppde", "pppded",
+                                                  "dess", "dessd", "des",    "ss",    "s",
+                                                  "pppu", "pppdu", "pppdeu", "dessdu"};
 
 /* Return the kind of a row, see space_joints.h. `before` is the preceding row of the joint, or
  * NULL. */
@@ -27,6 +29,15 @@ static char kind_of(const baum_i_spatial_row *row, const baum_i_spatial_row *bef
   return before && before->x < BAUM_I_X_B && before->y == row->y ? 'e' : 'd';
 }
 
+static baum_i_space_shape find_shape(const char *kinds)
+{
+  int shape = 0;
+  while (shape < BAUM_I_SHAPES && strcmp(kinds, SHAPES[shape]) != 0) {
+    shape++;
+  }
+  return (baum_i_space_shape)shape;
+}
+
 baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint)
 {
   const baum_i_spatial_row *rows = baum_i_spatial_rows_of(joint);
@@ -37,11 +48,14 @@ baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint)
   for (int i = 0; rows && i < joint->rows; i++) {
     kinds[i] = kind_of(&rows[i], i > 0 ? &rows[i - 1] : NULL);
   }
-  int shape = 0;
-  while (shape < BAUM_I_SHAPES && strcmp(kinds, SHAPES[shape]) != 0) {
-    shape++;
-  }
-  return (baum_i_space_shape)shape;
+  return find_shape(kinds);
+}
+
+baum_i_space_shape baum_i_shape_with_spin(int shape)
+{
+  char kinds[BAUM_I_SPACE_ROWS + 2];
+  (void)snprintf(kinds, sizeof kinds, "%su", SHAPES[shape]);
+  return find_shape(kinds);
 }
 
 /* Computes the columns of sign * [s]x L^-T, where s is a point of the body and I = L L^T. */
@@ -72,7 +86,7 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
     set_arms(&space->bodies[joint->body[k]], s, k == 0 ? 1.0 : -1.0,
              out + BAUM_I_JOINT_ARMS + (ptrdiff_t)12 * k);
   }
-  for (int i = 0; i < node->rows; i++) {
+  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
     bool point = SHAPES[joint->shape][i] == 'p';
     double keep = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
     out[BAUM_I_JOINT_KEEP + i] = keep;
@@ -87,6 +101,11 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
       }
       axes += 8;
     }
+  }
+  if (node->spin != 0) {
+    int side = joint->body[0] == node->spin ? 0 : 4;
+    memcpy(axes + side, space->bodies[node->spin].lack, sizeof space->bodies->lack);
+    out[BAUM_I_JOINT_DIAGONAL + node->rows - 1] = -1.0;
   }
 }
 
@@ -138,8 +157,9 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
     baum_i_space_node *node = &space->list[k];
     const baum_i_joint *joint = m->joints[node->row_block];
     baum_i_space_shape shape = baum_i_shape_of(joint);
-    node->direct = shape != BAUM_I_SHAPES && node->rows == joint->rows;
+    node->direct = shape != BAUM_I_SHAPES && baum_i_space_own_rows(node) == joint->rows;
     if (node->direct) {
+      shape = node->spin != 0 ? baum_i_shape_with_spin(shape) : shape;
       is_done[node->row_block] = 1;
       int first = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 1 : 0];
       int second = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 0 : 1];

@@ -22,7 +22,7 @@ typedef struct baum_i_space_frame {
 /* The shape of a planar revolute joint is PIN. In the names of the other shapes, the letters stand
  * for the rows of the joint, in their order. P: three rows that make points coincide. D: the dot
  * product of two axes, one on each body. E: a row D with the same axis on body_b as the row before
- * it. S: the dot product of an axis on body_a and the vector between the points. */
+ * it. S: the dot product of an axis on body_a and the vector between the points. U: a spin row. */
 typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_PIN,
   BAUM_I_SHAPE_P,
@@ -34,6 +34,10 @@ typedef enum baum_i_space_shape {
   BAUM_I_SHAPE_DES,
   BAUM_I_SHAPE_SS,
   BAUM_I_SHAPE_S,
+  BAUM_I_SHAPE_PU,
+  BAUM_I_SHAPE_PDU,
+  BAUM_I_SHAPE_PDEU,
+  BAUM_I_SHAPE_DESSDU,
   BAUM_I_SHAPES
 } baum_i_space_shape;
 
@@ -47,7 +51,8 @@ enum {
    * rows; eight numbers */
   BAUM_I_JOINT_DIAGONAL = 40,
   BAUM_I_JOINT_AXES =
-    48 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a */
+    48 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a; rows
+          u: rows of R of both sides */
 };
 
 typedef struct baum_i_space_joint {
@@ -75,6 +80,9 @@ typedef struct baum_i_space_joints {
 /* Return the shape of a joint. Returns BAUM_I_SHAPES if the joint must be evaluated by its J,
  * because it has other kinds of rows. */
 baum_i_space_shape baum_i_shape_of(const baum_i_joint *joint);
+
+/* Return the shape with an additional spin row, or BAUM_I_SHAPES if there is no such shape. */
+baum_i_space_shape baum_i_shape_with_spin(int shape);
 
 /* Input and output of the kernel. */
 typedef struct baum_i_space_pass {

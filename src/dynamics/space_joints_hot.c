@@ -340,8 +340,8 @@ BAUM_I_INLINE void store_rows(double *to, column x, int n)
   }
 }
 
-/* Returns r of the node, and sets the joint's rows of Phi, Phi' and gamma in the workspace. */
-BAUM_I_INLINE column set_rates(const baum_i_space_joint *joint, int n, const double *keep,
+/* Returns r of the node, and sets the joint's `own` rows of Phi, Phi' and gamma in the workspace. */
+BAUM_I_INLINE column set_rates(const baum_i_space_joint *joint, int n, int own, const double *keep,
                                const rows *row, const baum_i_space_pass *at)
 {
   bool tall = n > 4;
@@ -351,9 +351,9 @@ BAUM_I_INLINE column set_rates(const baum_i_space_joint *joint, int n, const dou
   column kept = baum_i_column_load(keep, 1, 0, tall);
   right.low = baum_i_four_times(right.low, kept.low);
   right.high = tall ? right.high * kept.high : right.high;
-  store_rows(at->phi + joint->row, row->phi, n);
-  store_rows(at->phi_rate + joint->row, row->rate, n);
-  store_rows(at->gamma + joint->row, row->gamma, n);
+  store_rows(at->phi + joint->row, row->phi, own);
+  store_rows(at->phi_rate + joint->row, row->rate, own);
+  store_rows(at->gamma + joint->row, row->gamma, own);
   return right;
 }
 
@@ -427,7 +427,9 @@ BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *jo
   }
 }
 
-BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n,
+/* Stores D. The diagonal entry of a spin row is only what remains of u . u - 1, so it does not count
+ * in the size. */
+BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n, int own,
                                const column from[BAUM_I_SPACE_ROWS])
 {
   double *d = b->nodes + b->list[node].at + baum_i_space_pivot(n);
@@ -439,14 +441,16 @@ BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n,
     if (j >= 4) {
       baum_i_store(d + 4 * n + 2 * (j - 4), from[j].high);
     }
-    size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(from[j].low, j) : from[j].high[j - 4];
+    if (j < own) {
+      size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(from[j].low, j) : from[j].high[j - 4];
+    }
   }
   measure->size[0] = size[0];
   measure->size[1] = size[1];
 }
 
-/* Sets the sides of a joint, r, J a0 - r and D. */
-BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+/* Sets the sides of a joint, r, J a0 - r and D. If n > own, the last row is a spin row. */
+BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joint, int n, int own,
                             bool points, bool slides, const rows *row, const baum_i_space_pass *at)
 {
   const double *numbers = at->joints.numbers + joint->numbers;
@@ -454,7 +458,7 @@ BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joi
   four apart = baum_i_four_minus(baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[1]),
                                  baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[0]));
   equations to = {.sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}}};
-  column right = set_rates(joint, n, numbers + BAUM_I_JOINT_KEEP, row, at);
+  column right = set_rates(joint, n, own, numbers + BAUM_I_JOINT_KEEP, row, at);
   to.sum = baum_i_column_subtract(to.sum, right, 1.0, n > 4);
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
@@ -469,13 +473,13 @@ BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joi
   double *stored = b->nodes + b->list[joint->node].at;
   baum_i_column_store(stored, 1, 0, n > 4, to.sum);
   baum_i_column_store(stored + baum_i_space_vector(n), 1, 0, n > 4, right);
-  store_pivot(b, joint->node, n, to.d);
+  store_pivot(b, joint->node, n, own, to.d);
 }
 
 /* Computes the n rows of a joint and writes them to the solver. If `points` is true, the first
  * three rows are of kind p. `slides` has bit i set if row i is of kind s. `again` is the row of
- * kind e, or 0 if there is none. */
-BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+ * kind e, or 0 if there is none. If n > own, the last row is a spin row. */
+BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n, int own,
                              bool points, unsigned slides, int again, const baum_i_space_pass *at)
 {
   const baum_i_space_frame *f = &at->joints.frames[joint->body[0]];
@@ -493,7 +497,7 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
     row.gamma.low = baum_i_four_minus(m[0].bend, m[1].bend);
   }
   BAUM_I_UNROLL(6)
-  for (int i = points ? 3 : 0; i < n; i++) {
+  for (int i = points ? 3 : 0; i < own; i++) {
     if ((slides >> i & 1u) != 0) {
       set_slide_row(f, g, m, axes, keep[i], i, &row);
     } else {
@@ -502,23 +506,31 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
     }
     axes += 8;
   }
-  set_node(b, joint, n, points, slides != 0, &row, at);
+  if (n > own) {
+    row.turn[0][own] = baum_i_four_load(axes);
+    row.turn[1][own] = baum_i_four_load(axes + 4);
+  }
+  set_node(b, joint, n, own, points, slides != 0, &row, at);
 }
 
 BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_joint *joint,
                                       const baum_i_space_pass *at)
 {
   switch ((baum_i_space_shape)joint->shape) {
-  case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, true, 0, 0, at); break;
-  case BAUM_I_SHAPE_P: set_joint(b, joint, 3, true, 0, 0, at); break;
-  case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, true, 0, 0, at); break;
-  case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, true, 0, 4, at); break;
-  case BAUM_I_SHAPE_PDED: set_joint(b, joint, 6, true, 0, 4, at); break;
-  case BAUM_I_SHAPE_DESS: set_joint(b, joint, 4, false, 0xc, 1, at); break;
-  case BAUM_I_SHAPE_DESSD: set_joint(b, joint, 5, false, 0xc, 1, at); break;
-  case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, false, 0x4, 1, at); break;
-  case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, false, 0x3, 0, at); break;
-  case BAUM_I_SHAPE_S: set_joint(b, joint, 1, false, 0x1, 0, at); break;
+  case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, 2, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_P: set_joint(b, joint, 3, 3, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, 4, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDE: set_joint(b, joint, 5, 5, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_PDED: set_joint(b, joint, 6, 6, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_DESS: set_joint(b, joint, 4, 4, false, 0xc, 1, at); break;
+  case BAUM_I_SHAPE_DESSD: set_joint(b, joint, 5, 5, false, 0xc, 1, at); break;
+  case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, 3, false, 0x4, 1, at); break;
+  case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, 2, false, 0x3, 0, at); break;
+  case BAUM_I_SHAPE_S: set_joint(b, joint, 1, 1, false, 0x1, 0, at); break;
+  case BAUM_I_SHAPE_PU: set_joint(b, joint, 4, 3, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDU: set_joint(b, joint, 5, 4, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDEU: set_joint(b, joint, 6, 5, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_DESSDU: set_joint(b, joint, 6, 5, false, 0xc, 1, at); break;
   case BAUM_I_SHAPES:
   default: break;
   }

@@ -359,7 +359,7 @@ static baum_status make_graph(baum_i_block_builder *u)
 static baum_status find_order(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
-  const baum_i_graph graph = {u->nodes.count, u->graph_start, u->neighbours.items};
+  const baum_i_graph graph = {u->nodes.count, u->graph_start, u->neighbours.items, NULL};
   int most = MOST_COUPLINGS * (u->nodes.count + SMALL);
   BAUM_I_TRY(baum_i_elimination_create(&graph, most, &b->order));
   b->node_count = u->nodes.count;

@@ -29,6 +29,7 @@ typedef struct search {
   int32_t *bucket;        /* (count) */
   int32_t *touched;       /* (count) the last round in which the node entered `waiting` */
   int32_t *mark;          /* (count) */
+  const int32_t *size;    /* see baum_i_graph */
   int32_t stamp;
   int32_t round;
   int most;
@@ -227,6 +228,50 @@ static void sort_by_depth(const int32_t *depth, int count, int32_t most, int32_t
   }
 }
 
+/* Tells whether the elimination of place `earlier` changes place `later`. */
+static bool changes(const search *s, int32_t earlier, int32_t later)
+{
+  const baum_i_elimination *out = s->out;
+  const int32_t *after = s->later.items;
+  bool found = false;
+  for (int32_t e = out->start[earlier]; e < out->start[earlier + 1]; e++) {
+    found = found || out->place[after[e]] == later;
+  }
+  return found;
+}
+
+/* Returns the first of the next places of sorted[] that has the size of sorted[k] and that none of
+ * the places from k on changes, or -1. */
+static int find_twin(const search *s, const int32_t *sorted, int k)
+{
+  enum { MOST = 8 };
+  const int32_t *node = s->out->node;
+  int end = s->out->count - k <= MOST ? s->out->count : k + MOST + 1;
+  for (int i = k + 1; i < end; i++) {
+    bool fits = s->size[node[sorted[i]]] == s->size[node[sorted[k]]];
+    for (int e = k; e < i && fits; e++) {
+      fits = !changes(s, sorted[e], sorted[i]);
+    }
+    if (fits) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+/* Makes independent places of the same size adjacent. */
+static void join_twins(const search *s, int32_t *sorted)
+{
+  for (int k = 0; k < s->out->count; k++) {
+    int twin = find_twin(s, sorted, k);
+    if (twin >= 0) {
+      int32_t place = sorted[twin];
+      memmove(sorted + k + 2, sorted + k + 1, (size_t)(twin - k - 1) * sizeof *sorted);
+      sorted[++k] = place;
+    }
+  }
+}
+
 /* Reorders the nodes so that each comes shortly before the nodes that its elimination changes. The
  * changed numbers are then still in the cache when they are needed. The fill stays the same, and
  * nodes of the same depth are independent of each other. */
@@ -246,6 +291,9 @@ static baum_status order_by_depth(search *s)
   int32_t *old = start + n + 1;
   int32_t most = find_depths(out, later, depth);
   sort_by_depth(depth, out->count, most, old + count, sorted);
+  if (s->size) {
+    join_twins(s, sorted);
+  }
   memcpy(node, out->node, n * sizeof *node);
   memcpy(start, out->start, (n + 1) * sizeof *start);
   for (size_t i = 0; i < count; i++) {
@@ -321,6 +369,7 @@ baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_
   *out = (baum_i_elimination){0};
   search s = {.count = graph->count,
               .most = most,
+              .size = graph->size,
               .out = out,
               .waiting = {.size = sizeof(int32_t)},
               .later = {.size = sizeof(int32_t)}};

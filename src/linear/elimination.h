@@ -14,6 +14,7 @@ typedef struct baum_i_graph {
   int count;
   const int32_t *start;     /* (count + 1) */
   const int32_t *neighbour; /* (start[count]) each neighbour once, in any order */
+  const int32_t *size;      /* (count) number of rows of each node, or NULL */
 } baum_i_graph;
 
 /* Places are positions in the order of elimination. */
@@ -31,8 +32,10 @@ typedef struct baum_i_elimination {
  * are no such nodes, it eliminates nodes of the smallest degree that are not neighbours of each
  * other. A chain is thus eliminated from both ends. The nodes are then sorted by their distance
  * from the root of the elimination tree: a node comes shortly before the nodes that its elimination
- * changes, and independent nodes are adjacent in the order. Returns BAUM_OK, BAUM_ERR_MEMORY, or
- * BAUM_ERR_SINGULAR if there would be more than `most` couplings. On failure *out is empty. */
+ * changes, and independent nodes are adjacent in the order. If sizes are given, two independent
+ * nodes of the same size are made adjacent where this is possible by a small change of the order.
+ * Returns BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR if there would be more than `most`
+ * couplings. On failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
 /* Finds the index in later[] of the coupling of two places. */
 int32_t baum_i_elimination_find(const baum_i_elimination *elimination, int32_t earlier,

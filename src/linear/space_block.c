@@ -21,13 +21,6 @@ static const double many_nodes = 128.0;
  * spin. It may be much larger than all other accelerations. */
 static const double thin = 2e-5;
 
-/* A body is slender if its smallest moment of inertia is below `slender` times the trace of I. The
- * pivots of its joints may then be as small as this fraction. Raising this moment of inertia by
- * `raised` times the trace avoids such small pivots. Each refinement then gains about four
- * digits. */
-static const double slender = 1e-8;
-static const double raised = 1e-4;
-
 /* ---- memory ---- */
 
 static baum_status make_arrays(baum_i_space *b)
@@ -46,8 +39,6 @@ static baum_status make_arrays(baum_i_space *b)
     {&b->nothing, motion},
     {&b->pull, motion},
     {&b->pull_low, motion},
-    {&b->lack, 4 * (size_t)b->body_count},
-    {&b->spins, (size_t)b->body_count},
     {&b->units, rows},
     {&b->rest, rows},
     {&b->rest_low, rows},
@@ -67,7 +58,7 @@ static void set_units(const baum_i_space *b, const baum_i_space_layout *layout)
 {
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
-    for (int i = 0; i < node->rows; i++) {
+    for (int i = 0; i < baum_i_space_own_rows(node); i++) {
       b->units[node->place + i] = layout->moments[node->row[i]] ? 1.0 / layout->length : 1.0;
     }
   }
@@ -159,30 +150,44 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
         sum -= l[3 * k + i] * body->whiten[4 * k + c];
       }
       body->whiten[4 * i + c] = sum / l[4 * i];
+      body->columns[4 * c + i] = body->whiten[4 * i + c];
       body->unwhite[3 * i + c] = l[3 * c + i];
     }
   }
   return true;
 }
 
-/* ---- slender bodies ---- */
-
-/* Returns the largest diagonal entry of I^-1, and sets *axis to its index. */
-static double weakest_axis(const baum_i_space_body *body, int *axis)
-{
-  double most = 0.0;
-  for (int c = 0; c < 3; c++) {
-    const double *x = body->whiten + 4 * (ptrdiff_t)c;
-    double entry = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-    *axis = entry > most ? c : *axis;
-    most = entry > most ? entry : most;
-  }
-  return most;
-}
+/* ---- axes of thin bodies ---- */
 
 static double trace_of(const baum_i_space_body *body)
 {
   return body->inertia[0] + body->inertia[5] + body->inertia[10];
+}
+
+/* Sets the axis of the smallest moment of inertia to the largest column of (I^-1)^2, which is
+ * accurate if this moment is much smaller than the others. Returns the moment. */
+static double find_axis(baum_i_space_body *body)
+{
+  double inverse[9];
+  double most = 0.0;
+  for (int i = 0; i < 9; i++) {
+    const double *x = body->whiten + (ptrdiff_t)4 * (i / 3);
+    const double *y = body->whiten + (ptrdiff_t)4 * (i % 3);
+    inverse[i] = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+  }
+  for (int c = 0; c < 3; c++) {
+    double column[3];
+    for (int i = 0; i < 3; i++) {
+      column[i] = inverse[3 * i] * inverse[c] + inverse[3 * i + 1] * inverse[3 + c] +
+                  inverse[3 * i + 2] * inverse[6 + c];
+    }
+    double size = hypot(hypot(column[0], column[1]), column[2]);
+    for (int i = 0; i < 3 && size > most; i++) {
+      body->axis[i] = column[i] / size;
+    }
+    most = size > most ? size : most;
+  }
+  return 1.0 / sqrt(most);
 }
 
 static void set_spin(baum_i_space_body *body)
@@ -194,23 +199,30 @@ static void set_spin(baum_i_space_body *body)
   }
 }
 
-/* Finds the axis of a thin body. Columns of I^-1 are nearly parallel to it. */
-static void find_axis(baum_i_space_body *body)
+/* Replaces I by I + w e e^T with w = trace(I) / 2, and sets u. */
+static void raise_moment(baum_i_space_body *body)
 {
-  const double *white = body->whiten;
-  int axis = 0;
-  double size = 0.0;
-  body->thin = thin * trace_of(body) * weakest_axis(body, &axis) > 1.0;
-  for (int i = 0; i < 3; i++) {
-    const double *x = white + 4 * (ptrdiff_t)i;
-    const double *y = white + 4 * (ptrdiff_t)axis;
-    body->axis[i] = body->thin ? x[0] * y[0] + x[1] * y[1] + x[2] * y[2] : 0.0;
-    size = hypot(size, body->axis[i]);
+  double weight = 0.5 * trace_of(body);
+  const double *e = body->axis;
+  double tensor[12];
+  for (int i = 0; i < 12; i++) {
+    tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
   }
-  for (int i = 0; i < 3 && body->thin; i++) {
-    body->axis[i] /= size;
-  }
+  (void)whiten(tensor, body); /* cannot fail, because I is positive definite */
   set_spin(body);
+  for (int k = 0; k < 3; k++) {
+    body->lack[k] = sqrt(weight) * body->spin[k];
+  }
+}
+
+static void set_thin(baum_i_space_body *body)
+{
+  double least = find_axis(body);
+  body->thin = least < thin * trace_of(body);
+  set_spin(body);
+  if (body->raised) {
+    raise_moment(body);
+  }
 }
 
 static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_space_body *body)
@@ -225,11 +237,14 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
   }
   if (n == 6) {
     positive = whiten(body->inertia, body) && positive;
-    find_axis(body);
+    if (positive) {
+      set_thin(body);
+    }
   } else if (n == 3 && planar) {
     positive = positive && m[8] > 0.0;
     body->unwhite[8] = sqrt(m[8]);
     body->whiten[10] = 1.0 / body->unwhite[8];
+    body->columns[10] = body->whiten[10];
   }
   return positive;
 }
@@ -249,59 +264,6 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass)
     space->has_thin = space->has_thin || body->thin;
   }
   return -1;
-}
-
-static bool is_slender(const baum_i_space_body *body)
-{
-  int axis = 0;
-  return !body->fixed && body->thin && slender * trace_of(body) * weakest_axis(body, &axis) > 1.0;
-}
-
-bool baum_i_space_has_slender(const baum_i_space *space)
-{
-  bool found = false;
-  for (int t = 1; t < space->body_count && !found; t++) {
-    found = is_slender(&space->bodies[t]);
-  }
-  return found;
-}
-
-/* Replaces I by I + w e e^T, where e is the axis and w is the added moment of inertia. Sets u =
- * w^(1/2) L^-1 e, where L is the factor of the new tensor. */
-static void raise_moment(baum_i_space_body *body, double u[4])
-{
-  double weight = raised * trace_of(body);
-  const double *e = body->axis;
-  double tensor[12];
-  for (int i = 0; i < 12; i++) {
-    tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
-  }
-  (void)whiten(tensor, body); /* cannot fail, because I is positive definite */
-  set_spin(body);
-  for (int k = 0; k < 3; k++) {
-    u[k] = sqrt(weight) * body->spin[k];
-  }
-}
-
-void baum_i_space_raise_slender(baum_i_space *space)
-{
-  for (int t = 1; t < space->body_count; t++) {
-    if (is_slender(&space->bodies[t])) {
-      raise_moment(&space->bodies[t], space->lack + 4 * (ptrdiff_t)t);
-      space->is_raised = true;
-    }
-  }
-}
-
-void baum_i_space_restore_slender(baum_i_space *space, int body)
-{
-  memset(space->lack + 4 * (ptrdiff_t)body, 0, 4 * sizeof *space->lack);
-  (void)whiten(space->bodies[body].inertia, &space->bodies[body]);
-  set_spin(&space->bodies[body]);
-  space->is_raised = false;
-  for (int i = 0; i < 4 * space->body_count; i++) {
-    space->is_raised = space->is_raised || space->lack[i] != 0.0;
-  }
 }
 
 /* ---- other right-hand sides ---- */
@@ -330,6 +292,19 @@ void baum_i_space_set_rest(baum_i_space *space, const double *r)
   }
 }
 
+/* For spin rows, sets rest[] to u . y of pull[]: mu is the change of -u . y by the constraints. */
+static void rest_spin_rows(const baum_i_space *b)
+{
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_node *node = &b->list[k];
+    if (node->spin != 0) {
+      const double *u = b->bodies[node->spin].lack;
+      const double *y = b->pull + (ptrdiff_t)BAUM_I_SPACE_MOTION * node->spin + 4;
+      b->rest[node->place + node->rows - 1] = u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
+    }
+  }
+}
+
 void baum_i_space_pull(baum_i_space *space, const double *x)
 {
   clear(space);
@@ -347,6 +322,7 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
       }
     }
   }
+  rest_spin_rows(space);
   for (int i = 0; i < BAUM_I_SPACE_MOTION * space->body_count; i++) {
     space->motion[i] = -space->pull[i];
   }
@@ -388,28 +364,78 @@ BAUM_I_INLINE void add_sides(const baum_i_space *b, const baum_i_space_node *nod
   }
 }
 
-void baum_i_space_undivided(const baum_i_space *space, int node, double det[2])
+/* Sets the lower triangle of D before the elimination. s[j] is column j. */
+static void set_undivided(const baum_i_space *b, const baum_i_space_node *node,
+                          double s[MOST][MOST])
 {
-  const baum_i_space_node *at = &space->list[node];
-  int n = at->rows;
-  double s[MOST][MOST] = {{0.0}};
-  if (n > 4) {
-    add_sides(space, at, true, s);
+  memset(s, 0, MOST * sizeof *s);
+  if (node->rows > 4) {
+    add_sides(b, node, true, s);
   } else {
-    add_sides(space, at, false, s);
+    add_sides(b, node, false, s);
   }
-  for (int i = 0; i < n; i++) {
-    s[i][i] += at->omitted >> i & 1u;
+  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
+    s[i][i] += node->omitted >> i & 1u;
   }
-  det[0] = 1.0;
-  det[1] = 1.0;
+  if (node->spin != 0) {
+    s[node->rows - 1][node->rows - 1] -= 1.0;
+  }
+}
+
+/* Factors a lower triangle L D L^T of n rows in place. s[k][k] is then D. */
+static void factor_triangle(int n, double s[MOST][MOST])
+{
   for (int k = 0; k < n; k++) {
-    det[k < 3 ? 0 : 1] *= s[k][k];
     for (int i = k + 1; i < n; i++) {
       double factor = s[k][i] / s[k][k];
       for (int j = k + 1; j <= i; j++) {
         s[j][i] -= factor * s[k][j];
       }
     }
+    for (int i = k + 1; i < n; i++) {
+      s[k][i] /= s[k][k];
+    }
   }
+}
+
+void baum_i_space_undivided(const baum_i_space *space, int node, double det[2])
+{
+  const baum_i_space_node *at = &space->list[node];
+  double s[MOST][MOST];
+  set_undivided(space, at, s);
+  factor_triangle(at->rows, s);
+  det[0] = 1.0;
+  det[1] = 1.0;
+  for (int k = 0; k < at->rows; k++) {
+    det[k < 3 ? 0 : 1] *= s[k][k];
+  }
+}
+
+/* With x = R L^T e / |L^T e|, the grip is x^T D^-1 x. */
+double baum_i_space_grip(const baum_i_space *space, int node, const baum_i_space_side *side)
+{
+  const baum_i_space_node *at = &space->list[node];
+  const baum_i_space_body *body = &space->bodies[side->body];
+  double s[MOST][MOST];
+  double x[MOST];
+  double y[3];
+  double square = 0.0;
+  double grip = 0.0;
+  for (int c = 0; c < 3; c++) {
+    const double *l = body->unwhite + (ptrdiff_t)3 * c;
+    y[c] = l[0] * body->axis[0] + l[1] * body->axis[1] + l[2] * body->axis[2];
+    square += y[c] * y[c];
+  }
+  set_undivided(space, at, s);
+  factor_triangle(at->rows, s);
+  for (int i = 0; i < at->rows; i++) {
+    const double *high = space->sides + side->turn + (i < 4 ? i : 12 + i - 4);
+    int next = i < 4 ? 4 : 2;
+    x[i] = high[0] * y[0] + high[next] * y[1] + high[2 * next] * y[2];
+    for (int k = 0; k < i; k++) {
+      x[i] -= s[k][i] * x[k];
+    }
+    grip += x[i] * x[i] / s[i][i];
+  }
+  return grip / square;
 }

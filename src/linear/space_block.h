@@ -19,6 +19,17 @@
  * is 0 for the third entry of x and for the first two entries of y. Body 0 is the ground, with W =
  * 0.
  *
+ * If the inertia tensor of a body is nearly singular, 1 / m and 1 are small compared with R R^T,
+ * and digits are lost in S. The solver then uses the tensor I' = I + e w e^T, where e is the axis
+ * of the smallest moment of inertia and w a number of the size of the other moments. With I' = L
+ * L^T, u = w^(1/2) L^-1 e and y = L^T w', the equations of motion contain the term -u (u . y). Its
+ * factor mu = -u . y is a further multiplier: it is the last one of a node of the body, and its row
+ *
+ *   u . y + mu = 0
+ *
+ * is called a *spin row*. The spin row is the row [0 | u^T] of J, and its diagonal entry in S is
+ * u . u - 1.
+ *
  * A matrix of n rows is stored in two parts: first rows 0 to 3 of all columns, four numbers for
  * each column, and then, if n > 4, rows 4 and 5 of all columns, two numbers for each column. Unused
  * rows are 0. A vector of n rows has four or eight numbers. Numbers are loaded in groups of the
@@ -56,12 +67,16 @@ typedef struct baum_i_space_layout {
   /* [m] characteristic length, to compare accelerations of origins with angular accelerations, and
    * forces with moments */
   double length;
+  /* (row_block_count) number of the body whose spin row is in the node of the row block, or 0; NULL:
+   * there are no spin rows */
+  const int *spins;
 } baum_i_space_layout;
 
 typedef struct baum_i_space_node {
-  int32_t rows;                   /* n */
-  int32_t row[BAUM_I_SPACE_ROWS]; /* rows of the system */
+  int32_t rows;                   /* n, with the spin row */
+  int32_t row[BAUM_I_SPACE_ROWS]; /* rows of the system; not set for a spin row */
   uint32_t omitted;               /* bit i is set if row i is omitted and therefore zero */
+  int32_t spin;                   /* the body whose spin row is the last row, or 0 */
   int32_t row_block;
   int32_t at;    /* start of its numbers in nodes[]: lambda, r, D */
   int32_t place; /* start of its vectors in rest[] */
@@ -94,7 +109,9 @@ typedef struct baum_i_space_pair {
 /* A coupling of a node with a node that is eliminated later. */
 typedef struct baum_i_space_coupling {
   int32_t later;
-  int32_t at; /* start of its block in off[] */
+  int32_t at;      /* start of its block in off[] */
+  int32_t numbers; /* start of the numbers of the later node in nodes[] */
+  int32_t rows;    /* of the later node */
 } baum_i_space_coupling;
 
 /* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.
@@ -109,14 +126,17 @@ typedef struct baum_i_space_measure {
 typedef struct baum_i_space_body {
   double weight[4];   /* W of x: 1 / m three times (planar: twice), then 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
+  double columns[12]; /* L^-T, column-major, each column followed by 0 */
   double inertia[12]; /* I, stored like `whiten` */
   double unwhite[9];  /* L^T, row-major */
-  double axis[4];     /* axis e of a thin body, otherwise 0 */
+  double axis[4];     /* axis e of the smallest moment of inertia */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
+  double lack[4];     /* u if a node has the spin row of the body */
   double mass;        /* 0 if W = 0 */
   double heft;        /* mass of the body, even if the body is fixed */
   bool fixed;         /* W = 0 */
   bool thin;          /* the moment of inertia about `axis` is small */
+  bool raised;        /* a node has the spin row of the body */
   int32_t first;      /* first column of the body in J */
   int32_t size;
   const int32_t *slots; /* (size) column of [E | R] for each column of the body */
@@ -165,14 +185,9 @@ typedef struct baum_i_space {
   double *nothing; /* zeros */
   double *pull;    /* W (f - M a - J^T lambda) */
   double *pull_low;
-  /* (body_count x 4) u of slender bodies, otherwise 0. For a slender body, the solver replaces I by
-   * L L^T = I + L u u^T L^T. Refinement removes the effect of this change. */
-  double *lack;
-  double *spins;  /* (body_count) change of the spin of thin bodies by the last refinement */
-  double *units;  /* (numbers_of_rows) factors that convert multipliers to forces */
-  bool is_raised; /* the inertia of at least one body is raised */
-  bool has_thin;  /* at least one body is thin */
-  double *rest;   /* (numbers_of_rows) r - J a */
+  double *units; /* (numbers_of_rows) factors that convert multipliers to forces; 0: spin row */
+  bool has_thin; /* at least one body is thin */
+  double *rest;  /* (numbers_of_rows) r - J a, for a spin row -u . y - mu */
   double *rest_low;
   const double *from; /* a0 of the present right-hand side: free or nothing */
   const double *load; /* f of the present right-hand side: force or nothing */
@@ -190,18 +205,16 @@ static inline int baum_i_space_part(int rows)
   return rows > 4 ? 20 : 12;
 }
 
+/* Returns the number of rows of a node without its spin row. */
+static inline int baum_i_space_own_rows(const baum_i_space_node *node)
+{
+  return node->rows - (node->spin != 0 ? 1 : 0);
+}
+
 /* Start of D in the numbers of a node. */
 static inline int baum_i_space_pivot(int rows)
 {
   return 2 * baum_i_space_vector(rows);
-}
-
-/* Tells whether the present right-hand side needs the refinement for slender bodies. Projections,
- * which have the right-hand side (0, r), do not need it, because they may use any positive definite
- * metric. */
-static inline bool baum_i_space_must_refine(const baum_i_space *space)
-{
-  return space->is_raised && space->load == space->force;
 }
 
 /* Returns the same statuses as baum_i_block_create(). */
@@ -218,12 +231,9 @@ baum_status baum_i_space_find_islands(baum_i_space *space);
  * that is not. */
 int baum_i_space_set_mass(baum_i_space *space, const double *mass);
 
-/* The first function tells whether there are bodies so slender that their pivots may be too small.
- * The second function raises the moments of inertia of these bodies about their axes. The third
- * function restores the moment of one body. */
-bool baum_i_space_has_slender(const baum_i_space *space);
-void baum_i_space_raise_slender(baum_i_space *space);
-void baum_i_space_restore_slender(baum_i_space *space, int body);
+/* Returns how completely the rows of a node alone determine the spin of a body that has a side of
+ * the node, from 0 to 1. The sides must be set. */
+double baum_i_space_grip(const baum_i_space *space, int node, const baum_i_space_side *side);
 
 /* Selects the right-hand side (f, r) or (0, r). Initially it is (f, r). */
 void baum_i_space_use_force(baum_i_space *space, bool use);
@@ -268,7 +278,17 @@ extern const baum_i_space_residual_kernel baum_i_space_residual_kernel_wide;
 
 /* Functions of hot files (base/hot.h) for the solution, like those of baum_i_block_kernel. */
 typedef struct baum_i_space_kernel {
+  /* `lambda` may be NULL. */
   void (*substitute)(baum_i_space *space, double *lambda);
+  bool (*read_motion)(const baum_i_space *space, double *a);
+  void (*read_lambda)(const baum_i_space *space, double *lambda);
+} baum_i_space_kernel;
+
+extern const baum_i_space_kernel baum_i_space_kernel_plain;
+extern const baum_i_space_kernel baum_i_space_kernel_wide;
+
+/* Functions of hot files (base/hot.h) that check and refine solutions. */
+typedef struct baum_i_space_refine_kernel {
   /* Tells how strongly the effects of different nodes cancel. Returns the largest acceleration that
    * the multipliers of one node alone would cause, divided by the largest acceleration in the same
    * island, which all multipliers and forces cause. For the spin that a node causes on a thin body,
@@ -276,18 +296,14 @@ typedef struct baum_i_space_kernel {
    * the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
-  /* Prepares correct(): computes r - J a in working precision. The residual of the equations of
-   * motion contains only the effect of raised inertia. */
-  void (*find_rest)(baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest change of the multipliers or of the
-   * accelerations, relative to their largest values in the island. If refinement does not converge
-   * quickly for a slender body, returns at least 1. */
+   * accelerations, relative to their largest values in the island. */
   double (*correct)(baum_i_space *space);
-  bool (*read_motion)(const baum_i_space *space, double *a);
-  void (*read_lambda)(const baum_i_space *space, double *lambda);
-} baum_i_space_kernel;
+  /* The same for r - J a in working precision, if the residual of the equations of motion is 0. */
+  double (*correct_rows)(baum_i_space *space);
+} baum_i_space_refine_kernel;
 
-extern const baum_i_space_kernel baum_i_space_kernel_plain;
-extern const baum_i_space_kernel baum_i_space_kernel_wide;
+extern const baum_i_space_refine_kernel baum_i_space_refine_kernel_plain;
+extern const baum_i_space_refine_kernel baum_i_space_refine_kernel_wide;
 
 #endif

@@ -19,6 +19,36 @@ BAUM_I_INLINE baum_i_four baum_i_four_of(baum_i_pair x)
 #endif
 }
 
+/* Returns (low_0, low_1, high_0, high_1). */
+BAUM_I_INLINE baum_i_four baum_i_four_joined(baum_i_pair low, baum_i_pair high)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_set_m128d(high, low);
+#else
+  return (baum_i_four){low, high};
+#endif
+}
+
+/* Returns (x_0, y_0, x_2, y_2). */
+BAUM_I_INLINE baum_i_four baum_i_four_first(baum_i_four x, baum_i_four y)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_unpacklo_pd(x, y);
+#else
+  return (baum_i_four){{x.low[0], y.low[0]}, {x.high[0], y.high[0]}};
+#endif
+}
+
+/* Returns (x_1, y_1, x_3, y_3). */
+BAUM_I_INLINE baum_i_four baum_i_four_second(baum_i_four x, baum_i_four y)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_unpackhi_pd(x, y);
+#else
+  return (baum_i_four){{x.low[1], y.low[1]}, {x.high[1], y.high[1]}};
+#endif
+}
+
 /* sum - x s */
 BAUM_I_INLINE baum_i_four baum_i_four_subtract(baum_i_four sum, baum_i_four x, double s)
 {
@@ -191,13 +221,35 @@ BAUM_I_INLINE ptrdiff_t baum_i_column_entry(int columns, int row, int column)
   return row < 4 ? 4 * column + row : 4 * columns + 2 * column + row - 4;
 }
 
-/* Returns u . y of a slender body, otherwise 0. The inertia added to the body (`lack` in
- * space_block.h) contributes u (u . y) to the residual of the equations of motion. */
-BAUM_I_INLINE double baum_i_space_twist(const baum_i_space *b, int body, const double *motion)
+/* Returns the unit vector whose last of n numbers is 1. */
+BAUM_I_INLINE baum_i_space_column baum_i_column_last(int n, bool tall)
 {
-  const double *u = b->lack + (ptrdiff_t)4 * body;
-  const double *y = motion + (ptrdiff_t)BAUM_I_SPACE_MOTION * body + 4;
-  return u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
+  static const double UNITS[14] = {[7] = 1.0};
+  return baum_i_column_load(UNITS + 8 - n, 1, 0, tall);
+}
+
+/* Returns m^T lambda for a matrix m with three columns. */
+BAUM_I_INLINE baum_i_four baum_i_column_transposed_times(const double *m,
+                                                         baum_i_space_column lambda, bool tall)
+{
+  baum_i_four products[4];
+  for (int c = 0; c < 3; c++) {
+    baum_i_space_column g = baum_i_column_load(m, 3, c, tall);
+    products[c] = baum_i_four_times(g.low, lambda.low);
+    if (tall) {
+      products[c] = baum_i_four_plus(products[c], baum_i_four_of(g.high * lambda.high));
+    }
+  }
+  products[3] = baum_i_four_zero();
+  return baum_i_four_sums(products);
+}
+
+/* Returns the angular acceleration L^-T y. */
+BAUM_I_INLINE baum_i_four baum_i_space_unwhitened(const baum_i_space_body *body, const double *y)
+{
+  baum_i_four sum = baum_i_four_times(baum_i_four_load(body->columns), baum_i_four_all(y[0]));
+  sum = baum_i_four_add(sum, baum_i_four_load(body->columns + 4), y[1]);
+  return baum_i_four_add(sum, baum_i_four_load(body->columns + 8), y[2]);
 }
 
 #endif

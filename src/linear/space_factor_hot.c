@@ -16,6 +16,11 @@
  *
  * The factors are stored before they are used. In registers they would need more registers than
  * there are.
+ *
+ * The time of a pivot is the sum of the latencies of its instructions, which wait for each other.
+ * Two successive nodes with the same number of rows that are not coupled with each other, for
+ * example at both ends of a chain, are therefore factored together: each instruction computes a
+ * number of one node and the same number of the other one.
  */
 #include <math.h>
 #include <string.h>
@@ -105,132 +110,172 @@ static void couple(baum_i_space *b)
   }
 }
 
-/* ---- factor ---- */
+/* ---- pivots ---- */
 
-/* The pivot of the node being eliminated. A symmetric matrix is stored as its lower triangle, row
- * by row. */
-typedef struct pivot {
-  double p[6];
-  double c[3][3]; /* C, column by column */
-  double y[3][3]; /* Y, column by column */
-  double z[6];
-  double b[MOST]; /* b1, b2' */
-} pivot;
+/* Numbers of the nodes whose pivots are factored together: number i belongs to node i. The constant
+ * `count` is the number of these nodes, 1 or 2. If it is 1, the second number is 0. */
+typedef baum_i_pair lanes;
 
-/* Replaces a symmetric matrix by its inverse. Returns its determinant. */
-BAUM_I_INLINE double invert(int n, double s[6])
+/* The result of a comparison of two vectors. */
+typedef long long mask __attribute__((vector_size(16)));
+
+BAUM_I_INLINE lanes gather(int count, double *const from[2], int at)
+{
+  return (lanes){from[0][at], count > 1 ? from[1][at] : 0.0};
+}
+
+/* Returns 1 / x, or (1 / x_0, 0) for one node, because 1 / 0 would raise a floating-point
+ * exception. */
+BAUM_I_INLINE lanes reciprocal(int count, lanes x)
+{
+  return count > 1 ? baum_i_both(1.0) / x : (lanes){1.0 / x[0], 0.0};
+}
+
+/* Computes the adjugate of a symmetric matrix. Returns the determinant. */
+BAUM_I_INLINE lanes adjugate(int n, const lanes s[6], lanes a[6])
 {
   if (n == 1) {
-    double det = s[0];
-    s[0] = 1.0 / det;
-    return det;
+    a[0] = baum_i_both(1.0);
+    return s[0];
   }
   if (n == 2) {
-    double det = s[0] * s[2] - s[1] * s[1];
-    double inverse = 1.0 / det;
-    double first = s[0];
-    s[0] = inverse * s[2];
-    s[1] = -inverse * s[1];
-    s[2] = inverse * first;
-    return det;
+    a[0] = s[2];
+    a[1] = -s[1];
+    a[2] = s[0];
+    return s[0] * s[2] - s[1] * s[1];
   }
-  double a[6] = {s[2] * s[5] - s[4] * s[4], s[4] * s[3] - s[1] * s[5], s[0] * s[5] - s[3] * s[3],
-                 s[1] * s[4] - s[2] * s[3], s[1] * s[3] - s[0] * s[4], s[0] * s[2] - s[1] * s[1]};
-  double det = s[0] * a[0] + s[1] * a[1] + s[3] * a[3];
-  double inverse = 1.0 / det;
-  for (int i = 0; i < 6; i++) {
-    s[i] = inverse * a[i];
-  }
-  return det;
+  a[0] = s[2] * s[5] - s[4] * s[4];
+  a[1] = s[4] * s[3] - s[1] * s[5];
+  a[2] = s[0] * s[5] - s[3] * s[3];
+  a[3] = s[1] * s[4] - s[2] * s[3];
+  a[4] = s[1] * s[3] - s[0] * s[4];
+  a[5] = s[0] * s[2] - s[1] * s[1];
+  return s[0] * a[0] + s[1] * a[1] + s[3] * a[3];
 }
 
 /* Returns entry (i, j) of a lower triangle. */
-BAUM_I_INLINE double of_triangle(const double s[6], int i, int j)
+BAUM_I_INLINE lanes of_triangle(const lanes s[6], int i, int j)
 {
   return i >= j ? s[i * (i + 1) / 2 + j] : s[j * (j + 1) / 2 + i];
 }
 
-BAUM_I_INLINE double pivot_entry(const double *d, int n, int row, int col)
+BAUM_I_INLINE lanes dot(const lanes x[3], const lanes y[3])
 {
-  return row < 4 ? d[4 * col + row] : d[4 * n + 2 * (col - 4) + row - 4];
+  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 }
 
-/* Factors D of a node with n rows. */
-BAUM_I_INLINE void factor_pivot(int n, const double *d, const double *b, pivot *t, double det[2])
+/* Returns the index of an entry of D, row <= col. */
+BAUM_I_INLINE int pivot_entry(int n, int row, int col)
 {
-  int n1 = n < 3 ? n : 3;
-  int n2 = n - n1;
+  return row < 4 ? 4 * col + row : 4 * n + 2 * (col - 4) + row - 4;
+}
+
+/* Stores a vector of four numbers for each node. */
+BAUM_I_INLINE void scatter(int count, double *const to[2], int at, const lanes x[4])
+{
+  baum_i_four even = baum_i_four_joined(x[0], x[2]);
+  baum_i_four odd = baum_i_four_joined(x[1], x[3]);
+  baum_i_four_store(to[0] + at, baum_i_four_first(even, odd));
+  if (count > 1) {
+    baum_i_four_store(to[1] + at, baum_i_four_second(even, odd));
+  }
+}
+
+/* Multiplies a symmetric matrix by `factor`, and stores its columns. */
+BAUM_I_INLINE void scale_and_scatter(int n, int count, double *const to[2], int at, lanes factor,
+                                     lanes s[6])
+{
   BAUM_I_UNROLL(6)
-  for (int i = 0; i < n1; i++) {
+  for (int i = 0; i < n * (n + 1) / 2; i++) {
+    s[i] *= factor;
+  }
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < n; c++) {
+    lanes x[4] = {{0.0}};
     BAUM_I_UNROLL(3)
-    for (int j = 0; j <= i; j++) {
-      t->p[i * (i + 1) / 2 + j] = pivot_entry(d, n, j, i);
+    for (int i = 0; i < n; i++) {
+      x[i] = of_triangle(s, i, c);
+    }
+    scatter(count, to, at + 4 * c, x);
+  }
+}
+
+/* Sets y = s x, with a symmetric matrix s. */
+BAUM_I_INLINE void multiply(int n, const lanes s[6], const lanes x[3], lanes y[3])
+{
+  BAUM_I_UNROLL(3)
+  for (int i = 0; i < n; i++) {
+    y[i] = of_triangle(s, i, 0) * x[0];
+    BAUM_I_UNROLL(3)
+    for (int j = 1; j < n; j++) {
+      y[i] += of_triangle(s, i, j) * x[j];
     }
   }
+}
+
+/* Factors the pivots of nodes with n rows. The factors are stored in place of D, and (P b1, Z b2')
+ * in place of b. With the adjugate A of D1, the product C^T A C is computed at the same time as the
+ * reciprocal of det D1, so that D2 - C^T Y is known soon after the reciprocal. */
+BAUM_I_INLINE void factor_pivots(int n, int count, double *const b[2], lanes det[2])
+{
+  double *const d[2] = {b[0] + baum_i_space_pivot(n), b[1] + baum_i_space_pivot(n)};
+  int n1 = n < 3 ? n : 3;
+  int n2 = n - n1;
+  lanes s[6]; /* D1, then D2 - C^T Y */
+  lanes a[6]; /* A, then Z */
+  lanes p[6];
+  lanes c[3][3]; /* C, column by column */
+  lanes ac[3][3];
+  lanes right[MOST]; /* b1, b2' */
+  lanes solved[8] = {{0.0}};
   BAUM_I_UNROLL(6)
   for (int i = 0; i < n; i++) {
-    t->b[i] = b[i];
+    right[i] = gather(count, b, i);
+    BAUM_I_UNROLL(3)
+    for (int j = 0; i < n1 && j <= i; j++) {
+      s[i * (i + 1) / 2 + j] = gather(count, d, pivot_entry(n, j, i));
+    }
   }
-  det[0] = invert(n1, t->p);
-  BAUM_I_UNROLL(6)
+  det[0] = adjugate(n1, s, a);
+  det[1] = baum_i_both(1.0);
+  memcpy(p, a, sizeof p);
+  lanes reciprocal_det = reciprocal(count, det[0]);
+  scale_and_scatter(n1, count, d, 0, reciprocal_det, p);
+  multiply(n1, p, right, solved);
+  BAUM_I_UNROLL(3)
   for (int k = 0; k < n2; k++) {
-    BAUM_I_UNROLL(6)
+    BAUM_I_UNROLL(3)
     for (int i = 0; i < 3; i++) {
-      t->c[k][i] = d[4 * (3 + k) + i];
+      c[k][i] = gather(count, d, pivot_entry(n, i, 3 + k));
     }
-    BAUM_I_UNROLL(6)
-    for (int i = 0; i < 3; i++) {
-      t->y[k][i] = of_triangle(t->p, i, 0) * t->c[k][0] + of_triangle(t->p, i, 1) * t->c[k][1] +
-                   of_triangle(t->p, i, 2) * t->c[k][2];
-    }
-    t->b[3 + k] -= t->y[k][0] * b[0] + t->y[k][1] * b[1] + t->y[k][2] * b[2];
+    multiply(3, a, c[k], ac[k]);
     BAUM_I_UNROLL(3)
     for (int j = 0; j <= k; j++) {
-      t->z[k * (k + 1) / 2 + j] =
-        pivot_entry(d, n, 3 + j, 3 + k) -
-        (t->c[k][0] * t->y[j][0] + t->c[k][1] * t->y[j][1] + t->c[k][2] * t->y[j][2]);
+      s[k * (k + 1) / 2 + j] =
+        gather(count, d, pivot_entry(n, 3 + j, 3 + k)) - reciprocal_det * dot(c[k], ac[j]);
     }
+    right[3 + k] -= dot(c[k], solved);
+    lanes y[4] = {reciprocal_det * ac[k][0], reciprocal_det * ac[k][1], reciprocal_det * ac[k][2]};
+    scatter(count, d, 12 + 4 * k, y);
   }
-  det[1] = n2 > 0 ? invert(n2, t->z) : 1.0;
+  if (n2 > 0) {
+    det[1] = adjugate(n2, s, a);
+    scale_and_scatter(n2, count, d, 4 * n, reciprocal(count, det[1]), a);
+    multiply(n2, a, right + 3, solved + 3);
+  }
+  scatter(count, b, 0, solved);
+  BAUM_I_UNROLL(2)
+  for (int i = 0; i < count && n > 4; i++) {
+    baum_i_store(b[i] + 4, (baum_i_pair){solved[4][i], solved[5][i]});
+  }
 }
 
-/* Stores the factors in place of D, and (P b1, Z b2') in place of b. */
-BAUM_I_INLINE void store_factors(int n, const pivot *t, double *d, double *b)
-{
-  int n1 = n < 3 ? n : 3;
-  int n2 = n - n1;
-  double p[6] = {0.0};
-  double z[6] = {0.0};
-  double x[6] = {0.0};
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < n1; c++) {
-    BAUM_I_UNROLL(3)
-    for (int i = 0; i < n1; i++) {
-      p[i] = of_triangle(t->p, i, c);
-      x[i] += p[i] * t->b[c];
-    }
-    baum_i_four_store(d + 4 * c, baum_i_four_set(p[0], p[1], p[2], 0.0));
-  }
-  BAUM_I_UNROLL(3)
-  for (int k = 0; k < n2; k++) {
-    BAUM_I_UNROLL(3)
-    for (int i = 0; i < n2; i++) {
-      z[i] = of_triangle(t->z, i, k);
-      x[3 + i] += z[i] * t->b[3 + k];
-    }
-    baum_i_four_store(d + 12 + 4 * k, baum_i_four_set(t->y[k][0], t->y[k][1], t->y[k][2], 0.0));
-    baum_i_four_store(d + 12 + 4 * n2 + 4 * k, baum_i_four_set(z[0], z[1], z[2], 0.0));
-  }
-  baum_i_four_store(b, baum_i_four_set(x[0], x[1], x[2], x[3]));
-  if (n > 4) {
-    baum_i_store(b + 4, (baum_i_pair){x[4], x[5]});
-  }
-}
+/* ---- couplings ---- */
 
 /* Subtracts X' U^T from a block of off[] or, if `is_pivot`, from D of the later node. Here x is X'
  * = [ X1 X2' ] of one coupling, and u is U = [ U1 U2 ] of an earlier coupling or, for D, of the
- * same coupling. D is symmetric, so rows 4 and 5 of D are stored only for columns 4 and 5. n:
- * number of rows of the eliminated node. */
+ * same coupling. D is symmetric, so x and u may also be exchanged, and rows 4 and 5 of D are stored
+ * only for columns 4 and 5. n: number of rows of the eliminated node. */
 BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, const double *u,
                                     int columns, bool is_pivot, double *to)
 {
@@ -253,17 +298,15 @@ BAUM_I_INLINE void subtract_product(int n, const column x[MOST], bool tall, cons
   }
 }
 
-/* Subtracts the contribution of the coupling at `off` from the later node, and replaces the
- * coupling by U. x receives X'. `numbers` are those of the eliminated node, rows: number of rows of
- * the later node. */
-BAUM_I_INLINE void eliminate_one(int n, const double *numbers, double *off, int rows, bool tall,
-                                 double *node, column x[MOST])
+/* Computes X' and U of the coupling at `off`. Stores U at once if n > 3, so that its columns do not
+ * occupy registers. `numbers` are those of the eliminated node. */
+BAUM_I_INLINE void find_columns(int n, const double *numbers, double *off, bool tall,
+                                column x[MOST], column u[MOST])
 {
   const double *p = numbers + baum_i_space_pivot(n);
   const double *y = p + 12;
   const double *z = p + 4 * n;
   int n1 = n < 3 ? n : 3;
-  column u[MOST];
   BAUM_I_UNROLL(6)
   for (int k = 0; k < n; k++) {
     x[k] = baum_i_column_load(off, n, k, tall);
@@ -275,7 +318,9 @@ BAUM_I_INLINE void eliminate_one(int n, const double *numbers, double *off, int 
     for (int k = 1; k < n1; k++) {
       u[j] = baum_i_column_add(u[j], x[k], p[4 * j + k], tall);
     }
-    baum_i_column_store(off, n, j, tall, u[j]);
+    if (n > 3) {
+      baum_i_column_store(off, n, j, tall, u[j]);
+    }
   }
   BAUM_I_UNROLL(6)
   for (int j = 3; j < n; j++) {
@@ -293,91 +338,165 @@ BAUM_I_INLINE void eliminate_one(int n, const double *numbers, double *off, int 
     }
     baum_i_column_store(off, n, j, tall, u[j]);
   }
-  column b = baum_i_column_load(node, 1, 0, tall);
+}
+
+/* Subtracts the contribution of a coupling from the later node, and replaces the coupling by U. x
+ * receives X'. If n <= 3, D is updated with columns of U that are still in registers and with
+ * entries of X in memory, because U would have to be stored before its entries can be loaded. */
+BAUM_I_INLINE void eliminate_one(int n, const double *numbers, double *off, int rows, bool tall,
+                                 double *later, column x[MOST])
+{
+  column u[MOST];
+  find_columns(n, numbers, off, tall, x, u);
+  column right = baum_i_column_load(later, 1, 0, tall);
   BAUM_I_UNROLL(6)
   for (int k = 0; k < n; k++) {
-    b = baum_i_column_subtract(b, x[k], numbers[k], tall);
+    right = baum_i_column_subtract(right, x[k], numbers[k], tall);
   }
-  baum_i_column_store(node, 1, 0, tall, b);
-  subtract_product(n, x, tall, off, rows, true, node + (tall ? 16 : 8));
+  baum_i_column_store(later, 1, 0, tall, right);
+  subtract_product(n, n > 3 ? x : u, tall, off, rows, true, later + (tall ? 16 : 8));
+  BAUM_I_UNROLL(3)
+  for (int k = 0; k < n && n <= 3; k++) {
+    baum_i_column_store(off, n, k, tall, u[k]);
+  }
 }
 
-/* Eliminates coupling f of a node, and multiplies it with the couplings e before it. Returns the
- * next target. */
-BAUM_I_INLINE const int32_t *eliminate_coupling(int n, const baum_i_space *b, const double *numbers,
-                                                const baum_i_space_coupling *first,
-                                                const baum_i_space_coupling *f, int rows, bool tall,
-                                                const int32_t *target)
+/* Returns p. The compiler does not know that, so it cannot move work that variants of the same code
+ * share to a place before the branch that selects one of them. There, this work would need more
+ * registers than there are. */
+BAUM_I_INLINE double *hidden(double *p)
+{
+  __asm__("" : "+r"(p));
+  return p;
+}
+
+/* Eliminates coupling f of a node, and multiplies it with the couplings before it, which begin with
+ * `first`. */
+BAUM_I_INLINE void eliminate_coupling(int n, const baum_i_space *b, double *numbers,
+                                      const baum_i_space_coupling *first,
+                                      const baum_i_space_coupling *f, int rows, bool tall,
+                                      const int32_t *target)
 {
   column x[MOST];
-  const baum_i_space_node *later = &b->list[f->later];
-  eliminate_one(n, numbers, b->off + f->at, rows, tall, b->nodes + later->at, x);
+  eliminate_one(n, hidden(numbers), hidden(b->off + f->at), rows, tall, b->nodes + f->numbers, x);
   for (const baum_i_space_coupling *e = first; e < f; e++) {
-    subtract_product(n, x, tall, b->off + e->at, b->list[e->later].rows, false, b->off + *target++);
+    subtract_product(n, x, tall, b->off + e->at, e->rows, false, b->off + *target++);
   }
-  return target;
 }
 
-/* Eliminates node k, which has n rows. Returns the next target. */
-BAUM_I_INLINE const int32_t *eliminate_node(int n, const baum_i_space *b, int k,
-                                            const int32_t *target)
+/* ---- nodes ---- */
+
+/* Tells whether node k + 1 also has n rows, like node k, and is not coupled with node k. Couplings
+ * are in ascending order of `later`. */
+BAUM_I_INLINE bool has_twin(int n, const baum_i_space *b, int k)
 {
-  double *numbers = b->nodes + b->list[k].at;
-  double *d = numbers + baum_i_space_pivot(n);
-  const baum_i_space_coupling *first = b->couplings + b->order.start[k];
-  const baum_i_space_coupling *end = b->couplings + b->order.start[k + 1];
-  pivot t;
-  baum_i_space_measure *measure = &b->measures[k];
-  factor_pivot(n, d, numbers, &t, measure->det);
-  store_factors(n, &t, d, numbers);
-  for (const baum_i_space_coupling *f = first; f < end; f++) {
-    int rows = b->list[f->later].rows;
-    if (rows == n) {
-      target = eliminate_coupling(n, b, numbers, first, f, n, n > 4, target);
-    } else if (rows > 4) {
-      target = eliminate_coupling(n, b, numbers, first, f, rows, true, target);
-    } else {
-      target = eliminate_coupling(n, b, numbers, first, f, rows, false, target);
-    }
+  const int32_t *start = b->order.start + k;
+  return k + 1 < b->node_count && b->list[k + 1].rows == n &&
+         (start[0] == start[1] || b->couplings[start[0]].later > k + 1);
+}
+
+/* Factors the pivots of `count` nodes, from node k on, and stores their determinants. */
+BAUM_I_INLINE void factor_nodes(int n, int count, const baum_i_space *b, int k,
+                                double *const numbers[2])
+{
+  lanes det[2];
+  factor_pivots(n, count, numbers, det);
+  BAUM_I_UNROLL(2)
+  for (int i = 0; i < count; i++) {
+    double sign = b->list[k + i].spin != 0 ? -1.0 : 1.0; /* a spin row makes det D negative */
+    baum_i_store(b->measures[k + i].det, (baum_i_pair){det[0][i], sign * det[1][i]});
   }
-  return target;
+}
+
+/* Eliminates node k, which has n rows, and its twin if it has one. Moves the pointer to the next
+ * target. Returns the next node. */
+BAUM_I_INLINE int eliminate_nodes(int n, const baum_i_space *b, int k, const int32_t **target)
+{
+  const baum_i_space_coupling *first = b->couplings + b->order.start[k];
+  const baum_i_space_coupling *second = b->couplings + b->order.start[k + 1];
+  const baum_i_space_coupling *end = second;
+  double *numbers[2] = {b->nodes + b->list[k].at, b->nodes + b->list[k].at};
+  if (has_twin(n, b, k)) {
+    numbers[1] = b->nodes + b->list[k + 1].at;
+    factor_nodes(n, 2, b, k, numbers);
+    end = b->couplings + b->order.start[k + 2];
+    k += 2;
+  } else {
+    factor_nodes(n, 1, b, k, numbers);
+    k++;
+  }
+  for (const baum_i_space_coupling *f = first; f < end; f++) {
+    if (f == second) {
+      first = second;
+      numbers[0] = numbers[1];
+    }
+    int rows = f->rows;
+    if (rows == n) {
+      eliminate_coupling(n, b, numbers[0], first, f, n, n > 4, *target);
+    } else if (rows > 4) {
+      eliminate_coupling(n, b, numbers[0], first, f, rows, true, *target);
+    } else {
+      eliminate_coupling(n, b, numbers[0], first, f, rows, false, *target);
+    }
+    *target += f - first;
+  }
+  return k;
+}
+
+/* Eliminates the nodes from node k on that have n rows. Returns the next node. */
+BAUM_I_INLINE int eliminate_run(int n, const baum_i_space *b, int k, const int32_t **target)
+{
+  while (k < b->node_count && b->list[k].rows == n) {
+    k = eliminate_nodes(n, b, k, target);
+  }
+  return k;
+}
+
+/* Tells whether no pivot is weak. */
+static bool is_fine(const baum_i_space *b)
+{
+  const baum_i_pair weak = baum_i_both(b->weak_pivot);
+  mask fine = {-1, -1};
+  for (int k = 0; k < b->node_count; k++) {
+    const baum_i_space_measure *m = &b->measures[k];
+    fine &= baum_i_load(m->det) > weak * baum_i_load(m->size);
+  }
+  return fine[0] && fine[1];
 }
 
 /* Returns the smallest ratio of a determinant to the product of the diagonal entries of S, or NaN
  * if a ratio is NaN. */
 static double weakest(const baum_i_space *b)
 {
-  double least = 1.0;
+  double least[2] = {1.0, 1.0};
+  bool known = true;
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_measure *m = &b->measures[k];
-    for (int i = 0; i < 2; i++) {
-      double ratio = m->det[i] / m->size[i];
-      least = ratio >= least || isnan(least) ? least : ratio;
-    }
+    baum_i_pair ratio = baum_i_load(m->det) / baum_i_load(m->size);
+    least[0] = ratio[0] < least[0] ? ratio[0] : least[0];
+    least[1] = ratio[1] < least[1] ? ratio[1] : least[1];
+    known = known && !isnan(ratio[0] + ratio[1]);
   }
-  return least;
+  double smaller = least[0] < least[1] ? least[0] : least[1];
+  return known ? smaller : (double)NAN;
 }
 
 static baum_i_pivots eliminate(baum_i_space *b)
 {
   memcpy(b->motion, b->from, (size_t)(MOTION * b->body_count) * sizeof *b->motion);
   const int32_t *target = b->targets;
-  double weak = b->weak_pivot;
-  bool fine = true;
-  for (int k = 0; k < b->node_count; k++) {
+  for (int k = 0; k < b->node_count;) {
     switch (b->list[k].rows) {
-    case 1: target = eliminate_node(1, b, k, target); break;
-    case 2: target = eliminate_node(2, b, k, target); break;
-    case 3: target = eliminate_node(3, b, k, target); break;
-    case 4: target = eliminate_node(4, b, k, target); break;
-    case 5: target = eliminate_node(5, b, k, target); break;
-    default: target = eliminate_node(6, b, k, target); break;
+    case 1: k = eliminate_run(1, b, k, &target); break;
+    case 2: k = eliminate_run(2, b, k, &target); break;
+    case 3: k = eliminate_run(3, b, k, &target); break;
+    case 4: k = eliminate_run(4, b, k, &target); break;
+    case 5: k = eliminate_run(5, b, k, &target); break;
+    default: k = eliminate_run(6, b, k, &target); break;
     }
-    const baum_i_space_measure *m = &b->measures[k];
-    fine = fine && m->det[0] > weak * m->size[0] && m->det[1] > weak * m->size[1];
   }
-  b->weakest = weak;
-  if (fine) {
+  b->weakest = b->weak_pivot;
+  if (is_fine(b)) {
     return BAUM_I_PIVOTS_GOOD;
   }
   b->weakest = weakest(b);

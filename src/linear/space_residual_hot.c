@@ -62,17 +62,12 @@ BAUM_I_INLINE void transpose(const four x[3], four rows[4])
 
 static void begin_motion(baum_i_space *b)
 {
-  bool raised = baum_i_space_must_refine(b);
   for (int t = 0; t < b->body_count; t++) {
     for (int half = 0; half < 2; half++) {
       ptrdiff_t at = (ptrdiff_t)MOTION * t + (ptrdiff_t)4 * half;
       sums pull = {baum_i_four_load(b->load + at), baum_i_four_zero()};
       four mass = baum_i_four_all(half == 1 ? 1.0 : b->bodies[t].mass);
       subtract(&pull, mass, baum_i_four_load(b->motion + at));
-      if (half == 1 && raised) {
-        four u = baum_i_four_load(b->lack + (ptrdiff_t)4 * t);
-        subtract(&pull, u, baum_i_four_all(-baum_i_space_twist(b, t, b->motion)));
-      }
       baum_i_four_store(b->pull + at, pull.high);
       baum_i_four_store(b->pull_low + at, pull.low);
     }
@@ -124,6 +119,12 @@ BAUM_I_INLINE void subtract_node(baum_i_space *b, const baum_i_space_node *node,
     ptrdiff_t at = (ptrdiff_t)MOTION * side->body;
     subtract_part(b, b->sides + side->move, n, lambda, at, &rest, &high);
     subtract_part(b, b->sides + side->turn, n, lambda, at + 4, &rest, &high);
+  }
+  if (node->spin != 0) {
+    baum_i_space_column last = baum_i_column_last(node->rows, tall);
+    four mu = baum_i_four_all(lambda[node->rows - 1]);
+    subtract(&rest, last.low, mu);
+    subtract(&high, baum_i_four_of(last.high), mu);
   }
   baum_i_space_column out = {.low = baum_i_four_plus(rest.high, rest.low)};
   out.high = baum_i_four_low(baum_i_four_plus(high.high, high.low));

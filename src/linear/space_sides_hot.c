@@ -10,6 +10,21 @@
 
 enum { MOST = BAUM_I_SPACE_ROWS, MOTION = BAUM_I_SPACE_MOTION };
 
+/* Sets f and a0 of a body in space that is not fixed. */
+BAUM_I_INLINE void set_spatial_force(const baum_i_space_body *body, const double *force, double *f,
+                                     double *a)
+{
+  const baum_i_four push = baum_i_four_set(force[0], force[1], force[2], 0.0);
+  const double *w = body->whiten;
+  baum_i_four turn = baum_i_four_times(baum_i_four_load(w), baum_i_four_all(force[3]));
+  turn = baum_i_four_add(turn, baum_i_four_load(w + 4), force[4]);
+  turn = baum_i_four_add(turn, baum_i_four_load(w + 8), force[5]);
+  baum_i_four_store(f, push);
+  baum_i_four_store(a, baum_i_four_times(push, baum_i_four_load(body->weight)));
+  baum_i_four_store(f + 4, turn);
+  baum_i_four_store(a + 4, turn);
+}
+
 static void set_force(baum_i_space *b, const double *force)
 {
   for (int t = 1; t < b->body_count; t++) {
@@ -17,6 +32,10 @@ static void set_force(baum_i_space *b, const double *force)
     double six[6] = {0.0};
     double *f = b->force + (ptrdiff_t)MOTION * t;
     double *a = b->free + (ptrdiff_t)MOTION * t;
+    if (body->size == 6 && !body->fixed) {
+      set_spatial_force(body, force + body->first, f, a);
+      continue;
+    }
     for (int c = 0; c < body->size; c++) {
       six[body->slots[c]] = force[body->first + c];
     }

@@ -111,6 +111,14 @@ static bool is_lean(const builder *u, const baum_i_row_block *rows, const baum_i
          node->row[points - 1] == rows->row + points - 1 && (node->omitted & 7u) == 0;
 }
 
+/* Adds the spin row of a body to a node. */
+static void add_spin_row(builder *u, int body, baum_i_space_node *node)
+{
+  node->spin = body;
+  node->omitted |= 1u << node->rows++;
+  u->space->bodies[body].raised = true;
+}
+
 /* Adds a node for each group of up to six rows. Omitted rows are skipped, unless the layout marks
  * the row block as `whole`. */
 static baum_status add_nodes(builder *u, int row_block)
@@ -126,6 +134,9 @@ static baum_status add_nodes(builder *u, int row_block)
       }
     }
     if (node.rows > 0) {
+      if (u->layout->spins && u->layout->spins[row_block] > 0) {
+        add_spin_row(u, u->layout->spins[row_block], &node);
+      }
       node.lean = is_lean(u, rows, &node);
       BAUM_I_TRY(add_sides(u, rows, &node));
       baum_i_space_node *added = baum_i_vector_append(&u->nodes);
@@ -211,10 +222,18 @@ static baum_status find_order(builder *u)
     status = add_neighbours(u, i, mark);
     u->graph_start[i + 1] = u->neighbours.count;
   }
+  const baum_i_space_node *nodes = u->nodes.items;
+  int32_t *size = mark; /* the marks are no longer needed */
+  for (int32_t i = 0; i < count && status == BAUM_OK; i++) {
+    size[i] = nodes[i].rows;
+  }
+  const baum_i_graph graph = {count, u->graph_start, u->neighbours.items, size};
+  if (status == BAUM_OK) {
+    int most = MOST_COUPLINGS * (count + SMALL);
+    status = baum_i_elimination_create(&graph, most, &u->space->order);
+  }
   baum_i_free(mark);
-  BAUM_I_TRY(status);
-  const baum_i_graph graph = {count, u->graph_start, u->neighbours.items};
-  return baum_i_elimination_create(&graph, MOST_COUPLINGS * (count + SMALL), &u->space->order);
+  return status;
 }
 
 /* ---- nodes in the order of elimination ---- */
@@ -289,7 +308,10 @@ static baum_status make_couplings(builder *u)
     for (int e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
       int later = b->order.later[e];
       int height = b->list[later].rows > 4 ? 6 : 4;
-      b->couplings[e] = (baum_i_space_coupling){later, b->numbers_off};
+      b->couplings[e] = (baum_i_space_coupling){.later = later,
+                                                .at = b->numbers_off,
+                                                .numbers = b->list[later].at,
+                                                .rows = b->list[later].rows};
       b->numbers_off += rounded(height * b->list[k].rows);
     }
   }

@@ -97,9 +97,9 @@ static graph make_random(uint64_t *seed, int count, double density)
   return g;
 }
 
-/* Computes the order of elimination. The neighbours of a node are passed in decreasing order. Their
- * order must not matter. */
-static baum_status order(graph *g, int most, baum_i_elimination *out)
+/* Computes the order of elimination of nodes of given sizes, which may be NULL. The neighbours of a
+ * node are passed in decreasing order. Their order must not matter. */
+static baum_status order_by_size(graph *g, const int32_t *size, int most, baum_i_elimination *out)
 {
   int32_t at = 0;
   for (int i = 0; i < g->count; i++) {
@@ -111,8 +111,13 @@ static baum_status order(graph *g, int most, baum_i_elimination *out)
     }
   }
   g->start[g->count] = at;
-  const baum_i_graph asked = {g->count, g->start, g->neighbour};
+  const baum_i_graph asked = {g->count, g->start, g->neighbour, size};
   return baum_i_elimination_create(&asked, most, out);
+}
+
+static baum_status order(graph *g, int most, baum_i_elimination *out)
+{
+  return order_by_size(g, NULL, most, out);
 }
 
 static int count_edges(const graph *g)
@@ -288,6 +293,40 @@ static void nodes_come_shortly_before_the_nodes_that_they_change(void **state)
   baum_i_elimination_clear(&found);
 }
 
+/* The joints of a Stewart platform: each leg is a chain of nodes of the sizes 4, 5 and 3, and the
+ * six nodes of size 3 are all coupled with each other. All nodes of the sizes 4 and 5 are eliminated
+ * in pairs. */
+static void independent_nodes_of_the_same_size_are_adjacent(void **state)
+{
+  (void)state;
+  enum { LEGS = 6, COUNT = 3 * LEGS };
+  static const int32_t SIZES[3] = {4, 5, 3};
+  graph g = make_graph(COUNT);
+  int32_t size[COUNT];
+  for (int k = 0; k < COUNT; k++) {
+    size[k] = SIZES[k % 3];
+    for (int i = k % 3 == 2 ? 2 : k; i < k; i += 3) {
+      couple(&g, i, k);
+    }
+    if (k % 3 > 0) {
+      couple(&g, k - 1, k);
+    }
+  }
+  baum_i_elimination found;
+  assert_int_equal(order_by_size(&g, size, INT_MAX, &found), BAUM_OK);
+  assert_elimination(&g, &found);
+  int pairs = 0;
+  for (int p = 0; p + 1 < COUNT; p++) {
+    bool coupled = found.later[found.start[p]] == p + 1;
+    if (size[found.node[p]] == size[found.node[p + 1]] && !coupled) {
+      pairs++;
+      p++;
+    }
+  }
+  assert_int_equal(pairs, LEGS);
+  baum_i_elimination_clear(&found);
+}
+
 /* Each elimination removes one node of a ring and couples its two neighbours, until three nodes are
  * left. */
 static void rings_have_the_least_possible_fill(void **state)
@@ -365,6 +404,7 @@ int main(void)
     cmocka_unit_test(graphs_without_rings_have_no_fill),
     cmocka_unit_test(chains_are_eliminated_from_both_ends_in_turn),
     cmocka_unit_test(nodes_come_shortly_before_the_nodes_that_they_change),
+    cmocka_unit_test(independent_nodes_of_the_same_size_are_adjacent),
     cmocka_unit_test(rings_have_the_least_possible_fill),
     cmocka_unit_test(cliques_are_full),
     cmocka_unit_test(uncoupled_nodes_and_empty_graphs_are_accepted),

@@ -173,8 +173,11 @@ void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row r
 baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
 {
   baum_i_spatial_length out = {.length = 0.0};
-  const vector e = vector_of(pair, BAUM_I_APART);
-  const double length = sqrt(baum_i_dot3(e.value, e.value));
+  double e[3];
+  for (int i = 0; i < 3; i++) {
+    e[i] = pair->frame[1]->r[i] + pair->arm[1][i] - (pair->frame[0]->r[i] + pair->arm[0][i]);
+  }
+  const double length = sqrt(baum_i_dot3(e, e));
   if (!(length >= DBL_MIN)) {
     return out;
   }
@@ -184,7 +187,7 @@ baum_i_spatial_length baum_i_spatial_length_of(const baum_i_spatial_pair *pair)
     double *own = out.h + (ptrdiff_t)BAUM_I_SPACE * k;
     double moment[3];
     for (int i = 0; i < 3; i++) {
-      own[i] = (k == 0 ? -e.value[i] : e.value[i]) / length;
+      own[i] = k == 0 ? -e[i] / length : -out.h[i];
     }
     baum_i_cross(pair->arm[k], own, moment);
     baum_i_turn_back(frame->axes, moment, own + 3);

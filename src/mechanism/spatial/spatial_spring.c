@@ -48,25 +48,17 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 
 /* ---- one spring ---- */
 
-typedef struct spring {
-  baum_i_spatial_pair pair;
-  baum_i_spring_law law;
-  baum_i_spatial_length l;
-} spring;
-
-static spring spring_at(const baum_i_force *force, const baum_i_point *point)
+static baum_i_spatial_pair pair_at(const baum_i_force *force, const baum_i_point *point)
 {
   const double *numbers = point->parameters + force->element.parameter;
-  spring s = {.pair = baum_i_spatial_pair_at(&force->span, numbers, false, point),
-              .law = baum_i_spring_law_of(force, point)};
-  s.l = baum_i_spatial_length_of(&s.pair);
-  return s;
+  return baum_i_spatial_pair_at(&force->span, numbers, false, point);
 }
 
 static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *point)
 {
-  const spring s = spring_at(force, point);
-  return (baum_i_stretch){s.l.length, s.l.rate, point->mechanism->length, s.l.length == 0.0};
+  const baum_i_spatial_pair pair = pair_at(force, point);
+  const baum_i_spatial_length l = baum_i_spatial_length_of(&pair);
+  return (baum_i_stretch){l.length, l.rate, point->mechanism->length, l.length == 0.0};
 }
 
 /* ---- type ---- */
@@ -74,17 +66,20 @@ static baum_i_stretch stretch(const baum_i_force *force, const baum_i_point *poi
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
-    const spring s = spring_at(group->forces[i], point);
-    if (s.l.length == 0.0) {
+    const baum_i_force *spring = group->forces[i];
+    const baum_i_spatial_pair pair = pair_at(spring, point);
+    const baum_i_spatial_length l = baum_i_spatial_length_of(&pair);
+    if (l.length == 0.0) {
       continue;
     }
+    const baum_i_spring_law law = baum_i_spring_law_of(spring, point);
     baum_i_tension t;
-    BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.l.length, s.l.rate, &t));
+    BAUM_I_TRY(baum_i_tension_at(&law, point, l.length, l.rate, &t));
     double wide[COLUMNS];
     for (int k = 0; k < COLUMNS; k++) {
-      wide[k] = -t.value * s.l.h[k];
+      wide[k] = -t.value * l.h[k];
     }
-    baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, BAUM_I_SPACE, wide, out);
+    baum_i_columns_scatter_any(point->mechanism, &spring->span, BAUM_I_SPACE, wide, out);
   }
   return BAUM_OK;
 }
@@ -92,23 +87,25 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
-  const spring s = spring_at(element, point);
-  if (s.l.length == 0.0) {
+  const baum_i_spatial_pair pair = pair_at(element, point);
+  const baum_i_spatial_length l = baum_i_spatial_length_of(&pair);
+  if (l.length == 0.0) {
     return BAUM_OK;
   }
+  const baum_i_spring_law law = baum_i_spring_law_of(element, point);
   baum_i_tension t;
-  BAUM_I_TRY(baum_i_tension_at(&s.law, point, s.l.length, s.l.rate, &t));
+  BAUM_I_TRY(baum_i_tension_at(&law, point, l.length, l.rate, &t));
   baum_i_spatial_second second;
-  baum_i_spatial_second_of(&s.pair, SQUARE, &second);
+  baum_i_spatial_second_of(&pair, SQUARE, &second);
   double force_q[COLUMNS * COLUMNS];
   double force_v[COLUMNS * COLUMNS];
   for (int k = 0; k < COLUMNS; k++) {
-    double rate_q = (0.5 * second.rate_q[k] - s.l.rate * s.l.h[k]) / s.l.length;
-    double tension_q = t.by_length * s.l.h[k] + t.by_rate * rate_q;
+    double rate_q = (0.5 * second.rate_q[k] - l.rate * l.h[k]) / l.length;
+    double tension_q = t.by_length * l.h[k] + t.by_rate * rate_q;
     for (int i = 0; i < COLUMNS; i++) {
-      double h_q = (0.5 * second.columns_q[COLUMNS * i + k] - s.l.h[i] * s.l.h[k]) / s.l.length;
-      force_q[COLUMNS * i + k] = -s.l.h[i] * tension_q - t.value * h_q;
-      force_v[COLUMNS * i + k] = -t.by_rate * s.l.h[i] * s.l.h[k];
+      double h_q = (0.5 * second.columns_q[COLUMNS * i + k] - l.h[i] * l.h[k]) / l.length;
+      force_q[COLUMNS * i + k] = -l.h[i] * tension_q - t.value * h_q;
+      force_v[COLUMNS * i + k] = -t.by_rate * l.h[i] * l.h[k];
     }
   }
   const baum_mechanism *m = point->mechanism;

@@ -98,6 +98,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->pins_kernel = &baum_i_pins_kernel_plain;
   s->path->sides_kernel = &baum_i_block_sides_kernel_plain;
   s->path->space_kernel = &baum_i_space_kernel_plain;
+  s->path->refine_kernel = &baum_i_space_refine_kernel_plain;
   s->path->space_sides = &baum_i_space_sides_kernel_plain;
   s->path->factor_kernel = &baum_i_space_factor_kernel_plain;
   s->path->residual_kernel = &baum_i_space_residual_kernel_plain;
@@ -108,6 +109,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->pins_kernel = path.pins_kernel;
   s->path->sides_kernel = path.sides_kernel;
   s->path->space_kernel = path.space_kernel;
+  s->path->refine_kernel = path.refine_kernel;
   s->path->space_sides = path.space_sides;
   s->path->factor_kernel = path.factor_kernel;
   s->path->residual_kernel = path.residual_kernel;
