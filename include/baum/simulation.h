@@ -506,14 +506,15 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  same mechanism and options, which may be in another process. With the same library on the same
  *  kind of processor, the restored run continues bit for bit as the saved run does.
  *
- *  The library checks that both mechanisms have the same elements in the same order, with the same
- *  numbers, and that both runs have the same integrator, formulation, gains, row_gains, step,
- *  tolerances, max_step, solver, energy_account and events. Events must therefore be added before
- *  the run is restored. The library cannot check user functions. They must be the same, and if they
- *  keep a state of their own, this state is not saved. The gains and the choice of redundant rows
- *  come from the saved run. Restoring allocates memory in three cases only: drivers were set in the
- *  saved run, the saved run has longer schedules than this run, or the two runs omit different
- *  redundant rows.
+ *  The library checks that both mechanisms have the same elements in the same order, with equal
+ *  masses, points, stiffnesses and so on. It also checks that both runs have the same events, and
+ *  the same options integrator, formulation, gains, row_gains, step, tolerances, max_step, solver
+ *  and energy_account. Events must therefore be added before the run is restored. The library
+ *  cannot check user functions. They must be the same, and if they keep a state of their own, this
+ *  state is not saved. If a rule chooses the gains, their values come from the saved run, as does
+ *  the choice of redundant rows. Restoring allocates memory in three cases only: drivers were set
+ *  in the saved run, the saved run has longer schedules than this run, or the two runs omit
+ *  different redundant rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote

@@ -224,7 +224,7 @@ BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrato
 BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integrator,
                                                    double *alpha_h);
 
-/** Describe in words what gains do with a method. Methods without a region have such a text, too.
+/** Describe in words how gains act with a method. Methods without a region have such a text, too.
  *  @param integrator  may be NULL
  *  @return  static text; NULL if the argument is NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
