@@ -67,8 +67,8 @@ typedef struct baum_i_space_layout {
   /* [m] characteristic length, to compare accelerations of origins with angular accelerations, and
    * forces with moments */
   double length;
-  /* (row_block_count) number of the body whose spin row is in the node of the row block, or 0; NULL:
-   * there are no spin rows */
+  /* (row_block_count) number of the body whose spin row is in the node of the row block, or 0.
+   * NULL: there are no spin rows. */
   const int *spins;
 } baum_i_space_layout;
 

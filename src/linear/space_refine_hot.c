@@ -393,8 +393,8 @@ BAUM_I_INLINE double change_of_motion(const baum_i_space *b, int island, const d
   return larger_of(ratio(size_of(b, changes), size), spins);
 }
 
-/* Corrects a and lambda for the right-hand sides that replace lambda. If `pulled` is true, first adds
- * pull[] to a. */
+/* Corrects a and lambda for the right-hand sides that replace lambda. If `pulled` is true, first
+ * adds pull[] to a. */
 BAUM_I_INLINE double correct_all(baum_i_space *b, bool pulled)
 {
   double *before = b->pull_low;

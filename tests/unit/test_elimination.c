@@ -294,8 +294,8 @@ static void nodes_come_shortly_before_the_nodes_that_they_change(void **state)
 }
 
 /* The joints of a Stewart platform: each leg is a chain of nodes of the sizes 4, 5 and 3, and the
- * six nodes of size 3 are all coupled with each other. All nodes of the sizes 4 and 5 are eliminated
- * in pairs. */
+ * six nodes of size 3 are all coupled with each other. All nodes of the sizes 4 and 5 are
+ * eliminated in pairs. */
 static void independent_nodes_of_the_same_size_are_adjacent(void **state)
 {
   (void)state;
