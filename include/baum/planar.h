@@ -317,8 +317,8 @@ BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism,
 /* ---- torsion spring-damper between two bodies ------------------------------------------------ */
 
 /** A linear torsion spring and damper in parallel, or a law of your own, that acts on the relative
- *  angle angle_b - angle_a. The relative angle grows continuously over several revolutions. Both
- *  bodies must have an angle, which particles do not have. One of the bodies may be ground. */
+ *  angle angle_b - angle_a. The relative angle is continuous over several revolutions. Both bodies
+ *  must have an angle, which particles do not have. One of the bodies may be ground. */
 typedef struct baum_planar_torsion_spring_def {
   size_t struct_size;  /**< Set by baum_planar_torsion_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */

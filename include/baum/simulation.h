@@ -856,8 +856,9 @@ typedef enum baum_branch {
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
   double begin;       /**< [s] end of a step; the interval does not begin before this time. */
-  /** [s] end of a step; the interval ends before this time, unless the motion stays close to
-   *  singular configurations. */
+  /** [s] end of a step; the interval ends before this time. However, if the motion stays close to
+   *  singular configurations, the run may list the interval before the motion has left it. The
+   *  interval then continues after this time. */
   double end;
   double t; /**< [s] time of the smallest pivot, which may be inside a step. */
   /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the

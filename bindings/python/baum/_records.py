@@ -246,8 +246,9 @@ class NearSingular(NamedTuple):
     or "unknown". The joint is a handle or None, and a name after unpickling.
 
     begin: [s] end of a step; the interval does not begin before this time.
-    end: [s] end of a step; the interval ends before this time, unless the motion stays close to
-        singular configurations.
+    end: [s] end of a step; the interval ends before this time. However, if the motion stays
+        close to singular configurations, the run may list the interval before the motion has
+        left it. The interval then continues after this time.
     t: [s] time of the smallest pivot, which may be inside a step.
     pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot, divided
         by the largest value that the smallest pivot has had at any state of the run so far.

@@ -299,8 +299,9 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
-    """Create a mechanism from a file that Mechanism.save() or a C program has written. The
-    arguments and errors are those of baum.parse(). Messages of baum.Error begin with the path."""
+    """Create a mechanism from a file that Mechanism.save() or a C program has written. The argument
+    functions and the errors are those of baum.parse(). Messages of baum.Error begin with the
+    path."""
     try:
         return parse(Path(path).read_text(encoding="utf-8"), functions)
     except UnicodeDecodeError as error:
