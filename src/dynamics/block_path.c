@@ -25,12 +25,12 @@ static const double SETTLED_SIMPLY = 1e-10;
 static const double SETTLING_IN_SPACE = 1e-12;
 
 /* In space, the relative error of a is about DBL_EPSILON * amplification / pivot. Here `pivot` is
- * the smallest pivot of the solution, and the amplification (space_block.h) tells how much a = a0 -
- * W J^T lambda increases errors of lambda. Solutions with a pivot above FAIR_PIVOT are not refined
- * if amplification / pivot is at most MOST_LOST, or MOST_LOST_UNEVEN if masses are uneven. Compared
- * with solutions in quadruple precision, their errors were below 1e-10 in 1500 random mechanisms. In
- * the scenes of test_spatial_accuracy.c they were below 1e-12, and below 1e-11 if masses differ by
- * large factors. */
+ * the smallest pivot of the solution, and the amplification (space_block.h) tells how much a = a0
+ * - W J^T lambda increases errors of lambda. Solutions with a pivot above FAIR_PIVOT are not
+ * refined if amplification / pivot is at most MOST_LOST, or MOST_LOST_UNEVEN if masses are uneven.
+ * Compared with solutions in quadruple precision, their errors were below 1e-10 in 1500 random
+ * mechanisms. In the scenes of test_spatial_accuracy.c they were below 1e-12, and below 1e-11 if
+ * masses differ by large factors. */
 static const double FAIR_PIVOT = 1e-4;
 static const double MOST_LOST = 1e5;
 static const double MOST_LOST_UNEVEN = 2e4;

@@ -92,8 +92,8 @@ baum_status baum_i_block_path_create_with(baum_workspace *workspace, bool for_mo
                                           const int *spins, baum_i_block_verdict *verdict,
                                           baum_i_block_path **out);
 
-/* spin_rows.c: replace a path in space by one with spin rows if this is more accurate. May fail like
- * baum_i_block_path_create(); *path is then unchanged. */
+/* spin_rows.c: replace a path in space by one with spin rows if this is more accurate. May fail
+ * like baum_i_block_path_create(); *path is then unchanged. */
 baum_status baum_i_add_spin_rows(baum_workspace *workspace, bool for_motion,
                                  baum_i_block_path **path);
 

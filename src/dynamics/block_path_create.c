@@ -20,8 +20,8 @@ enum { FEW_NODES = 2048 };
 /* The residual is checked if inverse masses differ by more than this factor and digits have
  * cancelled (block_path.c). */
 static const double UNEVEN = 1e3;
-/* In space, each accepted pivot is larger than the limit of a weak pivot, so more uneven masses lose
- * no further digits: with 1e4 instead of 1e3, the errors of 2000 random mechanisms
+/* In space, each accepted pivot is larger than the limit of a weak pivot, so more uneven masses
+ * lose no further digits: with 1e4 instead of 1e3, the errors of 2000 random mechanisms
  * (bench_random_spatial) stay the same. */
 static const double UNEVEN_IN_SPACE = 1e4;
 
