@@ -210,6 +210,15 @@ BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
 #endif
 }
 
+/* Store x, and return `to`. The compiler then loads single numbers of x from memory, although it has
+ * just stored them. This is faster than copying a number of a register into all its parts. */
+BAUM_I_INLINE const double *baum_i_four_spilled(double *to, baum_i_four x)
+{
+  baum_i_four_store(to, x);
+  __asm__("" : "+r"(to) : "m"(*(baum_i_pair_in_array *)to), "m"(*(baum_i_pair_in_array *)(to + 2)));
+  return to;
+}
+
 /* Return sum + x s. */
 BAUM_I_INLINE baum_i_four baum_i_four_add(baum_i_four sum, baum_i_four x, double s)
 {

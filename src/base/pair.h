@@ -20,6 +20,15 @@ static inline void baum_i_store(double *to, baum_i_pair x)
   *(baum_i_pair_in_array *)to = x;
 }
 
+/* See baum_i_four_rounded(). */
+static inline baum_i_pair baum_i_rounded(baum_i_pair product)
+{
+#ifdef BAUM_I_WIDE
+  __asm__("" : "+x"(product));
+#endif
+  return product;
+}
+
 static inline baum_i_pair baum_i_both(double x)
 {
   return (baum_i_pair){x, x};

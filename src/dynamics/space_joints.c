@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/rotation.h"
 #include "dynamics/block_path.h"
+#include "linear/space_columns.h"
 #include "mechanism/spatial/spatial_joint.h"
 
 static const char *const SHAPES[BAUM_I_SHAPES] = {"pp",   "ppp",   "pppd",   "pppde", "pppded",
@@ -58,14 +59,40 @@ baum_i_space_shape baum_i_shape_with_spin(int shape)
   return find_shape(kinds);
 }
 
-/* Computes the columns of sign * [s]x L^-T, where s is a point of the body and I = L L^T. */
-static void set_arms(const baum_i_space_body *body, const double s[3], double sign, double out[12])
+/* Set the vector s_k (space_joints_hot.c) of row i to sign * s. */
+static void set_own(double *own, int i, double sign, const double s[3])
 {
   for (int c = 0; c < 3; c++) {
-    const double column[3] = {sign * body->whiten[c], sign * body->whiten[4 + c],
-                              sign * body->whiten[8 + c]};
-    baum_i_cross(s, column, out + (ptrdiff_t)4 * c);
+    own[baum_i_column_entry(3, i, c)] = sign * s[c];
   }
+}
+
+/* Set the vectors s_a and s_b of all rows, and Phi - s_a . z_a of rows s. `points` are the joint's
+ * points on both bodies, and `axes` its axes on body a and then on body b. */
+static void set_vectors(const char *kinds, const baum_i_spatial_row *rows, double points[2][3],
+                        const double *axes, double *own)
+{
+  int n = (int)strlen(kinds);
+  double *own_b = own + baum_i_space_part(n);
+  for (int i = 0; i < n && kinds[i] != 'u'; i++) {
+    bool point = kinds[i] == 'p';
+    bool slide = kinds[i] == 's';
+    const double *x = point ? points[0] : axes + (ptrdiff_t)3 * (int)(rows[i].x - BAUM_I_X_A);
+    const double *y =
+      point || slide ? points[1] : axes + (ptrdiff_t)3 * (int)(rows[i].y - BAUM_I_X_A);
+    set_own(own, i, point ? -1.0 : 1.0, x);
+    set_own(own_b, i, -1.0, y);
+    if (slide) {
+      own_b[baum_i_space_part(n) + i] = -baum_i_dot3(x, points[0]);
+    }
+  }
+}
+
+static size_t count_numbers(int shape)
+{
+  const char *kinds = SHAPES[shape];
+  size_t count = BAUM_I_JOINT_OWN + 2 * (size_t)baum_i_space_part((int)strlen(kinds));
+  return count + (strchr(kinds, 's') ? 8 : 0) + (strchr(kinds, 'u') ? 8 : 0);
 }
 
 static void set_numbers(const baum_workspace *w, const baum_i_space *space,
@@ -73,61 +100,45 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
 {
   const baum_i_space_node *node = &space->list[joint->node];
   const baum_i_joint *of = w->mechanism->joints[node->row_block];
-  const baum_i_spatial_row *rows = baum_i_spatial_rows_of(of);
   const double *numbers = w->point.parameters + of->element.parameter;
+  const char *kinds = SHAPES[joint->shape];
   bool pin = of->type->is_pin; /* its points have two numbers, body_b comes first */
-  double *axes = out + BAUM_I_JOINT_AXES;
-  const double *weights[2];
+  double points[2][3] = {{0.0}};
   for (int k = 0; k < 2; k++) {
-    weights[k] = space->bodies[joint->body[k]].weight;
-    double *s = out + BAUM_I_JOINT_POINTS + (ptrdiff_t)4 * k;
-    memcpy(s, numbers + (pin ? 2 - 2 * k : BAUM_I_SPATIAL_POINTS + 3 * k),
-           (pin ? 2 : 3) * sizeof *s);
-    set_arms(&space->bodies[joint->body[k]], s, k == 0 ? 1.0 : -1.0,
-             out + BAUM_I_JOINT_ARMS + (ptrdiff_t)12 * k);
+    memcpy(points[k], numbers + (pin ? 2 - 2 * k : BAUM_I_SPATIAL_POINTS + 3 * k),
+           (pin ? 2 : 3) * sizeof *numbers);
   }
-  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
-    bool point = SHAPES[joint->shape][i] == 'p';
-    double keep = (node->omitted >> i & 1u) != 0 ? 0.0 : 1.0;
-    out[BAUM_I_JOINT_KEEP + i] = keep;
-    out[BAUM_I_JOINT_DIAGONAL + i] = 1.0 - keep + (point ? weights[0][i] + weights[1][i] : 0.0);
-    if (!point) {
-      memcpy(axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)3 * (int)(rows[i].x - BAUM_I_X_A),
-             3 * sizeof *axes);
-      if (rows[i].y < BAUM_I_X_GROUND) {
-        memcpy(axes + 4,
-               numbers + BAUM_I_SPATIAL_AXES_B + (ptrdiff_t)3 * (int)(rows[i].y - BAUM_I_X_B),
-               3 * sizeof *axes);
-      }
-      axes += 8;
+  for (int i = 0; i < node->rows; i++) {
+    for (int k = 0; kinds[i] == 'p' && k < 2; k++) {
+      out[BAUM_I_JOINT_DIAGONAL + i] += space->bodies[joint->body[k]].weight[i];
     }
   }
+  set_vectors(kinds, baum_i_spatial_rows_of(of), points, numbers + BAUM_I_SPATIAL_AXES_A,
+              out + BAUM_I_JOINT_OWN);
   if (node->spin != 0) {
-    int side = joint->body[0] == node->spin ? 0 : 4;
-    memcpy(axes + side, space->bodies[node->spin].lack, sizeof space->bodies->lack);
+    const baum_i_space_body *body = &space->bodies[node->spin];
+    double *row = out + count_numbers(joint->shape) - 8 + (joint->body[0] == node->spin ? 0 : 4);
+    for (int c = 0; c < 3; c++) {
+      row[c] = body->root * body->axis[c];
+    }
     out[BAUM_I_JOINT_DIAGONAL + node->rows - 1] = -1.0;
   }
 }
 
-static int32_t count_numbers(int shape)
+static void set_pointers(const baum_i_space *space, baum_i_space_frame *frames,
+                         baum_i_space_joint *joint)
 {
-  int32_t count = BAUM_I_JOINT_AXES;
-  for (const char *kind = SHAPES[shape]; *kind; kind++) {
-    count += *kind == 'p' ? 0 : 8;
-  }
-  return count;
-}
-
-static void find_sides(const baum_i_space *space, const baum_i_space_node *node,
-                       baum_i_space_joint *joint)
-{
+  const baum_i_space_node *node = &space->list[joint->node];
+  joint->equations = space->nodes + node->at;
+  joint->measure = &space->measures[joint->node];
   for (int k = 0; k < 2; k++) {
-    joint->move[k] = -1;
-    joint->turn[k] = -1;
+    joint->frame[k] = &frames[joint->body[k]];
+    joint->white[k] = space->bodies[joint->body[k]].whiten;
+    joint->weight[k] = space->bodies[joint->body[k]].weight;
     for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
       if (space->side_list[s].body == joint->body[k]) {
-        joint->move[k] = space->side_list[s].move;
-        joint->turn[k] = space->side_list[s].turn;
+        joint->move[k] = space->sides + space->side_list[s].move;
+        joint->turn[k] = space->sides + space->side_list[s].turn;
       }
     }
   }
@@ -141,6 +152,12 @@ static int by_shape(const void *a, const void *b)
   return x->shape != y->shape ? x->shape - y->shape : x->node - y->node;
 }
 
+/* Tells whether rows other than a spin row are omitted. */
+static bool omits_own_rows(const baum_i_space_node *node)
+{
+  return (node->omitted & ((1u << baum_i_space_own_rows(node)) - 1u)) != 0;
+}
+
 baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *space,
                                      unsigned char *is_done, baum_i_space_joints *out)
 {
@@ -152,6 +169,7 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
   }
   for (int c = 0; c < 12; c += 5) {
     out->frames[0].axes[c] = 1.0;
+    out->frames[0].rows[c] = 1.0;
   }
   for (int k = 0; k < space->node_count; k++) {
     baum_i_space_node *node = &space->list[k];
@@ -163,9 +181,12 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
       is_done[node->row_block] = 1;
       int first = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 1 : 0];
       int second = joint->span.bodies[shape == BAUM_I_SHAPE_PIN ? 0 : 1];
-      out->list[out->count] = (baum_i_space_joint){
-        .shape = (int32_t)shape, .node = k, .row = joint->row, .body = {first, second}};
-      find_sides(space, node, &out->list[out->count++]);
+      out->list[out->count] = (baum_i_space_joint){.shape = (int32_t)shape,
+                                                   .node = k,
+                                                   .row = joint->row,
+                                                   .body = {first, second},
+                                                   .omits = omits_own_rows(node) ? 1 : 0};
+      set_pointers(space, out->frames, &out->list[out->count++]);
     }
   }
   qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);
@@ -175,19 +196,66 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
 baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space *space,
                                     baum_i_space_joints *joints)
 {
-  int32_t next = 0;
+  size_t count = 0;
   for (int i = 0; i < joints->count; i++) {
-    joints->list[i].numbers = next;
-    next += count_numbers(joints->list[i].shape);
+    count += count_numbers(joints->list[i].shape);
   }
-  joints->numbers = baum_i_alloc((size_t)next, sizeof *joints->numbers);
+  joints->numbers = baum_i_alloc(count, sizeof *joints->numbers);
   if (!joints->numbers) {
     return BAUM_ERR_MEMORY;
   }
+  double *next = joints->numbers;
   for (int i = 0; i < joints->count; i++) {
-    set_numbers(w, space, &joints->list[i], joints->numbers + joints->list[i].numbers);
+    joints->list[i].numbers = next;
+    joints->list[i].spin = next + count_numbers(joints->list[i].shape) - 8;
+    set_numbers(w, space, &joints->list[i], next);
+    next += count_numbers(joints->list[i].shape);
   }
   return BAUM_OK;
+}
+
+/* Set D_ij and D_ji of a node with n rows. */
+static void set_pivot(double *d, int n, int i, int j, double x)
+{
+  for (int k = 0; k < 2; k++) {
+    int row = k == 0 ? i : j;
+    int column = k == 0 ? j : i;
+    if (row < 4) {
+      d[4 * column + row] = x;
+    } else if (column >= 4) {
+      d[4 * n + 2 * (column - 4) + row - 4] = x;
+    }
+  }
+}
+
+/* Clear row i of a side. */
+static void clear_row(double *side, int i)
+{
+  for (int c = 0; side && c < 3; c++) {
+    side[baum_i_column_entry(3, i, c)] = 0.0;
+  }
+}
+
+void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint *joint)
+{
+  const baum_i_space_node *node = &space->list[joint->node];
+  int n = node->rows;
+  double *d = joint->equations + baum_i_space_pivot(n);
+  double *size = joint->measure->size;
+  size[0] = 1.0;
+  size[1] = 1.0;
+  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
+    bool omitted = (node->omitted >> i & 1u) != 0;
+    for (int k = 0; omitted && k < 2; k++) {
+      clear_row(joint->turn[k], i);
+      clear_row(node->lean ? NULL : joint->move[k], i);
+      joint->equations[k * baum_i_space_vector(n) + i] = 0.0;
+    }
+    for (int j = 0; omitted && j < n; j++) {
+      set_pivot(d, n, i, j, i == j ? 1.0 : 0.0);
+    }
+    size[i < 3 ? 0 : 1] *= i < 4 ? d[5 * i] : d[4 * n + 3 * (i - 4)];
+  }
 }
 
 void baum_i_space_joints_clear(const baum_i_space_joints *joints)

@@ -12,11 +12,12 @@
 
 /* The frame of a body. Each vector of three numbers is followed by a 0. */
 typedef struct baum_i_space_frame {
-  double axes[12];   /* columns of A */
-  double turned[12]; /* columns of B = A L^-T, with L of space_block.h */
+  double axes[12]; /* columns of A */
+  double rows[12]; /* rows of A */
   double r[4];
   double v[4];
-  double w[4]; /* angular velocity in ground axes */
+  double w[4];    /* angular velocity in ground axes */
+  double spin[4]; /* angular velocity in body axes, followed by its square */
 } baum_i_space_frame;
 
 /* The shape of a planar revolute joint is PIN. In the names of the other shapes, the letters stand
@@ -41,32 +42,34 @@ typedef enum baum_i_space_shape {
   BAUM_I_SHAPES
 } baum_i_space_shape;
 
-/* The indices at which the constants of a joint begin in the array of its numbers. Vectors are in
- * body axes. */
+/* The indices at which the constants of a joint begin in the array of its numbers. */
 enum {
-  BAUM_I_JOINT_POINTS = 0, /* s_a, s_b */
-  BAUM_I_JOINT_ARMS = 8,   /* columns of [s_a]x L_a^-T and of -[s_b]x L_b^-T */
-  BAUM_I_JOINT_KEEP = 32,  /* for each row 1, or 0 if it is omitted; eight numbers */
-  /* constant part of the diagonal of D: the terms E E^T / m of rows p, and the pivots 1 of omitted
-   * rows; eight numbers */
-  BAUM_I_JOINT_DIAGONAL = 40,
-  BAUM_I_JOINT_AXES =
-    48 /* 8 numbers for each row; rows d and e: the axes on a and on b; rows s: the axis on a; rows
-          u: rows of R of both sides */
+  BAUM_I_JOINT_DIAGONAL =
+    0, /* E E^T / m of rows p, the diagonal of their part of D; eight numbers */
+  /* the vectors s_a and s_b of space_joints_hot.c: two matrices of three columns (space_block.h);
+   * then, if there are rows s, eight numbers Phi - s_a . z_a; then, if there is a spin row, n_a and
+   * n_b of this row, four numbers each */
+  BAUM_I_JOINT_OWN = 8
 };
 
+/* The pointers spare the kernel the computation of addresses. */
 typedef struct baum_i_space_joint {
   int32_t shape; /* baum_i_space_shape */
   int32_t node;
-  int32_t row; /* the first of its rows */
+  int32_t row;   /* the first of its rows */
+  int32_t omits; /* non-zero: at least one of its rows is omitted */
   /* The bodies in the order for which Phi is x_1 - x_0, where x_k is the joint's point on body[k].
    * Phi of a pin is x_a - x_b, so its first body is body_b. */
   int32_t body[2];
-  /* starts of E and R of the node's sides for these bodies in baum_i_space.sides; -1: the body is
-   * ground */
-  int32_t move[2];
-  int32_t turn[2];
-  int32_t numbers; /* index of its first constant in baum_i_space_joints.numbers */
+  const baum_i_space_frame *frame[2];
+  const double *white[2];  /* L^-T of the bodies */
+  const double *weight[2]; /* W of their origins */
+  double *move[2];         /* E and R of the node's sides for these bodies; NULL: W = 0 */
+  double *turn[2];
+  double *equations; /* J a0 - r, r and D of the node */
+  baum_i_space_measure *measure;
+  const double *numbers; /* its constants */
+  const double *spin;    /* n_a and n_b of its spin row, if it has one */
 } baum_i_space_joint;
 
 /* The joints of a block path, and a frame for each body. */
@@ -103,6 +106,10 @@ typedef struct baum_i_space_pass {
   double *phi_rate;
   double *gamma;
 } baum_i_space_pass;
+
+/* Replaces the omitted rows of a joint, which the kernel computes like all others, by rows of zeros
+ * with the pivot 1. */
+void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint *joint);
 
 typedef struct baum_i_space_joints_kernel {
   /* Sets the frames of all bodies, and the forces and a0 of bodies in space. */

@@ -1,19 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Computes the frames of bodies in space and the geometry of joints between them. A point s of a
  * body has the arm d = A s and the position r + d. Let e be the position of a joint's point on b
- * minus the position of its point on a. With the upper sign for k = a and the lower sign for k = b,
- * the rows and sides [E | R] (space_block.h) are
+ * minus the position of its point on a. The rows are
  *
- *   rows p   Phi = e,      R_k = +- A_k [s_k]x L_k^-T,                        E = -+ I
+ *   rows p   Phi = e, in ground axes
  *   row d    Phi = x . y   (axis x on a, axis y on b)
- *            R_a = cross(x, y)^T B_a,   R_b = -cross(x, y)^T B_b
  *   row e    a row d with the same y as the row before it
  *   row s    Phi = x . e   (axis x on a)
- *            R_a = cross(x, e + d_a)^T B_a,   R_b = cross(d_b, x)^T B_b,   E = -+ x
  *
- * gamma is -Phi'' without the terms of accelerations. For a row d, let W_a and W_b be the angular
- * velocities, y' = cross(W_b, y) and z = y' - cross(W_a, y). Then Phi' = z . x and gamma =
- * -(cross(W_b, y') + cross(y' + z, W_a)) . x.
+ * For each row and each body k there is a vector s_k, which is constant in the axes of the body, and
+ * a vector z_k, also in these axes. The row of J for the angular acceleration of body k in its own
+ * axes is n_k = cross(s_a, z_a) or cross(z_b, s_b), and its side (space_block.h) is R = n_k L_k^-T:
+ *
+ *   rows     s_a              z_a                      s_b             z_b                  E
+ *   p        minus the point  row of A_a               minus the point row of A_b           -+ I
+ *   d, e     x                A_a^T y                  -y              A_b^T x              0
+ *   s        x                A_a^T (r_b + d_b - r_a)  minus the point A_b^T x              -+ x
+ *
+ * Each of these vectors is stored as three columns with one number for each row, so that one
+ * instruction computes numbers of several rows. Let W_k be the angular velocity of body k in its own
+ * axes, and w_k the same vector in ground axes. Then gamma, which is -Phi'' without the terms of
+ * accelerations, and Phi' are
+ *
+ *   Phi'  = n_a . W_a + n_b . W_b + E_b (r_b' - r_a')
+ *   gamma = W_a^2 (s_a . z_a) - (W_a . s_a) (W_a . z_a) - W_b^2 (s_b . z_b) + (W_b . s_b) (W_b . z_b)
+ *           + 2 (W_a . z_a) (W_b . z_b) + 2 (w_a . w_b) (s_b . z_b)      not in rows p
+ *           - 2 x . ((w_a . (r_b - r_a)) w_b + cross(r_b' - r_a', w_a))  only in rows s
  */
 #include <float.h>
 #include <math.h>
@@ -113,10 +125,28 @@ BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const 
   baum_i_four_store(a0 + 4, white);
 }
 
+/* Sets the frame of a body with the angular velocity w in body axes. Returns the angular velocity
+ * in ground axes. */
+BAUM_I_INLINE four set_frame(baum_i_space_frame *to, const four a[3], const four rows[3],
+                             const double *w)
+{
+  four turning = baum_i_four_zero();
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    baum_i_four_store(to->axes + (ptrdiff_t)4 * c, a[c]);
+    baum_i_four_store(to->rows + (ptrdiff_t)4 * c, rows[c]);
+    turning = w ? baum_i_four_add(turning, a[c], w[c]) : turning;
+  }
+  four spin = three(w);
+  double square = baum_i_four_sum(baum_i_four_times(spin, spin));
+  baum_i_four_store(to->spin, baum_i_four_put(spin, 3, square));
+  baum_i_four_store(to->w, turning);
+  return turning;
+}
+
 BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
 {
   const baum_i_body_place *place = &pass->places[body];
-  const double *white = b->bodies[body].whiten;
   const double *q = pass->q + place->q;
   const double *v = pass->v ? pass->v + place->v : NULL;
   bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
@@ -135,21 +165,10 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   four a[3];
   four rows[3];
   set_axes(p, a, rows);
-  four w = baum_i_four_zero();
   four velocity = three(v);
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) { /* L^-T is upper triangular */
-    four sum = baum_i_four_times(a[0], baum_i_four_all(white[c]));
-    for (int k = 1; k <= c; k++) {
-      sum = baum_i_four_add(sum, a[k], white[4 * k + c]);
-    }
-    baum_i_four_store(to->axes + (ptrdiff_t)4 * c, a[c]);
-    baum_i_four_store(to->turned + (ptrdiff_t)4 * c, sum);
-    w = rigid && v ? baum_i_four_add(w, a[c], v[3 + c]) : w;
-  }
+  four w = set_frame(to, a, rows, rigid && v ? v + 3 : NULL);
   baum_i_four_store(to->r, r);
   baum_i_four_store(to->v, velocity);
-  baum_i_four_store(to->w, w);
   /* each store writes one number too many, which the next store overwrites */
   baum_i_four_store(other->r, r);
   baum_i_four_store(other->v, velocity);
@@ -163,21 +182,20 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   }
 }
 
-/* Computes the spatial frame of a planar body. Only the last column of L^-T is not zero, where L
- * L^T is the inertia tensor of the body. */
-BAUM_I_INLINE void set_planar_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
+/* Computes the spatial frame of a planar body. */
+BAUM_I_INLINE void set_planar_body(int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];
   const baum_i_body_place *place = &pass->places[body];
   baum_i_space_frame *to = &pass->joints.frames[body];
   const double c = f->c, s = f->s;
-  baum_i_four_store(to->axes, baum_i_four_set(c, s, 0.0, 0.0));
-  baum_i_four_store(to->axes + 4, baum_i_four_set(-s, c, 0.0, 0.0));
-  baum_i_four_store(to->axes + 8, baum_i_four_set(0.0, 0.0, 1.0, 0.0));
-  baum_i_four_store(to->turned + 8, baum_i_four_set(0.0, 0.0, b->bodies[body].whiten[10], 0.0));
+  const four across = baum_i_four_set(0.0, 0.0, 1.0, 0.0);
+  const four columns[3] = {baum_i_four_set(c, s, 0.0, 0.0), baum_i_four_set(-s, c, 0.0, 0.0),
+                           across};
+  const four rows[3] = {baum_i_four_set(c, -s, 0.0, 0.0), baum_i_four_set(s, c, 0.0, 0.0), across};
+  set_frame(to, columns, rows, (const double[]){0.0, 0.0, f->w});
   baum_i_four_store(to->r, baum_i_four_of(baum_i_load(&f->x)));
   baum_i_four_store(to->v, baum_i_four_of(baum_i_load(&f->vx)));
-  baum_i_four_store(to->w, baum_i_four_set(0.0, 0.0, f->w, 0.0));
   if (place->in_space) {
     pass->spatial[body] = baum_i_lifted(f);
   }
@@ -194,131 +212,67 @@ static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
     if (baum_i_is_spatial((baum_i_frame_kind)at.places[i].kind)) {
       set_body(b, i, &at);
     } else {
-      set_planar_body(b, i, &at);
+      set_planar_body(i, &at);
     }
   }
 }
 
 /* ---- joints ---- */
 
-/* Quantities of a joint's point on one body. */
-typedef struct marker {
-  four arm;   /* d */
-  four place; /* r + d */
-  four rate;
-  four bend; /* cross(W, cross(W, d)), where W is the angular velocity */
-} marker;
-
-BAUM_I_INLINE marker marker_on(const baum_i_space_frame *f, const double *s)
-{
-  marker m;
-  four w = baum_i_four_load(f->w);
-  m.arm = turned(f->axes, s);
-  four swing = baum_i_four_cross(w, m.arm);
-  m.place = baum_i_four_plus(baum_i_four_load(f->r), m.arm);
-  m.rate = baum_i_four_plus(baum_i_four_load(f->v), swing);
-  m.bend = baum_i_four_cross(w, swing);
-  return m;
-}
-
 /* All rows of a joint. */
 typedef struct rows {
-  four turn[2][BAUM_I_SPACE_ROWS]; /* rows of R of both sides, except for rows p */
-  column move[3];                  /* columns of E_b = -E_a, set only in rows s */
+  column other[2][3]; /* z_k, one column for each number of the vector */
+  column move[3];     /* columns of E_b = -E_a, set only in rows s */
   column phi;
   column rate;
   column gamma;
 } rows;
 
-/* Sets number i of a column to number c of y. */
-BAUM_I_INLINE void put(column *x, int i, four y, int c)
+/* Sets number i of a column. */
+BAUM_I_INLINE void put(column *x, int i, double s)
 {
-  double s = i < 4 ? 0.0 : baum_i_four_get(y, c);
   if (i < 4) {
-    x->low = baum_i_four_move(x->low, i, y, c);
+    x->low = baum_i_four_put(x->low, i, s);
   } else {
     x->high = i == 4 ? (baum_i_pair){s, x->high[1]} : (baum_i_pair){x->high[0], s};
   }
 }
 
-/* A direction y on body b. For the row x . y with an axis x on body a, Phi' is x . z and gamma is
- * -x . bend. */
-typedef struct direction {
-  four y;
-  four z;    /* the time derivative of y, relative to body a */
-  four bend; /* the second derivative without the terms of accelerations */
-} direction;
-
-BAUM_I_INLINE direction direction_on(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                                     const double *axis)
+/* Loads s_k of row i. */
+BAUM_I_INLINE void get_own(const double *own, int i, double s[3])
 {
-  four w = baum_i_four_load(f->w);
-  four u = baum_i_four_load(g->w);
-  direction d = {.y = turned(g->axes, axis)};
-  four y1 = baum_i_four_cross(u, d.y);
-  d.z = baum_i_four_minus(y1, baum_i_four_cross(w, d.y));
-  d.bend =
-    baum_i_four_plus(baum_i_four_cross(u, y1), baum_i_four_cross(baum_i_four_plus(y1, d.z), w));
-  return d;
-}
-
-/* Sets row i of R_k to (t_k)^T B_k for both bodies k. Sets Phi to the sum of the numbers in
- * terms[0], Phi' to the sum of those in terms[1], and -gamma to the sum of those in terms[2]. */
-BAUM_I_INLINE void put_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                           const four t[2], const four terms[3], int i, rows *out)
-{
-  four sums[2][4];
-  BAUM_I_UNROLL(2)
-  for (int k = 0; k < 2; k++) {
-    const double *b = (k == 0 ? f : g)->turned;
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      sums[k][c] = baum_i_four_times(t[k], baum_i_four_load(b + 4 * c));
-    }
-    sums[k][3] = terms[k];
-    out->turn[k][i] = baum_i_four_sums(sums[k]);
-    put(k == 0 ? &out->phi : &out->rate, i, out->turn[k][i], 3);
+  for (int c = 0; c < 3; c++) {
+    s[c] = own[baum_i_column_entry(3, i, c)];
   }
-  put(&out->gamma, i, baum_i_four_all(-baum_i_four_sum(terms[2])), 0);
 }
 
-/* Sets row i, of kind d: x . y */
-BAUM_I_INLINE void set_direction_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                                     const direction *d, const double *axis, double keep, int i,
-                                     rows *out)
+/* Sets z_a of a row for its vector s_b, and returns `other`. */
+BAUM_I_INLINE const double *find_other(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                                       const double s_b[3], bool slides, double other[4])
 {
-  four x = turned(f->axes, axis);
-  four t = baum_i_four_times(baum_i_four_cross(x, d->y), baum_i_four_all(keep));
-  const four both[2] = {t, baum_i_four_minus(baum_i_four_zero(), t)};
-  const four terms[3] = {baum_i_four_times(x, d->y), baum_i_four_times(x, d->z),
-                         baum_i_four_times(x, d->bend)};
-  put_row(f, g, both, terms, i, out);
+  four apart =
+    slides ? baum_i_four_minus(baum_i_four_load(g->r), baum_i_four_load(f->r)) : baum_i_four_zero();
+  four y = baum_i_four_minus(apart, turned(g->axes, s_b));
+  double stored[4];
+  return baum_i_four_spilled(other, turned(f->rows, baum_i_four_spilled(stored, y)));
 }
 
-/* Sets row i, of kind s: x . e */
-BAUM_I_INLINE void set_slide_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                                 const marker m[2], const double *axis, double keep, int i,
-                                 rows *out)
+/* Sets the vectors z_k of row i, which is not of kind p, and E_b of rows s. */
+BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
+                           const double z_a[4], const double s_a[3], bool slides, int i, rows *out)
 {
-  four w = baum_i_four_load(f->w);
-  four x = turned(f->axes, axis);
-  four x1 = baum_i_four_cross(w, x);
-  four x2 = baum_i_four_cross(w, x1);
-  four e = baum_i_four_minus(m[1].place, m[0].place);
-  four e1 = baum_i_four_minus(m[1].rate, m[0].rate);
-  four e2 = baum_i_four_minus(m[1].bend, m[0].bend);
-  four kept = baum_i_four_times(x, baum_i_four_all(keep));
-  const four t[2] = {baum_i_four_cross(kept, baum_i_four_plus(e, m[0].arm)),
-                     baum_i_four_cross(m[1].arm, kept)};
-  four bend = baum_i_four_plus(baum_i_four_times(x2, e), baum_i_four_times(x, e2));
-  const four terms[3] = {baum_i_four_times(x, e),
-                         baum_i_four_plus(baum_i_four_times(x1, e), baum_i_four_times(x, e1)),
-                         baum_i_four_plus(bend, baum_i_four_times(baum_i_four_plus(x1, x1), e1))};
+  double stored[4];
+  double other[4];
+  const double *x = baum_i_four_spilled(stored, turned(f->axes, s_a));
+  const double *z_b = baum_i_four_spilled(other, turned(g->rows, x));
   BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
-    put(&out->move[c], i, kept, c);
+    put(&out->other[0][c], i, z_a[c]);
+    put(&out->other[1][c], i, z_b[c]);
+    if (slides) {
+      put(&out->move[c], i, x[c]);
+    }
   }
-  put_row(f, g, t, terms, i, out);
 }
 
 /* Stores the first n numbers of a column. */
@@ -340,177 +294,282 @@ BAUM_I_INLINE void store_rows(double *to, column x, int n)
   }
 }
 
-/* Returns r of the node, and sets the joint's `own` rows of Phi, Phi' and gamma in the workspace. */
-BAUM_I_INLINE column set_rates(const baum_i_space_joint *joint, int n, int own, const double *keep,
-                               const rows *row, const baum_i_space_pass *at)
-{
-  bool tall = n > 4;
-  column right = baum_i_column_times(row->gamma, at->bending, tall);
-  right = baum_i_column_subtract(right, row->rate, at->damping, tall);
-  right = baum_i_column_subtract(right, row->phi, at->stiffness, tall);
-  column kept = baum_i_column_load(keep, 1, 0, tall);
-  right.low = baum_i_four_times(right.low, kept.low);
-  right.high = tall ? right.high * kept.high : right.high;
-  store_rows(at->phi + joint->row, row->phi, own);
-  store_rows(at->phi_rate + joint->row, row->rate, own);
-  store_rows(at->gamma + joint->row, row->gamma, own);
-  return right;
-}
+/* The symmetric matrix D by diagonals, which needs fewer copies of numbers than D by columns. */
+typedef struct square {
+  column diagonal;
+  four next;          /* n > 3: D_01, D_12, D_23, D_30; otherwise D_01, D_12, D_20 */
+  four far;           /* n > 3: D_02, D_13, D_20, D_31 */
+  four last[2];       /* rows 0 to 3 of columns 4 and 5 */
+  baum_i_pair corner; /* D_45 twice */
+} square;
 
-/* J a0 - r and D of a node. */
-typedef struct equations {
-  column sum;
-  column d[BAUM_I_SPACE_ROWS];
-} equations;
-
-/* Sets E of both sides of a joint with rows s, and adds their parts to the equations. `apart` is
- * the difference of a0 of the two bodies. */
-BAUM_I_INLINE void set_moves(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                             const rows *row, four apart, equations *to)
+/* Adds x y^T to D, where y is a multiple of x. */
+BAUM_I_INLINE void add_square(square *to, column x, column y, int n)
 {
-  bool tall = n > 4;
-  const double *weights[2] = {b->bodies[joint->body[0]].weight, b->bodies[joint->body[1]].weight};
-  BAUM_I_UNROLL(2)
-  for (int k = 0; k < 2; k++) {
-    if (joint->turn[k] < 0) {
-      continue;
-    }
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      column move = baum_i_column_times(row->move[c], k == 0 ? -1.0 : 1.0, tall);
-      baum_i_column_store(b->sides + joint->move[k], 3, c, tall, move);
-    }
+  to->diagonal = baum_i_column_plus(to->diagonal, baum_i_column_product(x, y, n > 4), n > 4);
+  four next = n > 3 ? baum_i_four_next(y.low) : baum_i_four_rotated(y.low);
+  if (n > 1) {
+    to->next = baum_i_four_plus(to->next, baum_i_four_times(x.low, next));
   }
-  int first = joint->turn[0] < 0 ? 1 : 0;
-  double sign = first == 0 ? -1.0 : 1.0; /* E_a = -move */
-  const double *move = b->sides + joint->move[first];
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    to->sum = baum_i_column_add(to->sum, row->move[c], baum_i_four_get(apart, c), tall);
-    BAUM_I_UNROLL(6)
-    for (int j = 0; j < n; j++) {
-      double s = sign * (weights[0][c] + weights[1][c]) * move[baum_i_column_entry(3, j, c)];
-      to->d[j] = baum_i_column_add(to->d[j], row->move[c], s, j >= 4);
-    }
+  if (n > 3) {
+    to->far = baum_i_four_plus(to->far, baum_i_four_times(x.low, baum_i_four_swapped(y.low)));
+  }
+  for (int j = 4; j < n; j++) {
+    to->last[j - 4] = baum_i_four_add(to->last[j - 4], x.low, y.high[j - 4]);
+  }
+  if (n > 5) {
+    to->corner += x.high * baum_i_exchanged(y.high);
   }
 }
 
-/* Sets R of side k, and adds its part to the equations. */
-BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *joint, int n,
-                             bool points, int k, const rows *row, const baum_i_space_pass *at,
-                             equations *to)
+/* Stores D, and the products of the diagonal entries of its own rows. That of a spin row is only
+ * what remains of u . u - 1. */
+BAUM_I_INLINE void store_pivot(const baum_i_space_joint *joint, int n, int own, const square *from)
 {
-  if (joint->turn[k] < 0) {
-    return;
+  double *d = joint->equations + baum_i_space_pivot(n);
+  four columns[4];
+  if (n > 3) {
+    baum_i_four_symmetric(from->diagonal.low, from->next, from->far, columns);
+  } else {
+    four before = baum_i_four_rotated(baum_i_four_rotated(from->next));
+    mix(from->diagonal.low, before, from->next, columns);
   }
-  const double *axes = at->joints.frames[joint->body[k]].axes;
-  const double *arms = at->joints.numbers + joint->numbers + BAUM_I_JOINT_ARMS + 12 * k;
-  const double *free = b->from + (ptrdiff_t)MOTION * joint->body[k] + 4;
-  double *stored = b->sides + joint->turn[k];
-  column turn[3];
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    turn[c] = (column){points ? turned(axes, arms + 4 * c) : baum_i_four_zero(), {0.0, 0.0}};
-    BAUM_I_UNROLL(6)
-    for (int i = points ? 3 : 0; i < n; i++) {
-      put(&turn[c], i, row->turn[k][i], c);
-    }
-    baum_i_column_store(stored, 3, c, n > 4, turn[c]);
-    to->sum = baum_i_column_add(to->sum, turn[c], free[c], n > 4);
-  }
-  BAUM_I_UNROLL(6)
-  for (int j = 0; j < n; j++) {
-    BAUM_I_UNROLL(3)
-    for (int c = 0; c < 3; c++) {
-      to->d[j] = baum_i_column_add(to->d[j], turn[c], stored[baum_i_column_entry(3, j, c)], j >= 4);
-    }
-  }
-}
-
-/* Stores D. The diagonal entry of a spin row is only what remains of u . u - 1, so it does not count
- * in the size. */
-BAUM_I_INLINE void store_pivot(const baum_i_space *b, int node, int n, int own,
-                               const column from[BAUM_I_SPACE_ROWS])
-{
-  double *d = b->nodes + b->list[node].at + baum_i_space_pivot(n);
-  baum_i_space_measure *measure = &b->measures[node];
   double size[2] = {1.0, 1.0};
   BAUM_I_UNROLL(6)
   for (int j = 0; j < n; j++) {
-    baum_i_four_store(d + 4 * j, from[j].low);
-    if (j >= 4) {
-      baum_i_store(d + 4 * n + 2 * (j - 4), from[j].high);
-    }
+    baum_i_four_store(d + 4 * j, j < 4 ? columns[j] : from->last[j - 4]);
     if (j < own) {
-      size[j < 3 ? 0 : 1] *= j < 4 ? baum_i_four_get(from[j].low, j) : from[j].high[j - 4];
+      size[j < 3 ? 0 : 1] *=
+        j < 4 ? baum_i_four_get(from->diagonal.low, j) : from->diagonal.high[j - 4];
     }
   }
-  measure->size[0] = size[0];
-  measure->size[1] = size[1];
+  if (n == 5) {
+    baum_i_store(d + 20, from->diagonal.high);
+  } else if (n == 6) {
+    baum_i_store(d + 24, (baum_i_pair){from->diagonal.high[0], from->corner[0]});
+    baum_i_store(d + 26, (baum_i_pair){from->corner[0], from->diagonal.high[1]});
+  }
+  baum_i_store(joint->measure->size, (baum_i_pair){size[0], size[1]});
 }
 
-/* Sets the sides of a joint, r, J a0 - r and D. If n > own, the last row is a spin row. */
-BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joint, int n, int own,
-                            bool points, bool slides, const rows *row, const baum_i_space_pass *at)
+/* Adds the terms of the origins' motion to Phi' and gamma of rows s. Sets E of both sides, and adds
+ * their parts to D and to J a0 - r. `apart` is the difference of a0 of the two bodies. */
+BAUM_I_INLINE void set_moves(const baum_i_space_joint *joint, int n, four apart, rows *row,
+                             square *to, column *sum)
 {
-  const double *numbers = at->joints.numbers + joint->numbers;
-  const double *diagonal = numbers + BAUM_I_JOINT_DIAGONAL;
+  bool tall = n > 4;
+  const baum_i_space_frame *f = joint->frame[0];
+  const baum_i_space_frame *g = joint->frame[1];
+  four w_a = baum_i_four_load(f->w);
+  four r = baum_i_four_minus(baum_i_four_load(g->r), baum_i_four_load(f->r));
+  four v = baum_i_four_minus(baum_i_four_load(g->v), baum_i_four_load(f->v));
+  four bend = baum_i_four_add(baum_i_four_cross(v, w_a), baum_i_four_load(g->w),
+                              baum_i_four_sum(baum_i_four_times(w_a, r)));
+  four weight =
+    baum_i_four_plus(baum_i_four_load(joint->weight[0]), baum_i_four_load(joint->weight[1]));
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    column move = row->move[c];
+    row->rate = baum_i_column_add(row->rate, move, baum_i_four_get(v, c), tall);
+    row->gamma = baum_i_column_subtract(row->gamma, move, 2.0 * baum_i_four_get(bend, c), tall);
+    if (joint->turn[0]) {
+      baum_i_column_store(joint->move[0], 3, c, tall, baum_i_column_times(move, -1.0, tall));
+    }
+    if (joint->turn[1]) {
+      baum_i_column_store(joint->move[1], 3, c, tall, move);
+    }
+    *sum = baum_i_column_add(*sum, move, baum_i_four_get(apart, c), tall);
+    add_square(to, move, baum_i_column_times(move, baum_i_four_get(weight, c), tall), n);
+  }
+}
+
+/* Products of the vectors of all rows for one body k. */
+typedef struct products {
+  column own;   /* s_k . W_k */
+  column other; /* z_k . W_k */
+  column both;  /* s_k . z_k */
+} products;
+
+BAUM_I_INLINE products find_products(const double *own, const column z[3], const double *w, int n)
+{
+  bool tall = n > 4;
+  column s = baum_i_column_load(own, 3, 0, tall);
+  products to = {.own = baum_i_column_times(s, w[0], tall),
+                 .other = baum_i_column_times(z[0], w[0], tall),
+                 .both = baum_i_column_product(s, z[0], tall)};
+  BAUM_I_UNROLL(2)
+  for (int c = 1; c < 3; c++) {
+    s = baum_i_column_load(own, 3, c, tall);
+    to.own = baum_i_column_add(to.own, s, w[c], tall);
+    to.other = baum_i_column_add(to.other, z[c], w[c], tall);
+    to.both = baum_i_column_plus(to.both, baum_i_column_product(s, z[c], tall), tall);
+  }
+  return to;
+}
+
+/* Sets Phi and gamma of all rows. Rows p are the numbers 0 to 2 if `points` is true. */
+BAUM_I_INLINE void set_positions(const baum_i_space_frame *f, const baum_i_space_frame *g, int n,
+                                 bool points, const double *own, rows *row)
+{
+  bool tall = n > 4;
+  products a = find_products(own, row->other[0], f->spin, n);
+  products b = find_products(own + baum_i_space_part(n), row->other[1], g->spin, n);
+  four square_a = baum_i_four_all(f->spin[3]);
+  four square_b = baum_i_four_all(g->spin[3]);
+  if (points) {
+    b.both.low = baum_i_four_put(b.both.low, 3, 0.0);
+  }
+  if (n > 3 || !points) { /* rows other than p */
+    four w = baum_i_four_times(baum_i_four_load(f->w), baum_i_four_load(g->w));
+    double mixed = g->spin[3] - 2.0 * baum_i_four_sum(w);
+    double whole = f->spin[3] + mixed;
+    square_a = points ? baum_i_four_put(square_a, 3, whole) : square_a;
+    square_b = points ? square_b : baum_i_four_all(mixed);
+    const four twice = points ? baum_i_four_set(0.0, 0.0, 0.0, 2.0) : baum_i_four_all(2.0);
+    four both = baum_i_four_times(a.other.low, twice);
+    row->gamma.low = baum_i_four_plus(row->gamma.low, baum_i_four_times(both, b.other.low));
+    if (tall) { /* rows d and e */
+      row->gamma.high = a.both.high * baum_i_both(whole);
+      row->gamma.high += (a.other.high + a.other.high) * b.other.high;
+    }
+  }
+  four gamma = baum_i_four_plus(row->gamma.low, baum_i_four_times(a.both.low, square_a));
+  row->gamma.low = baum_i_four_minus(gamma, baum_i_four_times(b.both.low, square_b));
+  row->gamma = baum_i_column_minus(row->gamma, baum_i_column_product(a.own, a.other, tall), tall);
+  row->gamma = baum_i_column_plus(row->gamma, baum_i_column_product(b.own, b.other, tall), tall);
+  if (points) { /* the difference of the points' places */
+    four x_b = baum_i_four_minus(baum_i_four_load(g->r), b.both.low);
+    a.both.low = baum_i_four_minus(x_b, baum_i_four_minus(baum_i_four_load(f->r), a.both.low));
+  }
+  row->phi = baum_i_column_plus(row->phi, a.both, tall);
+}
+
+/* Sets R of side k, and adds its parts to Phi', to D and to J a0 - r. Rounding errors of
+ * cross(x, y) for x on body a and of cross(x, y) for y on body b are the same, because thin bodies
+ * need exactly opposite moments. */
+BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             int count, int k, rows *row, column *sum, square *d)
+{
+  bool tall = n > 4;
+  const double *own = joint->numbers + BAUM_I_JOINT_OWN + (ptrdiff_t)k * baum_i_space_part(n);
+  const double *w = joint->frame[k]->spin;
+  const double *spin = joint->spin + 4 * k;
+  const column *z = row->other[k];
+  column turn[3];
+  BAUM_I_UNROLL(3)
+  for (int c = 0; c < 3; c++) {
+    int i = (c + 1) % 3;
+    int j = (c + 2) % 3;
+    column s_i = baum_i_column_load(own, 3, i, tall);
+    column s_j = baum_i_column_load(own, 3, j, tall);
+    turn[c] = k == 0 ? baum_i_column_cross(s_i, z[j], s_j, z[i], tall)
+                     : baum_i_column_cross(z[i], s_j, z[j], s_i, tall);
+    if (n > count) {
+      put(&turn[c], count, spin[c]);
+    }
+    row->rate = baum_i_column_add(row->rate, turn[c], w[c], tall);
+  }
+  if (!joint->turn[k]) {
+    return;
+  }
+  const double *white = joint->white[k];
+  const double *free = b->from + (ptrdiff_t)MOTION * joint->body[k] + 4;
+  double *stored = joint->turn[k];
+  BAUM_I_UNROLL(3)
+  for (int c = 2; c >= 0; c--) { /* L^-T is upper triangular */
+    turn[c] = baum_i_column_times(turn[c], white[5 * c], tall);
+    BAUM_I_UNROLL(3)
+    for (int j = 0; j < c; j++) {
+      turn[c] = baum_i_column_add(turn[c], turn[j], white[4 * j + c], tall);
+    }
+    baum_i_column_store(stored, 3, c, tall, turn[c]);
+    *sum = baum_i_column_add(*sum, turn[c], free[c], tall);
+    add_square(d, turn[c], turn[c], n);
+  }
+}
+
+/* Sets the sides of a joint, r, J a0 - r and D. If n > count, the last row is a spin row. */
+BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                            int count, bool points, bool slides, rows *row,
+                            const baum_i_space_pass *at)
+{
+  bool tall = n > 4;
+  const column zero = {baum_i_four_zero(), {0.0, 0.0}};
+  const double *diagonal = joint->numbers + BAUM_I_JOINT_DIAGONAL;
   four apart = baum_i_four_minus(baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[1]),
                                  baum_i_four_load(b->from + (ptrdiff_t)MOTION * joint->body[0]));
-  equations to = {.sum = {points ? apart : baum_i_four_zero(), {0.0, 0.0}}};
-  column right = set_rates(joint, n, own, numbers + BAUM_I_JOINT_KEEP, row, at);
-  to.sum = baum_i_column_subtract(to.sum, right, 1.0, n > 4);
-  BAUM_I_UNROLL(6)
-  for (int j = 0; j < n; j++) {
-    to.d[j] = (column){baum_i_four_zero(), {0.0, 0.0}};
-    put(&to.d[j], j, baum_i_four_all(diagonal[j]), 0);
-  }
+  column sum = {points ? apart : zero.low, {0.0, 0.0}};
+  square d = {.diagonal = baum_i_column_load(diagonal, 1, 0, tall),
+              .next = zero.low,
+              .far = zero.low,
+              .last = {zero.low, zero.low}};
   if (slides) {
-    set_moves(b, joint, n, row, apart, &to);
+    set_moves(joint, n, apart, row, &d, &sum);
   }
-  set_turns(b, joint, n, points, 0, row, at, &to);
-  set_turns(b, joint, n, points, 1, row, at, &to);
-  double *stored = b->nodes + b->list[joint->node].at;
-  baum_i_column_store(stored, 1, 0, n > 4, to.sum);
-  baum_i_column_store(stored + baum_i_space_vector(n), 1, 0, n > 4, right);
-  store_pivot(b, joint->node, n, own, to.d);
+  column right = baum_i_column_times(row->gamma, at->bending, tall);
+  right = baum_i_column_subtract(right, row->phi, at->stiffness, tall);
+  store_rows(at->phi + joint->row, row->phi, count);
+  store_rows(at->gamma + joint->row, row->gamma, count);
+  set_turns(b, joint, n, count, 0, row, &sum, &d);
+  set_turns(b, joint, n, count, 1, row, &sum, &d);
+  right = baum_i_column_subtract(right, row->rate, at->damping, tall);
+  store_rows(at->phi_rate + joint->row, row->rate, count);
+  if (n > count) {
+    put(&right, count, 0.0);
+  }
+  double *stored = joint->equations;
+  baum_i_column_store(stored, 1, 0, tall, baum_i_column_minus(sum, right, tall));
+  baum_i_column_store(stored + baum_i_space_vector(n), 1, 0, tall, right);
+  store_pivot(joint, n, count, &d);
+  if ((n > 3 || !points) && joint->omits) {
+    baum_i_space_joint_omit(b, joint);
+  }
 }
 
 /* Computes the n rows of a joint and writes them to the solver. If `points` is true, the first
  * three rows are of kind p. `slides` has bit i set if row i is of kind s. `again` is the row of
- * kind e, or 0 if there is none. If n > own, the last row is a spin row. */
-BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n, int own,
-                             bool points, unsigned slides, int again, const baum_i_space_pass *at)
+ * kind e, or 0 if there is none. If n > count, the last row is a spin row. */
+BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *joint, int n,
+                             int count, bool points, unsigned slides, int again,
+                             const baum_i_space_pass *at)
 {
-  const baum_i_space_frame *f = &at->joints.frames[joint->body[0]];
-  const baum_i_space_frame *g = &at->joints.frames[joint->body[1]];
-  const double *numbers = at->joints.numbers + joint->numbers;
-  const double *axes = numbers + BAUM_I_JOINT_AXES;
-  const double *keep = numbers + BAUM_I_JOINT_KEEP;
+  const baum_i_space_frame *f = joint->frame[0];
+  const baum_i_space_frame *g = joint->frame[1];
+  const double *own = joint->numbers + BAUM_I_JOINT_OWN;
+  const double *own_b = own + baum_i_space_part(n);
   const column zero = {baum_i_four_zero(), {0.0, 0.0}};
-  rows row = {.move = {zero, zero, zero}, .phi = zero, .rate = zero, .gamma = zero};
-  const marker m[2] = {marker_on(f, numbers), marker_on(g, numbers + 4)};
-  direction d;
+  rows row = {.other = {{zero, zero, zero}, {zero, zero, zero}},
+              .move = {zero, zero, zero},
+              .phi = zero,
+              .rate = zero,
+              .gamma = zero};
+  double other[4];
+  const double *z_a = other;
+  if (slides) {
+    row.phi = baum_i_column_load(own_b + baum_i_space_part(n), 1, 0, n > 4);
+  }
+  BAUM_I_UNROLL(3)
+  for (int c = 0; points && c < 3; c++) {
+    row.other[0][c].low = baum_i_four_load(f->axes + 4 * c);
+    row.other[1][c].low = baum_i_four_load(g->axes + 4 * c);
+  }
   if (points) {
-    row.phi.low = baum_i_four_minus(m[1].place, m[0].place);
-    row.rate.low = baum_i_four_minus(m[1].rate, m[0].rate);
-    row.gamma.low = baum_i_four_minus(m[0].bend, m[1].bend);
+    row.rate.low = baum_i_four_minus(baum_i_four_load(g->v), baum_i_four_load(f->v));
   }
   BAUM_I_UNROLL(6)
-  for (int i = points ? 3 : 0; i < own; i++) {
-    if ((slides >> i & 1u) != 0) {
-      set_slide_row(f, g, m, axes, keep[i], i, &row);
-    } else {
-      d = i == again && i > 0 ? d : direction_on(f, g, axes + 4);
-      set_direction_row(f, g, &d, axes, keep[i], i, &row);
+  for (int i = points ? 3 : 0; i < count; i++) {
+    bool slide = (slides >> i & 1u) != 0;
+    bool same = i > 0 && (i == again || (slide && (slides >> (i - 1) & 1u) != 0));
+    double s[3];
+    if (!same) {
+      get_own(own_b, i, s);
+      z_a = find_other(f, g, s, slide, other);
     }
-    axes += 8;
+    get_own(own, i, s);
+    set_row(f, g, z_a, s, slide, i, &row);
   }
-  if (n > own) {
-    row.turn[0][own] = baum_i_four_load(axes);
-    row.turn[1][own] = baum_i_four_load(axes + 4);
-  }
-  set_node(b, joint, n, own, points, slides != 0, &row, at);
+  set_positions(f, g, n, points, own, &row);
+  set_node(b, joint, n, count, points, slides != 0, &row, at);
 }
 
 BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_joint *joint,

@@ -199,7 +199,7 @@ static void set_spin(baum_i_space_body *body)
   }
 }
 
-/* Replaces I by I + w e e^T with w = trace(I) / 2, and sets u. */
+/* Replaces I by I + w e e^T with w = trace(I) / 2. */
 static void raise_moment(baum_i_space_body *body)
 {
   double weight = 0.5 * trace_of(body);
@@ -210,9 +210,7 @@ static void raise_moment(baum_i_space_body *body)
   }
   (void)whiten(tensor, body); /* cannot fail, because I is positive definite */
   set_spin(body);
-  for (int k = 0; k < 3; k++) {
-    body->lack[k] = sqrt(weight) * body->spin[k];
-  }
+  body->root = sqrt(weight);
 }
 
 static void set_thin(baum_i_space_body *body)
@@ -298,9 +296,11 @@ static void rest_spin_rows(const baum_i_space *b)
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     if (node->spin != 0) {
-      const double *u = b->bodies[node->spin].lack;
+      const baum_i_space_body *body = &b->bodies[node->spin];
+      const double *s = body->spin;
       const double *y = b->pull + (ptrdiff_t)BAUM_I_SPACE_MOTION * node->spin + 4;
-      b->rest[node->place + node->rows - 1] = u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
+      double spin = s[0] * y[0] + s[1] * y[1] + s[2] * y[2];
+      b->rest[node->place + node->rows - 1] = body->root * spin;
     }
   }
 }

@@ -20,9 +20,9 @@
  * 0.
  *
  * If the inertia tensor of a body is nearly singular, 1 / m and 1 are small compared with R R^T,
- * and digits are lost in S. The solver then uses the tensor I' = I + e w e^T, where e is the axis
- * of the smallest moment of inertia and w a number of the size of the other moments. With I' = L
- * L^T, u = w^(1/2) L^-1 e and y = L^T w', the equations of motion contain the term -u (u . y). Its
+ * and digits are lost in S. The solver then uses the tensor I' = I + e c e^T, where e is the axis
+ * of the smallest moment of inertia and c a number of the size of the other moments. With I' = L
+ * L^T, u = c^(1/2) L^-1 e and y = L^T w', the equations of motion contain the term -u (u . y). Its
  * factor mu = -u . y is a further multiplier: it is the last one of a node of the body, and its row
  *
  *   u . y + mu = 0
@@ -131,7 +131,7 @@ typedef struct baum_i_space_body {
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of the smallest moment of inertia */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
-  double lack[4];     /* u if a node has the spin row of the body */
+  double root;        /* c^(1/2) if a node has the spin row of the body, so that u = root spin */
   double mass;        /* 0 if W = 0 */
   double heft;        /* mass of the body, even if the body is fixed */
   bool fixed;         /* W = 0 */

@@ -144,6 +144,48 @@ BAUM_I_INLINE baum_i_four baum_i_four_rotated(baum_i_four x)
 #endif
 }
 
+/* Returns (x_1, x_2, x_3, x_0). */
+BAUM_I_INLINE baum_i_four baum_i_four_next(baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_permute4x64_pd(x, 0x39);
+#else
+  return (baum_i_four){{x.low[1], x.high[0]}, {x.high[1], x.low[0]}};
+#endif
+}
+
+/* Returns (x_2, x_3, x_0, x_1). */
+BAUM_I_INLINE baum_i_four baum_i_four_swapped(baum_i_four x)
+{
+#ifdef BAUM_I_WIDE
+  return _mm256_permute2f128_pd(x, x, 0x01);
+#else
+  return (baum_i_four){x.high, x.low};
+#endif
+}
+
+/* Sets the columns of a symmetric matrix with the entries (i, i) = x_i, (i, i + 1) = y_i and
+ * (i, i + 2) = z_i, where indices are modulo 4. */
+BAUM_I_INLINE void baum_i_four_symmetric(baum_i_four x, baum_i_four y, baum_i_four z,
+                                         baum_i_four out[4])
+{
+#ifdef BAUM_I_WIDE
+  baum_i_four xy = _mm256_unpacklo_pd(x, y);                                /* x0 y0 x2 y2 */
+  baum_i_four zy = _mm256_shuffle_pd(z, y, 0xa);                            /* z0 y1 z0 y3 */
+  baum_i_four yx = _mm256_blend_pd(y, x, 0xa);                              /* y0 x1 y2 x3 */
+  baum_i_four yz = _mm256_blend_pd(_mm256_permute4x64_pd(y, 0x13), z, 0xa); /* y3 z1 y1 z1 */
+  out[0] = _mm256_blend_pd(xy, zy, 0xc);
+  out[1] = _mm256_blend_pd(yx, yz, 0xc);
+  out[2] = _mm256_blend_pd(zy, xy, 0xc);
+  out[3] = _mm256_blend_pd(yz, yx, 0xc);
+#else
+  out[0] = (baum_i_four){{x.low[0], y.low[0]}, {z.low[0], y.high[1]}};
+  out[1] = (baum_i_four){{y.low[0], x.low[1]}, {y.low[1], z.low[1]}};
+  out[2] = (baum_i_four){{z.low[0], y.low[1]}, {x.high[0], y.high[0]}};
+  out[3] = (baum_i_four){{y.high[1], z.low[1]}, {y.high[0], x.high[1]}};
+#endif
+}
+
 /* Returns the cross product of the first three numbers. The fourth number of the result is 0 or a
  * rounding error. */
 BAUM_I_INLINE baum_i_four baum_i_four_cross(baum_i_four x, baum_i_four y)
@@ -212,6 +254,44 @@ BAUM_I_INLINE baum_i_space_column baum_i_column_times(baum_i_space_column x, dou
   if (tall) {
     x.high *= baum_i_four_low(all);
   }
+  return x;
+}
+
+/* x + y */
+BAUM_I_INLINE baum_i_space_column baum_i_column_plus(baum_i_space_column x, baum_i_space_column y,
+                                                     bool tall)
+{
+  x.low = baum_i_four_plus(x.low, y.low);
+  x.high = tall ? x.high + y.high : x.high;
+  return x;
+}
+
+/* x - y */
+BAUM_I_INLINE baum_i_space_column baum_i_column_minus(baum_i_space_column x, baum_i_space_column y,
+                                                      bool tall)
+{
+  x.low = baum_i_four_minus(x.low, y.low);
+  x.high = tall ? x.high - y.high : x.high;
+  return x;
+}
+
+/* Returns the products of the numbers of two columns, row by row. */
+BAUM_I_INLINE baum_i_space_column baum_i_column_product(baum_i_space_column x,
+                                                        baum_i_space_column y, bool tall)
+{
+  x.low = baum_i_four_times(x.low, y.low);
+  x.high = tall ? x.high * y.high : x.high;
+  return x;
+}
+
+/* x y - z u, row by row, where z u is rounded. */
+BAUM_I_INLINE baum_i_space_column baum_i_column_cross(baum_i_space_column x, baum_i_space_column y,
+                                                      baum_i_space_column z, baum_i_space_column u,
+                                                      bool tall)
+{
+  x.low = baum_i_four_minus(baum_i_four_times(x.low, y.low),
+                            baum_i_four_rounded(baum_i_four_times(z.low, u.low)));
+  x.high = tall ? x.high * y.high - baum_i_rounded(z.high * u.high) : x.high;
   return x;
 }
 
