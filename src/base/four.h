@@ -210,8 +210,8 @@ BAUM_I_INLINE void baum_i_four_store(double *to, baum_i_four x)
 #endif
 }
 
-/* Store x, and return `to`. The compiler then loads single numbers of x from memory, although it has
- * just stored them. This is faster than copying a number of a register into all its parts. */
+/* Store x, and return `to`. The compiler then loads single numbers of x from memory, although it
+ * has just stored them. This is faster than copying a number of a register into all its parts. */
 BAUM_I_INLINE const double *baum_i_four_spilled(double *to, baum_i_four x)
 {
   baum_i_four_store(to, x);

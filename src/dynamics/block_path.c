@@ -358,7 +358,7 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
   if (path->has_planar) {
     w->point.kernel->set(w->mechanism, q, v, w->point.frames);
   }
-  path->joints_kernel->set_bodies(path->space, &pass);
+  path->bodies_kernel->set(path->space, &pass);
   w->eliminated_by = NULL;
   w->jacobian_ready = false; /* if a function fails, J is partly overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
@@ -367,7 +367,7 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
     BAUM_I_TRY(add_other_forces(w, path));
   }
   w->jacobian_ready = path->space_joints.count == 0 && path->fixed_count == 0;
-  path->joints_kernel->set_joints(path->space, &pass);
+  path->joints_kernel->set(path->space, &pass);
   path->space_sides->set(path->space, &rows);
   set_omitted_rates(w, path, v);
   if (right->row_gains) {

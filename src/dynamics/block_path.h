@@ -34,6 +34,7 @@ struct baum_i_block_path {
   const baum_i_space_sides_kernel *space_sides;
   const baum_i_space_factor_kernel *factor_kernel;
   const baum_i_space_residual_kernel *residual_kernel;
+  const baum_i_space_bodies_kernel *bodies_kernel;
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
   bool has_planar;   /* at least one body is planar */

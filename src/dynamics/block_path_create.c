@@ -439,6 +439,7 @@ baum_status baum_i_block_path_create_with(baum_workspace *w, bool for_motion, co
   path->space_sides = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_sides_kernel);
   path->factor_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_factor_kernel);
   path->residual_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_residual_kernel);
+  path->bodies_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_bodies_kernel);
   path->joints_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_space_joints_kernel);
   path->kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_kernel);
   path->sides_kernel = BAUM_I_HOT_TABLE(w->mechanism->wide, baum_i_block_sides_kernel);

@@ -111,11 +111,17 @@ typedef struct baum_i_space_pass {
  * with the pivot 1. */
 void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint *joint);
 
-typedef struct baum_i_space_joints_kernel {
+typedef struct baum_i_space_bodies_kernel {
   /* Sets the frames of all bodies, and the forces and a0 of bodies in space. */
-  void (*set_bodies)(baum_i_space *space, const baum_i_space_pass *pass);
+  void (*set)(baum_i_space *space, const baum_i_space_pass *pass);
+} baum_i_space_bodies_kernel;
+
+extern const baum_i_space_bodies_kernel baum_i_space_bodies_kernel_plain;
+extern const baum_i_space_bodies_kernel baum_i_space_bodies_kernel_wide;
+
+typedef struct baum_i_space_joints_kernel {
   /* Sets sides, r, D and J a0 - r of the joints' nodes, and their rows of Phi, Phi' and gamma. */
-  void (*set_joints)(baum_i_space *space, const baum_i_space_pass *pass);
+  void (*set)(baum_i_space *space, const baum_i_space_pass *pass);
 } baum_i_space_joints_kernel;
 
 extern const baum_i_space_joints_kernel baum_i_space_joints_kernel_plain;

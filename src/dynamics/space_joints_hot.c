@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Computes the frames of bodies in space and the geometry of joints between them. A point s of a
- * body has the arm d = A s and the position r + d. Let e be the position of a joint's point on b
+/* Computes the geometry of joints between bodies in space from their frames. A point s of a body
+ * has the arm d = A s and the position r + d. Let e be the position of a joint's point on b
  * minus the position of its point on a. The rows are
  *
  *   rows p   Phi = e, in ground axes
@@ -8,9 +8,9 @@
  *   row e    a row d with the same y as the row before it
  *   row s    Phi = x . e   (axis x on a)
  *
- * For each row and each body k there is a vector s_k, which is constant in the axes of the body, and
- * a vector z_k, also in these axes. The row of J for the angular acceleration of body k in its own
- * axes is n_k = cross(s_a, z_a) or cross(z_b, s_b), and its side (space_block.h) is R = n_k L_k^-T:
+ * For each row and each body k there is a vector s_k, which is constant in the axes of the body,
+ * and a vector z_k, also in these axes. The row of J for the angular acceleration of body k in its
+ * own axes is n_k = cross(s_a, z_a) or cross(z_b, s_b). Its side (space_block.h) is R = n_k L_k^-T:
  *
  *   rows     s_a              z_a                      s_b             z_b                  E
  *   p        minus the point  row of A_a               minus the point row of A_b           -+ I
@@ -18,19 +18,16 @@
  *   s        x                A_a^T (r_b + d_b - r_a)  minus the point A_b^T x              -+ x
  *
  * Each of these vectors is stored as three columns with one number for each row, so that one
- * instruction computes numbers of several rows. Let W_k be the angular velocity of body k in its own
- * axes, and w_k the same vector in ground axes. Then gamma, which is -Phi'' without the terms of
- * accelerations, and Phi' are
+ * instruction computes numbers of several rows. Let W_k be the angular velocity of body k in its
+ * own axes, and w_k the same vector in ground axes. Then gamma, which is -Phi'' without the terms
+ * of accelerations, and Phi' are
  *
  *   Phi'  = n_a . W_a + n_b . W_b + E_b (r_b' - r_a')
- *   gamma = W_a^2 (s_a . z_a) - (W_a . s_a) (W_a . z_a) - W_b^2 (s_b . z_b) + (W_b . s_b) (W_b . z_b)
+ *   gamma = W_a^2 (s_a . z_a) - (W_a . s_a) (W_a . z_a)
+ *           - W_b^2 (s_b . z_b) + (W_b . s_b) (W_b . z_b)
  *           + 2 (W_a . z_a) (W_b . z_b) + 2 (w_a . w_b) (s_b . z_b)      not in rows p
  *           - 2 x . ((w_a . (r_b - r_a)) w_b + cross(r_b' - r_a', w_a))  only in rows s
  */
-#include <float.h>
-#include <math.h>
-#include <string.h>
-
 #include "dynamics/space_joints.h"
 #include "linear/space_columns.h"
 
@@ -38,186 +35,6 @@ enum { MOTION = BAUM_I_SPACE_MOTION };
 
 typedef baum_i_four four;
 typedef baum_i_space_column column;
-
-/* ---- bodies ---- */
-
-/* Normalizes a quaternion unless its length is 1 up to rounding. */
-BAUM_I_INLINE four unit(four p)
-{
-  double square = baum_i_four_sum(baum_i_four_times(p, p));
-  bool is_unit = fabs(square - 1.0) <= 8.0 * DBL_EPSILON;
-  return is_unit ? p : baum_i_four_over(p, baum_i_four_all(sqrt(square)));
-}
-
-/* Sets m to the vectors (x_0, y_1, z_2), (z_0, x_1, y_2) and (y_0, z_1, x_2), each followed by
- * x_3. */
-BAUM_I_INLINE void mix(four x, four y, four z, four m[3])
-{
-  m[0] = baum_i_four_move(baum_i_four_move(x, 1, y, 1), 2, z, 2);
-  m[1] = baum_i_four_move(baum_i_four_move(x, 2, y, 2), 0, z, 0);
-  m[2] = baum_i_four_move(baum_i_four_move(x, 0, y, 0), 1, z, 1);
-}
-
-/* Computes the columns and the rows of A of a unit quaternion. */
-BAUM_I_INLINE void set_axes(four p, four columns[3], four rows[3])
-{
-  const four one = baum_i_four_set(1.0, 1.0, 1.0, 0.0);
-  four x = baum_i_four_set(baum_i_four_get(p, 1), baum_i_four_get(p, 2), baum_i_four_get(p, 3), 0);
-  four twice = baum_i_four_plus(x, x);
-  four squares = baum_i_four_times(x, twice);
-  four next = baum_i_four_rotated(x);
-  four last = baum_i_four_times(baum_i_four_rotated(next), baum_i_four_all(baum_i_four_get(p, 0)));
-  squares = baum_i_four_rotated(baum_i_four_plus(squares, baum_i_four_rotated(squares)));
-  four diagonal = baum_i_four_minus(one, squares);
-  four products = baum_i_four_times(twice, next);
-  last = baum_i_four_plus(last, last);
-  four below = baum_i_four_plus(products, last);  /* A_10, A_21, A_02 */
-  four above = baum_i_four_minus(products, last); /* A_01, A_12, A_20 */
-  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(below)), above, columns);
-  mix(diagonal, baum_i_four_rotated(baum_i_four_rotated(above)), below, rows);
-}
-
-BAUM_I_INLINE four three(const double *from)
-{
-  return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
-}
-
-/* Computes A x. */
-BAUM_I_INLINE four turned(const double *axes, const double *x)
-{
-  four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
-  sum = baum_i_four_add(sum, baum_i_four_load(axes + 4), x[1]);
-  return baum_i_four_add(sum, baum_i_four_load(axes + 8), x[2]);
-}
-
-/* Sets the force on a body in space, and a0. */
-BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const double *w,
-                             const baum_i_space_pass *pass)
-{
-  const baum_i_space_body *own = &b->bodies[body];
-  ptrdiff_t first = pass->places[body].v;
-  double *f = b->force + (ptrdiff_t)MOTION * body;
-  double *a0 = b->free + (ptrdiff_t)MOTION * body;
-  four push = baum_i_four_times(three(pass->gravity), baum_i_four_all(own->heft));
-  four turn = baum_i_four_zero();
-  baum_i_store(pass->force + first, baum_i_four_low(push));
-  pass->force[first + 2] = baum_i_four_high(push)[0];
-  if (rigid && w) {
-    four momentum = turned(own->inertia, w);
-    turn = baum_i_four_cross(momentum, three(w));
-  }
-  if (rigid && pass->moments) {
-    turn = three(pass->moments + first + 3);
-  }
-  if (rigid) {
-    baum_i_store(pass->force + first + 3, baum_i_four_low(turn));
-    pass->force[first + 5] = baum_i_four_high(turn)[0];
-  }
-  if (own->fixed) {
-    return;
-  }
-  double moment[4];
-  baum_i_four_store(moment, turn);
-  four white = turned(own->whiten, moment);
-  baum_i_four_store(f, push);
-  baum_i_four_store(a0, baum_i_four_times(push, baum_i_four_load(own->weight)));
-  baum_i_four_store(f + 4, white);
-  baum_i_four_store(a0 + 4, white);
-}
-
-/* Sets the frame of a body with the angular velocity w in body axes. Returns the angular velocity
- * in ground axes. */
-BAUM_I_INLINE four set_frame(baum_i_space_frame *to, const four a[3], const four rows[3],
-                             const double *w)
-{
-  four turning = baum_i_four_zero();
-  BAUM_I_UNROLL(3)
-  for (int c = 0; c < 3; c++) {
-    baum_i_four_store(to->axes + (ptrdiff_t)4 * c, a[c]);
-    baum_i_four_store(to->rows + (ptrdiff_t)4 * c, rows[c]);
-    turning = w ? baum_i_four_add(turning, a[c], w[c]) : turning;
-  }
-  four spin = three(w);
-  double square = baum_i_four_sum(baum_i_four_times(spin, spin));
-  baum_i_four_store(to->spin, baum_i_four_put(spin, 3, square));
-  baum_i_four_store(to->w, turning);
-  return turning;
-}
-
-BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_pass *pass)
-{
-  const baum_i_body_place *place = &pass->places[body];
-  const double *q = pass->q + place->q;
-  const double *v = pass->v ? pass->v + place->v : NULL;
-  bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
-  baum_i_space_frame *to = &pass->joints.frames[body];
-  baum_i_spatial_frame *other = &pass->spatial[body];
-  four p = rigid ? unit(baum_i_four_load(q + 3)) : baum_i_four_set(1.0, 0.0, 0.0, 0.0);
-  four r = three(q);
-  if (pass->normalized) {
-    double *copy = pass->normalized + place->q;
-    baum_i_store(copy, baum_i_four_low(r));
-    copy[2] = baum_i_four_high(r)[0];
-    if (rigid) {
-      baum_i_four_store(copy + 3, p);
-    }
-  }
-  four a[3];
-  four rows[3];
-  set_axes(p, a, rows);
-  four velocity = three(v);
-  four w = set_frame(to, a, rows, rigid && v ? v + 3 : NULL);
-  baum_i_four_store(to->r, r);
-  baum_i_four_store(to->v, velocity);
-  /* each store writes one number too many, which the next store overwrites */
-  baum_i_four_store(other->r, r);
-  baum_i_four_store(other->v, velocity);
-  baum_i_four_store(other->w, w);
-  baum_i_four_store(other->axes, rows[0]);
-  baum_i_four_store(other->axes + 3, rows[1]);
-  baum_i_store(other->axes + 6, baum_i_four_low(rows[2]));
-  other->axes[8] = baum_i_four_high(rows[2])[0];
-  if (pass->gravity) {
-    set_force(b, body, rigid, v ? v + 3 : NULL, pass);
-  }
-}
-
-/* Computes the spatial frame of a planar body. */
-BAUM_I_INLINE void set_planar_body(int body, const baum_i_space_pass *pass)
-{
-  const baum_i_frame *f = &pass->frames[body];
-  const baum_i_body_place *place = &pass->places[body];
-  baum_i_space_frame *to = &pass->joints.frames[body];
-  const double c = f->c, s = f->s;
-  const four across = baum_i_four_set(0.0, 0.0, 1.0, 0.0);
-  const four columns[3] = {baum_i_four_set(c, s, 0.0, 0.0), baum_i_four_set(-s, c, 0.0, 0.0),
-                           across};
-  const four rows[3] = {baum_i_four_set(c, -s, 0.0, 0.0), baum_i_four_set(s, c, 0.0, 0.0), across};
-  set_frame(to, columns, rows, (const double[]){0.0, 0.0, f->w});
-  baum_i_four_store(to->r, baum_i_four_of(baum_i_load(&f->x)));
-  baum_i_four_store(to->v, baum_i_four_of(baum_i_load(&f->vx)));
-  if (place->in_space) {
-    pass->spatial[body] = baum_i_lifted(f);
-  }
-  if (pass->normalized) {
-    size_t size = place->kind == BAUM_I_FRAME_BODY ? 3 : 2;
-    memcpy(pass->normalized + place->q, pass->q + place->q, size * sizeof *pass->q);
-  }
-}
-
-static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
-{
-  const baum_i_space_pass at = *pass;
-  for (int i = 1; i < b->body_count; i++) {
-    if (baum_i_is_spatial((baum_i_frame_kind)at.places[i].kind)) {
-      set_body(b, i, &at);
-    } else {
-      set_planar_body(i, &at);
-    }
-  }
-}
-
-/* ---- joints ---- */
 
 /* All rows of a joint. */
 typedef struct rows {
@@ -252,9 +69,9 @@ BAUM_I_INLINE const double *find_other(const baum_i_space_frame *f, const baum_i
 {
   four apart =
     slides ? baum_i_four_minus(baum_i_four_load(g->r), baum_i_four_load(f->r)) : baum_i_four_zero();
-  four y = baum_i_four_minus(apart, turned(g->axes, s_b));
+  four y = baum_i_four_minus(apart, baum_i_four_turned(g->axes, s_b));
   double stored[4];
-  return baum_i_four_spilled(other, turned(f->rows, baum_i_four_spilled(stored, y)));
+  return baum_i_four_spilled(other, baum_i_four_turned(f->rows, baum_i_four_spilled(stored, y)));
 }
 
 /* Sets the vectors z_k of row i, which is not of kind p, and E_b of rows s. */
@@ -263,8 +80,8 @@ BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame
 {
   double stored[4];
   double other[4];
-  const double *x = baum_i_four_spilled(stored, turned(f->axes, s_a));
-  const double *z_b = baum_i_four_spilled(other, turned(g->rows, x));
+  const double *x = baum_i_four_spilled(stored, baum_i_four_turned(f->axes, s_a));
+  const double *z_b = baum_i_four_spilled(other, baum_i_four_turned(g->rows, x));
   BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
     put(&out->other[0][c], i, z_a[c]);
@@ -332,7 +149,7 @@ BAUM_I_INLINE void store_pivot(const baum_i_space_joint *joint, int n, int own, 
     baum_i_four_symmetric(from->diagonal.low, from->next, from->far, columns);
   } else {
     four before = baum_i_four_rotated(baum_i_four_rotated(from->next));
-    mix(from->diagonal.low, before, from->next, columns);
+    baum_i_four_mix(from->diagonal.low, before, from->next, columns);
   }
   double size[2] = {1.0, 1.0};
   BAUM_I_UNROLL(6)
@@ -572,10 +389,22 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   set_node(b, joint, n, count, points, slides != 0, &row, at);
 }
 
+BAUM_I_INLINE void set_joint_with_spin(const baum_i_space *b, const baum_i_space_joint *joint,
+                                       const baum_i_space_pass *at)
+{
+  switch (joint->shape) {
+  case BAUM_I_SHAPE_PU: set_joint(b, joint, 4, 3, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDU: set_joint(b, joint, 5, 4, true, 0, 0, at); break;
+  case BAUM_I_SHAPE_PDEU: set_joint(b, joint, 6, 5, true, 0, 4, at); break;
+  case BAUM_I_SHAPE_DESSDU: set_joint(b, joint, 6, 5, false, 0xc, 1, at); break;
+  default: break;
+  }
+}
+
 BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_joint *joint,
                                       const baum_i_space_pass *at)
 {
-  switch ((baum_i_space_shape)joint->shape) {
+  switch (joint->shape) {
   case BAUM_I_SHAPE_PIN: set_joint(b, joint, 2, 2, true, 0, 0, at); break;
   case BAUM_I_SHAPE_P: set_joint(b, joint, 3, 3, true, 0, 0, at); break;
   case BAUM_I_SHAPE_PD: set_joint(b, joint, 4, 4, true, 0, 0, at); break;
@@ -586,12 +415,7 @@ BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_
   case BAUM_I_SHAPE_DES: set_joint(b, joint, 3, 3, false, 0x4, 1, at); break;
   case BAUM_I_SHAPE_SS: set_joint(b, joint, 2, 2, false, 0x3, 0, at); break;
   case BAUM_I_SHAPE_S: set_joint(b, joint, 1, 1, false, 0x1, 0, at); break;
-  case BAUM_I_SHAPE_PU: set_joint(b, joint, 4, 3, true, 0, 0, at); break;
-  case BAUM_I_SHAPE_PDU: set_joint(b, joint, 5, 4, true, 0, 0, at); break;
-  case BAUM_I_SHAPE_PDEU: set_joint(b, joint, 6, 5, true, 0, 4, at); break;
-  case BAUM_I_SHAPE_DESSDU: set_joint(b, joint, 6, 5, false, 0xc, 1, at); break;
-  case BAUM_I_SHAPES:
-  default: break;
+  default: set_joint_with_spin(b, joint, at); break;
   }
 }
 
@@ -603,5 +427,4 @@ static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
   }
 }
 
-const baum_i_space_joints_kernel BAUM_I_HOT(baum_i_space_joints_kernel) = {
-  .set_bodies = set_bodies, .set_joints = set_joints};
+const baum_i_space_joints_kernel BAUM_I_HOT(baum_i_space_joints_kernel) = {.set = set_joints};

@@ -200,6 +200,23 @@ BAUM_I_INLINE baum_i_four baum_i_four_zero(void)
   return baum_i_four_all(0.0);
 }
 
+/* Sets m to the vectors (x_0, y_1, z_2), (z_0, x_1, y_2) and (y_0, z_1, x_2), each followed by
+ * x_3. */
+BAUM_I_INLINE void baum_i_four_mix(baum_i_four x, baum_i_four y, baum_i_four z, baum_i_four m[3])
+{
+  m[0] = baum_i_four_move(baum_i_four_move(x, 1, y, 1), 2, z, 2);
+  m[1] = baum_i_four_move(baum_i_four_move(x, 2, y, 2), 0, z, 0);
+  m[2] = baum_i_four_move(baum_i_four_move(x, 0, y, 0), 1, z, 1);
+}
+
+/* Returns A x, where `axes` contains the columns of A. */
+BAUM_I_INLINE baum_i_four baum_i_four_turned(const double *axes, const double *x)
+{
+  baum_i_four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
+  sum = baum_i_four_add(sum, baum_i_four_load(axes + 4), x[1]);
+  return baum_i_four_add(sum, baum_i_four_load(axes + 8), x[2]);
+}
+
 /* One column, or a vector. */
 typedef struct baum_i_space_column {
   baum_i_four low;

@@ -36,6 +36,7 @@ static void use_plain(baum_i_block_path *path)
   path->space_sides = &baum_i_space_sides_kernel_plain;
   path->factor_kernel = &baum_i_space_factor_kernel_plain;
   path->residual_kernel = &baum_i_space_residual_kernel_plain;
+  path->bodies_kernel = &baum_i_space_bodies_kernel_plain;
   path->joints_kernel = &baum_i_space_joints_kernel_plain;
 }
 

@@ -102,6 +102,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->space_sides = &baum_i_space_sides_kernel_plain;
   s->path->factor_kernel = &baum_i_space_factor_kernel_plain;
   s->path->residual_kernel = &baum_i_space_residual_kernel_plain;
+  s->path->bodies_kernel = &baum_i_space_bodies_kernel_plain;
   s->path->joints_kernel = &baum_i_space_joints_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
   bool done = block_run(self, last_phase);
@@ -113,6 +114,7 @@ static bool plain_run(void *self, int last_phase)
   s->path->space_sides = path.space_sides;
   s->path->factor_kernel = path.factor_kernel;
   s->path->residual_kernel = path.residual_kernel;
+  s->path->bodies_kernel = path.bodies_kernel;
   s->path->joints_kernel = path.joints_kernel;
   point->kernel = frames;
   return done;
