@@ -9,24 +9,25 @@
  *   row s    Phi = x . e   (axis x on a)
  *
  * For each row and each body k there is a vector s_k, which is constant in the axes of the body,
- * and a vector z_k, also in these axes. The row of J for the angular acceleration of body k in its
- * own axes is n_k = cross(s_a, z_a) or cross(z_b, s_b). Its side (space_block.h) is R = n_k L_k^-T:
+ * and a vector z_k, also in these axes. The row of J for the angular acceleration of the body in
+ * its own axes is n_a = cross(s_a, z_a) or n_b = cross(z_b, s_b). The side (space_block.h) of the
+ * row is R = n_k L_k^-T and E:
  *
- *   rows     s_a              z_a                      s_b             z_b                  E
- *   p        minus the point  row of A_a               minus the point row of A_b           -+ I
- *   d, e     x                A_a^T y                  -y              A_b^T x              0
- *   s        x                A_a^T (r_b + d_b - r_a)  minus the point A_b^T x              -+ x
+ *   rows   s_a              z_a                      s_b              z_b          E
+ *   p      minus the point  row of A_a               minus the point  row of A_b   -+ I
+ *   d, e   x                A_a^T y                  -y               A_b^T x      0
+ *   s      x                A_a^T (r_b + d_b - r_a)  minus the point  A_b^T x      -+ x
  *
  * Each of these vectors is stored as three columns with one number for each row, so that one
  * instruction computes numbers of several rows. Let W_k be the angular velocity of body k in its
- * own axes, and w_k the same vector in ground axes. Then gamma, which is -Phi'' without the terms
- * of accelerations, and Phi' are
+ * own axes, and w_k the same vector in ground axes. Then Phi', and gamma, which is -Phi'' without
+ * the terms of accelerations, are
  *
  *   Phi'  = n_a . W_a + n_b . W_b + E_b (r_b' - r_a')
  *   gamma = W_a^2 (s_a . z_a) - (W_a . s_a) (W_a . z_a)
  *           - W_b^2 (s_b . z_b) + (W_b . s_b) (W_b . z_b)
- *           + 2 (W_a . z_a) (W_b . z_b) + 2 (w_a . w_b) (s_b . z_b)      not in rows p
- *           - 2 x . ((w_a . (r_b - r_a)) w_b + cross(r_b' - r_a', w_a))  only in rows s
+ *           + 2 (W_a . z_a) (W_b . z_b) + 2 (w_a . w_b) (s_b . z_b)      (not in rows p)
+ *           - 2 x . ((w_a . (r_b - r_a)) w_b + cross(r_b' - r_a', w_a))  (only in rows s)
  */
 #include "dynamics/space_joints.h"
 #include "linear/space_columns.h"
@@ -233,7 +234,7 @@ BAUM_I_INLINE void set_positions(const baum_i_space_frame *f, const baum_i_space
   products b = find_products(own + baum_i_space_part(n), row->other[1], g->spin, n);
   four square_a = baum_i_four_all(f->spin[3]);
   four square_b = baum_i_four_all(g->spin[3]);
-  if (points) {
+  if (points) { /* in row 3, of kind d, square_a is the factor for both bodies */
     b.both.low = baum_i_four_put(b.both.low, 3, 0.0);
   }
   if (n > 3 || !points) { /* rows other than p */
@@ -245,7 +246,7 @@ BAUM_I_INLINE void set_positions(const baum_i_space_frame *f, const baum_i_space
     const four twice = points ? baum_i_four_set(0.0, 0.0, 0.0, 2.0) : baum_i_four_all(2.0);
     four both = baum_i_four_times(a.other.low, twice);
     row->gamma.low = baum_i_four_plus(row->gamma.low, baum_i_four_times(both, b.other.low));
-    if (tall) { /* rows d and e */
+    if (tall) { /* rows d and e, where s_b . z_b = -s_a . z_a */
       row->gamma.high = a.both.high * baum_i_both(whole);
       row->gamma.high += (a.other.high + a.other.high) * b.other.high;
     }
