@@ -118,10 +118,8 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   if (node->spin != 0) {
     const baum_i_space_body *body = &space->bodies[node->spin];
     double *row = out + count_numbers(joint->shape) - 8 + (joint->body[0] == node->spin ? 0 : 4);
-    for (int c = 0; c < 3; c++) {
-      row[c] = body->root * body->axis[c];
-    }
-    out[BAUM_I_JOINT_DIAGONAL + node->rows - 1] = -1.0;
+    memcpy(row, body->lack, sizeof body->lack);
+    out[BAUM_I_JOINT_DIAGONAL + node->rows - 1] = -body->gap;
   }
 }
 

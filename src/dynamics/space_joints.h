@@ -47,8 +47,8 @@ enum {
   BAUM_I_JOINT_DIAGONAL =
     0, /* E E^T / m of rows p, the diagonal of their part of D; eight numbers */
   /* the vectors s_a and s_b of space_joints_hot.c: two matrices of three columns (space_block.h);
-   * then, if there are rows s, eight numbers Phi - s_a . z_a; then, if there is a spin row, n_a and
-   * n_b of this row, four numbers each */
+   * then, if there are rows s, eight numbers Phi - s_a . z_a; then, if there is a spin row, R of
+   * this row for both bodies, four numbers each */
   BAUM_I_JOINT_OWN = 8
 };
 
@@ -69,7 +69,7 @@ typedef struct baum_i_space_joint {
   double *equations; /* J a0 - r, r and D of the node */
   baum_i_space_measure *measure;
   const double *numbers; /* its constants */
-  const double *spin;    /* n_a and n_b of its spin row, if it has one */
+  const double *spin;    /* R of its spin row for both bodies, if it has one */
 } baum_i_space_joint;
 
 /* The joints of a block path, and a frame for each body. */

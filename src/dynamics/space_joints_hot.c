@@ -282,9 +282,6 @@ BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *jo
     column s_j = baum_i_column_load(own, 3, j, tall);
     turn[c] = k == 0 ? baum_i_column_cross(s_i, z[j], s_j, z[i], tall)
                      : baum_i_column_cross(z[i], s_j, z[j], s_i, tall);
-    if (n > count) {
-      put(&turn[c], count, spin[c]);
-    }
     row->rate = baum_i_column_add(row->rate, turn[c], w[c], tall);
   }
   if (!joint->turn[k]) {
@@ -299,6 +296,9 @@ BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *jo
     BAUM_I_UNROLL(3)
     for (int j = 0; j < c; j++) {
       turn[c] = baum_i_column_add(turn[c], turn[j], white[4 * j + c], tall);
+    }
+    if (n > count) {
+      put(&turn[c], count, spin[c]);
     }
     baum_i_column_store(stored, 3, c, tall, turn[c]);
     *sum = baum_i_column_add(*sum, turn[c], free[c], tall);
@@ -332,8 +332,9 @@ BAUM_I_INLINE void set_node(const baum_i_space *b, const baum_i_space_joint *joi
   set_turns(b, joint, n, count, 1, row, &sum, &d);
   right = baum_i_column_subtract(right, row->rate, at->damping, tall);
   store_rows(at->phi_rate + joint->row, row->rate, count);
-  if (n > count) {
+  if (n > count) { /* u . u is not added to the diagonal entry, because it would cancel */
     put(&right, count, 0.0);
+    put(&d.diagonal, count, diagonal[count]);
   }
   double *stored = joint->equations;
   baum_i_column_store(stored, 1, 0, tall, baum_i_column_minus(sum, right, tall));

@@ -86,6 +86,15 @@ static bool choose(const baum_i_block_path *path, search *found, int *spins)
   return found->count > 0;
 }
 
+static bool has_slim_bodies(const baum_i_space *space)
+{
+  bool found = false;
+  for (int t = 1; t < space->body_count && !found; t++) {
+    found = is_slim(&space->bodies[t]);
+  }
+  return found;
+}
+
 /* Finds the weakest pivot in the design configuration. */
 static baum_status measure(baum_workspace *w, baum_i_block_path *path, double *weakest)
 {
@@ -115,7 +124,7 @@ static baum_status try_spins(baum_workspace *w, bool for_motion, const int *spin
   return status;
 }
 
-baum_status baum_i_add_spin_rows(baum_workspace *w, bool for_motion, baum_i_block_path **path)
+static baum_status add_spin_rows(baum_workspace *w, bool for_motion, baum_i_block_path **path)
 {
   const baum_i_space *space = (*path)->space;
   double weakest;
@@ -134,4 +143,15 @@ baum_status baum_i_add_spin_rows(baum_workspace *w, bool for_motion, baum_i_bloc
   baum_i_free(found.list);
   baum_i_free(found.choices);
   return status;
+}
+
+/* If a user function fails in the design configuration, the path stays as it is. */
+baum_status baum_i_add_spin_rows(baum_workspace *w, bool for_motion, baum_i_block_path **path)
+{
+  if (!has_slim_bodies((*path)->space)) {
+    return BAUM_OK;
+  }
+  const baum_i_kept_message kept = baum_i_message_keep();
+  baum_status status = add_spin_rows(w, for_motion, path);
+  return status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
 }

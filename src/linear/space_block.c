@@ -9,6 +9,7 @@
 #include "base/hot.h"
 #include "base/pair.h"
 #include "linear/arrays.h"
+#include "linear/twofold.h"
 
 /* The same limits as in block.c. In space, weak_pivot also has a lower bound, because evaluations
  * in space accept good pivots without a check of the residual. */
@@ -199,6 +200,26 @@ static void set_spin(baum_i_space_body *body)
   }
 }
 
+static double square_of(const double x[3])
+{
+  return x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
+}
+
+/* Sets k of the spin row so that a unit moment about the axis causes the spin `inverse`, as with
+ * the tensor I: |s|^2 + (u . s)^2 / (k - u . u) = inverse, where s is the spin vector for I'. */
+static void set_factor(baum_i_space_body *body, double inverse)
+{
+  const double *u = body->lack;
+  double along = u[0] * body->spin[0] + u[1] * body->spin[1] + u[2] * body->spin[2];
+  body->gap = along * along / (inverse - square_of(body->spin));
+  baum_i_twofold k = {body->gap, 0.0};
+  for (int i = 0; i < 3; i++) {
+    baum_i_twofold_subtract_product(&k, u[i], -u[i]);
+  }
+  body->factor[0] = k.high;
+  body->factor[1] = k.low;
+}
+
 /* Replaces I by I + w e e^T with w = trace(I) / 2. */
 static void raise_moment(baum_i_space_body *body)
 {
@@ -209,8 +230,13 @@ static void raise_moment(baum_i_space_body *body)
     tensor[i] = body->inertia[i] + (i % 4 < 3 ? weight * e[i / 4] * e[i % 4] : 0.0);
   }
   (void)whiten(tensor, body); /* cannot fail, because I is positive definite */
+  const double inverse =
+    square_of(body->spin); /* spin caused by a unit moment, without constraints */
   set_spin(body);
-  body->root = sqrt(weight);
+  for (int k = 0; k < 3; k++) {
+    body->lack[k] = sqrt(weight) * body->spin[k];
+  }
+  set_factor(body, inverse);
 }
 
 static void set_thin(baum_i_space_body *body)
@@ -296,11 +322,9 @@ static void rest_spin_rows(const baum_i_space *b)
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
     if (node->spin != 0) {
-      const baum_i_space_body *body = &b->bodies[node->spin];
-      const double *s = body->spin;
+      const double *u = b->bodies[node->spin].lack;
       const double *y = b->pull + (ptrdiff_t)BAUM_I_SPACE_MOTION * node->spin + 4;
-      double spin = s[0] * y[0] + s[1] * y[1] + s[2] * y[2];
-      b->rest[node->place + node->rows - 1] = body->root * spin;
+      b->rest[node->place + node->rows - 1] = u[0] * y[0] + u[1] * y[1] + u[2] * y[2];
     }
   }
 }
@@ -378,7 +402,7 @@ static void set_undivided(const baum_i_space *b, const baum_i_space_node *node,
     s[i][i] += node->omitted >> i & 1u;
   }
   if (node->spin != 0) {
-    s[node->rows - 1][node->rows - 1] -= 1.0;
+    s[node->rows - 1][node->rows - 1] = -b->bodies[node->spin].gap;
   }
 }
 

@@ -25,10 +25,11 @@
  * L^T, u = c^(1/2) L^-1 e and y = L^T w', the equations of motion contain the term -u (u . y). Its
  * factor mu = -u . y is a further multiplier: it is the last one of a node of the body, and its row
  *
- *   u . y + mu = 0
+ *   u . y + k mu = 0
  *
  * is called a *spin row*. The spin row is the row [0 | u^T] of J, and its diagonal entry in S is
- * u . u - 1.
+ * u . u - k. The factor k is nearly 1. It differs from 1 by the effect of rounding I', which would
+ * otherwise be larger than that of a small moment of inertia.
  *
  * A matrix of n rows is stored in two parts: first rows 0 to 3 of all columns, four numbers for
  * each column, and then, if n > 4, rows 4 and 5 of all columns, two numbers for each column. Unused
@@ -131,7 +132,9 @@ typedef struct baum_i_space_body {
   double unwhite[9];  /* L^T, row-major */
   double axis[4];     /* axis e of the smallest moment of inertia */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
-  double root;        /* c^(1/2) if a node has the spin row of the body, so that u = root spin */
+  double lack[4];     /* u if a node has the spin row of the body */
+  double gap;         /* k - u . u, with k of the spin row */
+  double factor[2];   /* k as the sum of two numbers, in twice the working precision */
   double mass;        /* 0 if W = 0 */
   double heft;        /* mass of the body, even if the body is fixed */
   bool fixed;         /* W = 0 */
@@ -187,7 +190,7 @@ typedef struct baum_i_space {
   double *pull_low;
   double *units; /* (numbers_of_rows) factors that convert multipliers to forces; 0: spin row */
   bool has_thin; /* at least one body is thin */
-  double *rest;  /* (numbers_of_rows) r - J a, for a spin row -u . y - mu */
+  double *rest;  /* (numbers_of_rows) r - J a, for a spin row -u . y - k mu */
   double *rest_low;
   const double *from; /* a0 of the present right-hand side: free or nothing */
   const double *load; /* f of the present right-hand side: force or nothing */

@@ -21,8 +21,20 @@ BAUM_I_INLINE column magnitude(column x)
   return (column){baum_i_four_magnitude(x.low), baum_i_magnitude(x.high)};
 }
 
-/* Returns r - J a of one node, for a spin row -u . y - mu. If `size` is not NULL, it is set to the
- * sums of the magnitudes of the terms. */
+/* Returns -u . y - k mu as -u . (y + u mu) - (k - u . u) mu, in which less cancels. */
+BAUM_I_INLINE double rest_of_spin(const baum_i_space *b, int body, double mu)
+{
+  const double *u = b->bodies[body].lack;
+  const double *y = b->motion + (ptrdiff_t)MOTION * body + 4;
+  double sum = -b->bodies[body].gap * mu;
+  for (int c = 0; c < 3; c++) {
+    sum -= u[c] * (y[c] + u[c] * mu);
+  }
+  return sum;
+}
+
+/* Returns r - J a of one node, for a spin row -u . y - k mu. If `size` is not NULL, it is set to
+ * the sums of the magnitudes of the terms. */
 BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *node, bool tall,
                              column *size)
 {
@@ -46,9 +58,12 @@ BAUM_I_INLINE column rest_of(const baum_i_space *b, const baum_i_space_node *nod
   }
   if (node->spin != 0) {
     double mu = b->nodes[node->at + node->rows - 1];
-    column last = baum_i_column_last(node->rows, tall);
-    rest = baum_i_column_subtract(rest, last, mu, tall);
+    double numbers[8] = {0.0};
+    baum_i_column_store(numbers, 1, 0, true, rest);
+    numbers[node->rows - 1] = rest_of_spin(b, node->spin, mu);
+    rest = baum_i_column_load(numbers, 1, 0, tall);
     if (size) {
+      column last = baum_i_column_last(node->rows, tall);
       *size = baum_i_column_add(*size, last, fabs(mu), tall);
     }
   }

@@ -123,8 +123,11 @@ BAUM_I_INLINE void subtract_node(baum_i_space *b, const baum_i_space_node *node,
   if (node->spin != 0) {
     baum_i_space_column last = baum_i_column_last(node->rows, tall);
     four mu = baum_i_four_all(lambda[node->rows - 1]);
-    subtract(&rest, last.low, mu);
-    subtract(&high, baum_i_four_of(last.high), mu);
+    for (int i = 0; i < 2; i++) {
+      four factor = baum_i_four_all(b->bodies[node->spin].factor[i]);
+      subtract(&rest, baum_i_four_times(last.low, factor), mu);
+      subtract(&high, baum_i_four_times(baum_i_four_of(last.high), factor), mu);
+    }
   }
   baum_i_space_column out = {.low = baum_i_four_plus(rest.high, rest.low)};
   out.high = baum_i_four_low(baum_i_four_plus(high.high, high.low));

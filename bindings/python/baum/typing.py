@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Types for annotations of your own functions and variables.
 
+For example::
+
     from baum.typing import Array
 
     def drag(t: float, q: Array, v: Array) -> Array:
