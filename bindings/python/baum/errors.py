@@ -179,7 +179,7 @@ class ViolationWarning(DoubtWarning):
 
 
 class ContradictionWarning(DoubtWarning):
-    """The redundant rows that the run omits no longer follow from the other rows."""
+    """Rows that the run omits as redundant have become independent of the other rows."""
 
     code = 102
 
