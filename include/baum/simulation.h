@@ -281,7 +281,7 @@ typedef struct baum_simulation_options {
   /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
    *  this option. Default: false. */
   bool energy_account;
-  /** [-] (row_gain_count) > 0, a factor f_i for each row i. The gains of row i are then alpha f_i
+  /** [-] array of row_gain_count factors f_i > 0. The gains of row i are then alpha f_i
    *  and beta f_i. Copied. Default: NULL, all 1. */
   const double *row_gains;
   int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
