@@ -220,7 +220,7 @@ static void set_factor(baum_i_space_body *body, double inverse)
   body->factor[1] = k.low;
 }
 
-/* Replaces I by I + w e e^T with w = trace(I) / 2. */
+/* Replaces I by I + c e e^T with c = trace(I) / 2. */
 static void raise_moment(baum_i_space_body *body)
 {
   double weight = 0.5 * trace_of(body);
