@@ -12,6 +12,30 @@ void *baum_i_alloc(size_t count, size_t size)
   return calloc(count > 0 ? count : 1, size > 0 ? size : 1);
 }
 
+enum { LINE = 64 };
+
+/* The pointer to the whole memory is stored before the line. */
+void *baum_i_alloc_lines(size_t count, size_t size)
+{
+  size_t most = (SIZE_MAX - 2 * LINE) / (size > 0 ? size : 1);
+  char *whole = count <= most ? baum_i_alloc(count * size + 2 * LINE, 1) : NULL;
+  if (!whole) {
+    return NULL;
+  }
+  char *line = whole + 2 * LINE - (uintptr_t)whole % LINE;
+  memcpy(line - sizeof whole, &whole, sizeof whole);
+  return line;
+}
+
+void baum_i_free_lines(const void *memory)
+{
+  if (memory) {
+    void *whole;
+    memcpy(&whole, (const char *)memory - sizeof whole, sizeof whole);
+    free(whole);
+  }
+}
+
 void *baum_i_grow(void *old, size_t count, size_t size)
 {
   size_t room = 1;

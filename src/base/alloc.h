@@ -9,6 +9,11 @@
  * "out of memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
+/* Allocate zeroed memory that begins on a cache line, because vectors that cross cache lines are
+ * slow to load and store. It must be freed by the second function, which allows NULL. */
+void *baum_i_alloc_lines(size_t count, size_t size);
+void baum_i_free_lines(const void *memory);
+
 /* Grow an array to hold count elements. The capacity is rounded up to a power of two. On failure
  * the function returns NULL and the old array stays valid. */
 void *baum_i_grow(void *old, size_t count, size_t size);

@@ -161,7 +161,7 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
 {
   const baum_mechanism *m = w->mechanism;
   out->list = baum_i_alloc((size_t)space->node_count, sizeof *out->list);
-  out->frames = baum_i_alloc((size_t)space->body_count, sizeof *out->frames);
+  out->frames = baum_i_alloc_lines((size_t)space->body_count, sizeof *out->frames);
   if (!out->list || !out->frames) {
     return BAUM_ERR_MEMORY;
   }
@@ -198,7 +198,7 @@ baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space 
   for (int i = 0; i < joints->count; i++) {
     count += count_numbers(joints->list[i].shape);
   }
-  joints->numbers = baum_i_alloc(count, sizeof *joints->numbers);
+  joints->numbers = baum_i_alloc_lines(count, sizeof *joints->numbers);
   if (!joints->numbers) {
     return BAUM_ERR_MEMORY;
   }
@@ -259,6 +259,6 @@ void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint
 void baum_i_space_joints_clear(const baum_i_space_joints *joints)
 {
   baum_i_free(joints->list);
-  baum_i_free(joints->numbers);
-  baum_i_free(joints->frames);
+  baum_i_free_lines(joints->numbers);
+  baum_i_free_lines(joints->frames);
 }

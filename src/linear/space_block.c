@@ -100,12 +100,13 @@ void baum_i_space_destroy(baum_i_space *space)
   if (!space) {
     return;
   }
-  const void *arrays[] = {
-    space->bodies, space->list,    space->side_list, space->pairs,         space->couplings,
-    space->zeros,  space->targets, space->numbers,   space->island_bodies, space->island_nodes};
+  const void *arrays[] = {space->list,      space->side_list,     space->pairs,
+                          space->couplings, space->zeros,         space->targets,
+                          space->numbers,   space->island_bodies, space->island_nodes};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
+  baum_i_free_lines(space->bodies);
   baum_i_elimination_clear(&space->order);
   baum_i_free(space);
 }
@@ -152,7 +153,7 @@ static bool whiten(const double tensor[12], baum_i_space_body *body)
       }
       body->whiten[4 * i + c] = sum / l[4 * i];
       body->columns[4 * c + i] = body->whiten[4 * i + c];
-      body->unwhite[3 * i + c] = l[3 * c + i];
+      body->unwhite[4 * i + c] = l[3 * c + i];
     }
   }
   return true;
@@ -266,8 +267,8 @@ static bool set_body(const baum_i_mass_block *block, const double *mass, baum_i_
     }
   } else if (n == 3 && planar) {
     positive = positive && m[8] > 0.0;
-    body->unwhite[8] = sqrt(m[8]);
-    body->whiten[10] = 1.0 / body->unwhite[8];
+    body->unwhite[10] = sqrt(m[8]);
+    body->whiten[10] = 1.0 / body->unwhite[10];
     body->columns[10] = body->whiten[10];
   }
   return positive;
@@ -342,7 +343,7 @@ void baum_i_space_pull(baum_i_space *space, const double *x)
     for (int i = 0; i < 3; i++) {
       pull[i] = six[i];
       for (int c = 0; c < 3; c++) {
-        pull[4 + i] += body->unwhite[3 * i + c] * six[3 + c];
+        pull[4 + i] += body->unwhite[4 * i + c] * six[3 + c];
       }
     }
   }
@@ -446,7 +447,7 @@ double baum_i_space_grip(const baum_i_space *space, int node, const baum_i_space
   double square = 0.0;
   double grip = 0.0;
   for (int c = 0; c < 3; c++) {
-    const double *l = body->unwhite + (ptrdiff_t)3 * c;
+    const double *l = body->unwhite + (ptrdiff_t)4 * c;
     y[c] = l[0] * body->axis[0] + l[1] * body->axis[1] + l[2] * body->axis[2];
     square += y[c] * y[c];
   }

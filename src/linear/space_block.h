@@ -123,13 +123,14 @@ typedef struct baum_i_space_measure {
   double size[2]; /* products of the diagonal entries of S in the rows of each block */
 } baum_i_space_measure;
 
-/* Constants of a body. */
+/* Constants of a body. With pointers of 64 bits, the size is a multiple of 32, so that no vector
+ * crosses a cache line. */
 typedef struct baum_i_space_body {
   double weight[4];   /* W of x: 1 / m three times (planar: twice), then 0 */
   double whiten[12];  /* L^-T, row-major, each row followed by 0 */
   double columns[12]; /* L^-T, column-major, each column followed by 0 */
   double inertia[12]; /* I, stored like `whiten` */
-  double unwhite[9];  /* L^T, row-major */
+  double unwhite[12]; /* L^T, stored like `whiten` */
   double axis[4];     /* axis e of the smallest moment of inertia */
   double spin[4];     /* L^-1 e, so that spin . y is the angular acceleration about the axis */
   double lack[4];     /* u if a node has the spin row of the body */

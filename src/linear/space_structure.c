@@ -40,7 +40,7 @@ static baum_status make_bodies(builder *u)
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_space *b = u->space;
   b->body_count = 1 + s->mass_block_count;
-  b->bodies = baum_i_alloc((size_t)b->body_count, sizeof *b->bodies);
+  b->bodies = baum_i_alloc_lines((size_t)b->body_count, sizeof *b->bodies);
   u->column_body = baum_i_alloc((size_t)s->nv, sizeof *u->column_body);
   if (!b->bodies || !u->column_body) {
     return BAUM_ERR_MEMORY;

@@ -52,7 +52,7 @@ static baum_status create_spatial(const baum_mechanism *mechanism, baum_i_point 
   if (!mechanism->spatial) {
     return BAUM_OK;
   }
-  point->spatial = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial);
+  point->spatial = baum_i_alloc_lines((size_t)mechanism->body_count + 1, sizeof *point->spatial);
   point->own_angles =
     baum_i_alloc((size_t)baum_i_angles_size(mechanism), sizeof *point->own_angles);
   point->angles = point->own_angles;
@@ -87,7 +87,7 @@ void baum_i_point_release(baum_i_point *point)
   baum_i_free(point->frames);
   baum_i_free(point->scratch);
   baum_i_free(point->normalized);
-  baum_i_free(point->spatial);
+  baum_i_free_lines(point->spatial);
   baum_i_free(point->own_angles);
 }
 
