@@ -80,20 +80,17 @@ BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const 
 
 /* Sets the frame of a body with the angular velocity w in body axes. Returns the angular velocity
  * in ground axes. */
-BAUM_I_INLINE four set_frame(baum_i_space_frame *to, const four a[3], const four rows[3],
-                             const double *w)
+BAUM_I_INLINE four set_frame(baum_i_space_frame *to, const four a[3], const double *w)
 {
   four turning = baum_i_four_zero();
   BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
-    baum_i_four_store(to->axes + (ptrdiff_t)4 * c, a[c]);
-    baum_i_four_store(to->rows + (ptrdiff_t)4 * c, rows[c]);
+    baum_i_four_store(to->columns + (ptrdiff_t)4 * c, a[c]);
     turning = w ? baum_i_four_add(turning, a[c], w[c]) : turning;
   }
   four spin = three(w);
   double square = baum_i_four_sum(baum_i_four_times(spin, spin));
   baum_i_four_store(to->spin, baum_i_four_put(spin, 3, square));
-  baum_i_four_store(to->w, turning);
   return turning;
 }
 
@@ -103,8 +100,7 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   const double *q = pass->q + place->q;
   const double *v = pass->v ? pass->v + place->v : NULL;
   bool rigid = place->kind == BAUM_I_FRAME_SPATIAL_BODY;
-  baum_i_space_frame *to = &pass->joints.frames[body];
-  baum_i_spatial_frame *other = &pass->spatial[body];
+  baum_i_spatial_frame *frame = &pass->spatial[body];
   four p = rigid ? unit(baum_i_four_load(q + 3)) : baum_i_four_set(1.0, 0.0, 0.0, 0.0);
   four r = three(q);
   if (pass->normalized) {
@@ -118,40 +114,29 @@ BAUM_I_INLINE void set_body(const baum_i_space *b, int body, const baum_i_space_
   four a[3];
   four rows[3];
   set_axes(p, a, rows);
-  four velocity = three(v);
-  four w = set_frame(to, a, rows, rigid && v ? v + 3 : NULL);
-  baum_i_four_store(to->r, r);
-  baum_i_four_store(to->v, velocity);
-  /* each store writes one number too many, which the next store overwrites */
-  baum_i_four_store(other->r, r);
-  baum_i_four_store(other->v, velocity);
-  baum_i_four_store(other->w, w);
-  baum_i_four_store(other->axes, rows[0]);
-  baum_i_four_store(other->axes + 3, rows[1]);
-  baum_i_store(other->axes + 6, baum_i_four_low(rows[2]));
-  other->axes[8] = baum_i_four_high(rows[2])[0];
+  baum_i_four_store(frame->w, set_frame(&pass->joints.frames[body], a, rigid && v ? v + 3 : NULL));
+  baum_i_four_store(frame->r, r);
+  baum_i_four_store(frame->v, three(v));
+  /* each store of a row writes one number too many, which the next store overwrites */
+  BAUM_I_UNROLL(3)
+  for (int i = 0; i < 3; i++) {
+    baum_i_four_store(frame->axes + (ptrdiff_t)3 * i, rows[i]);
+  }
   if (pass->gravity) {
     set_force(b, body, rigid, v ? v + 3 : NULL, pass);
   }
 }
 
-/* Computes the spatial frame of a planar body. */
+/* Computes the frame in space of a planar body. */
 BAUM_I_INLINE void set_planar_body(int body, const baum_i_space_pass *pass)
 {
   const baum_i_frame *f = &pass->frames[body];
   const baum_i_body_place *place = &pass->places[body];
-  baum_i_space_frame *to = &pass->joints.frames[body];
   const double c = f->c, s = f->s;
-  const four across = baum_i_four_set(0.0, 0.0, 1.0, 0.0);
   const four columns[3] = {baum_i_four_set(c, s, 0.0, 0.0), baum_i_four_set(-s, c, 0.0, 0.0),
-                           across};
-  const four rows[3] = {baum_i_four_set(c, -s, 0.0, 0.0), baum_i_four_set(s, c, 0.0, 0.0), across};
-  set_frame(to, columns, rows, (const double[]){0.0, 0.0, f->w});
-  baum_i_four_store(to->r, baum_i_four_of(baum_i_load(&f->x)));
-  baum_i_four_store(to->v, baum_i_four_of(baum_i_load(&f->vx)));
-  if (place->in_space) {
-    pass->spatial[body] = baum_i_lifted(f);
-  }
+                           baum_i_four_set(0.0, 0.0, 1.0, 0.0)};
+  (void)set_frame(&pass->joints.frames[body], columns, (const double[]){0.0, 0.0, f->w});
+  pass->spatial[body] = baum_i_lifted(f);
   if (pass->normalized) {
     size_t size = place->kind == BAUM_I_FRAME_BODY ? 3 : 2;
     memcpy(pass->normalized + place->q, pass->q + place->q, size * sizeof *pass->q);

@@ -123,14 +123,12 @@ static void set_numbers(const baum_workspace *w, const baum_i_space *space,
   }
 }
 
-static void set_pointers(const baum_i_space *space, baum_i_space_frame *frames,
-                         baum_i_space_joint *joint)
+static void set_pointers(const baum_i_space *space, baum_i_space_joint *joint)
 {
   const baum_i_space_node *node = &space->list[joint->node];
   joint->equations = space->nodes + node->at;
   joint->measure = &space->measures[joint->node];
   for (int k = 0; k < 2; k++) {
-    joint->frame[k] = &frames[joint->body[k]];
     joint->white[k] = space->bodies[joint->body[k]].whiten;
     joint->weight[k] = space->bodies[joint->body[k]].weight;
     for (int s = node->first_side; s < node->first_side + node->side_count; s++) {
@@ -166,8 +164,7 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
     return BAUM_ERR_MEMORY;
   }
   for (int c = 0; c < 12; c += 5) {
-    out->frames[0].axes[c] = 1.0;
-    out->frames[0].rows[c] = 1.0;
+    out->frames[0].columns[c] = 1.0;
   }
   for (int k = 0; k < space->node_count; k++) {
     baum_i_space_node *node = &space->list[k];
@@ -184,7 +181,7 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
                                                    .row = joint->row,
                                                    .body = {first, second},
                                                    .omits = omits_own_rows(node) ? 1 : 0};
-      set_pointers(space, out->frames, &out->list[out->count++]);
+      set_pointers(space, &out->list[out->count++]);
     }
   }
   qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);

@@ -10,14 +10,10 @@
 #include "linear/space_block.h"
 #include "mechanism/mechanism.h"
 
-/* The frame of a body. Each vector of three numbers is followed by a 0. */
+/* What joints need of a body besides its baum_i_spatial_frame. */
 typedef struct baum_i_space_frame {
-  double axes[12]; /* columns of A */
-  double rows[12]; /* rows of A */
-  double r[4];
-  double v[4];
-  double w[4];    /* angular velocity in ground axes */
-  double spin[4]; /* angular velocity in body axes, followed by its square */
+  double columns[12]; /* columns of A, each followed by 0 */
+  double spin[4];     /* angular velocity in body axes, followed by its square */
 } baum_i_space_frame;
 
 /* The shape of a planar revolute joint is PIN. In the names of the other shapes, the letters stand
@@ -61,7 +57,6 @@ typedef struct baum_i_space_joint {
   /* The bodies in the order for which Phi is x_1 - x_0, where x_k is the joint's point on body[k].
    * Phi of a pin is x_a - x_b, so its first body is body_b. */
   int32_t body[2];
-  const baum_i_space_frame *frame[2];
   const double *white[2];  /* L^-T of the bodies */
   const double *weight[2]; /* W of their origins */
   double *move[2];         /* E and R of the node's sides for these bodies; NULL: W = 0 */
@@ -95,7 +90,7 @@ typedef struct baum_i_space_pass {
   const double *v;               /* NULL: at rest */
   double *normalized;            /* (nq) receives q with unit quaternions, or NULL */
   const baum_i_frame *frames;    /* (body_count) planar frames */
-  baum_i_spatial_frame *spatial; /* (body_count) receives frames in space, for other elements */
+  baum_i_spatial_frame *spatial; /* (body_count) receives frames in space, except ground */
   const double *gravity;         /* NULL: no forces are wanted */
   const double *moments;         /* (nv) replace the gyroscopic moments unless NULL */
   double *force;                 /* (nv) receives weights and gyroscopic moments */

@@ -37,8 +37,32 @@ enum { MOTION = BAUM_I_SPACE_MOTION };
 typedef baum_i_four four;
 typedef baum_i_space_column column;
 
+/* The pose and the velocities of a body, see baum_i_space_frame and baum_i_spatial_frame. */
+typedef struct pose {
+  const double *columns;
+  const double *spin;
+  const double *r;
+  const double *v;
+  const double *w;
+  const double *rows; /* rows of A, each of three numbers */
+} pose;
+
+BAUM_I_INLINE pose pose_of(const baum_i_space_pass *at, int body)
+{
+  const baum_i_space_frame *own = &at->joints.frames[body];
+  const baum_i_spatial_frame *frame = &at->spatial[body];
+  return (pose){own->columns, own->spin, frame->r, frame->v, frame->w, frame->axes};
+}
+
+/* Returns A^T x. The fourth number of the result is arbitrary. */
+BAUM_I_INLINE four turned_back(const pose *f, const double *x)
+{
+  return baum_i_four_combined(f->rows, 3, x);
+}
+
 /* All rows of a joint. */
 typedef struct rows {
+  pose of[2];
   column other[2][3]; /* z_k, one column for each number of the vector */
   column move[3];     /* columns of E_b = -E_a, set only in rows s */
   column phi;
@@ -65,24 +89,24 @@ BAUM_I_INLINE void get_own(const double *own, int i, double s[3])
 }
 
 /* Sets z_a of a row for its vector s_b, and returns `other`. */
-BAUM_I_INLINE const double *find_other(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                                       const double s_b[3], bool slides, double other[4])
+BAUM_I_INLINE const double *find_other(const pose *f, const pose *g, const double s_b[3],
+                                       bool slides, double other[4])
 {
   four apart =
     slides ? baum_i_four_minus(baum_i_four_load(g->r), baum_i_four_load(f->r)) : baum_i_four_zero();
-  four y = baum_i_four_minus(apart, baum_i_four_turned(g->axes, s_b));
+  four y = baum_i_four_minus(apart, baum_i_four_turned(g->columns, s_b));
   double stored[4];
-  return baum_i_four_spilled(other, baum_i_four_turned(f->rows, baum_i_four_spilled(stored, y)));
+  return baum_i_four_spilled(other, turned_back(f, baum_i_four_spilled(stored, y)));
 }
 
 /* Sets the vectors z_k of row i, which is not of kind p, and E_b of rows s. */
-BAUM_I_INLINE void set_row(const baum_i_space_frame *f, const baum_i_space_frame *g,
-                           const double z_a[4], const double s_a[3], bool slides, int i, rows *out)
+BAUM_I_INLINE void set_row(const pose *f, const pose *g, const double z_a[4], const double s_a[3],
+                           bool slides, int i, rows *out)
 {
   double stored[4];
   double other[4];
-  const double *x = baum_i_four_spilled(stored, baum_i_four_turned(f->axes, s_a));
-  const double *z_b = baum_i_four_spilled(other, baum_i_four_turned(g->rows, x));
+  const double *x = baum_i_four_spilled(stored, baum_i_four_turned(f->columns, s_a));
+  const double *z_b = baum_i_four_spilled(other, turned_back(g, x));
   BAUM_I_UNROLL(3)
   for (int c = 0; c < 3; c++) {
     put(&out->other[0][c], i, z_a[c]);
@@ -176,8 +200,8 @@ BAUM_I_INLINE void set_moves(const baum_i_space_joint *joint, int n, four apart,
                              square *to, column *sum)
 {
   bool tall = n > 4;
-  const baum_i_space_frame *f = joint->frame[0];
-  const baum_i_space_frame *g = joint->frame[1];
+  const pose *f = &row->of[0];
+  const pose *g = &row->of[1];
   four w_a = baum_i_four_load(f->w);
   four r = baum_i_four_minus(baum_i_four_load(g->r), baum_i_four_load(f->r));
   four v = baum_i_four_minus(baum_i_four_load(g->v), baum_i_four_load(f->v));
@@ -226,8 +250,8 @@ BAUM_I_INLINE products find_products(const double *own, const column z[3], const
 }
 
 /* Sets Phi and gamma of all rows. Rows p are the numbers 0 to 2 if `points` is true. */
-BAUM_I_INLINE void set_positions(const baum_i_space_frame *f, const baum_i_space_frame *g, int n,
-                                 bool points, const double *own, rows *row)
+BAUM_I_INLINE void set_positions(const pose *f, const pose *g, int n, bool points,
+                                 const double *own, rows *row)
 {
   bool tall = n > 4;
   products a = find_products(own, row->other[0], f->spin, n);
@@ -270,7 +294,7 @@ BAUM_I_INLINE void set_turns(const baum_i_space *b, const baum_i_space_joint *jo
 {
   bool tall = n > 4;
   const double *own = joint->numbers + BAUM_I_JOINT_OWN + (ptrdiff_t)k * baum_i_space_part(n);
-  const double *w = joint->frame[k]->spin;
+  const double *w = row->of[k].spin;
   const double *spin = joint->spin + 4 * k;
   const column *z = row->other[k];
   column turn[3];
@@ -352,16 +376,17 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
                              int count, bool points, unsigned slides, int again,
                              const baum_i_space_pass *at)
 {
-  const baum_i_space_frame *f = joint->frame[0];
-  const baum_i_space_frame *g = joint->frame[1];
   const double *own = joint->numbers + BAUM_I_JOINT_OWN;
   const double *own_b = own + baum_i_space_part(n);
   const column zero = {baum_i_four_zero(), {0.0, 0.0}};
-  rows row = {.other = {{zero, zero, zero}, {zero, zero, zero}},
+  rows row = {.of = {pose_of(at, joint->body[0]), pose_of(at, joint->body[1])},
+              .other = {{zero, zero, zero}, {zero, zero, zero}},
               .move = {zero, zero, zero},
               .phi = zero,
               .rate = zero,
               .gamma = zero};
+  const pose *f = &row.of[0];
+  const pose *g = &row.of[1];
   double other[4];
   const double *z_a = other;
   if (slides) {
@@ -369,8 +394,8 @@ BAUM_I_INLINE void set_joint(const baum_i_space *b, const baum_i_space_joint *jo
   }
   BAUM_I_UNROLL(3)
   for (int c = 0; points && c < 3; c++) {
-    row.other[0][c].low = baum_i_four_load(f->axes + 4 * c);
-    row.other[1][c].low = baum_i_four_load(g->axes + 4 * c);
+    row.other[0][c].low = baum_i_four_load(f->columns + 4 * c);
+    row.other[1][c].low = baum_i_four_load(g->columns + 4 * c);
   }
   if (points) {
     row.rate.low = baum_i_four_minus(baum_i_four_load(g->v), baum_i_four_load(f->v));

@@ -209,12 +209,18 @@ BAUM_I_INLINE void baum_i_four_mix(baum_i_four x, baum_i_four y, baum_i_four z, 
   m[2] = baum_i_four_move(baum_i_four_move(x, 0, y, 0), 1, z, 1);
 }
 
-/* Returns A x, where `axes` contains the columns of A. */
-BAUM_I_INLINE baum_i_four baum_i_four_turned(const double *axes, const double *x)
+/* Returns A x, where a column of A begins after every `stride` numbers of axes[]. */
+BAUM_I_INLINE baum_i_four baum_i_four_combined(const double *axes, int stride, const double *x)
 {
   baum_i_four sum = baum_i_four_times(baum_i_four_load(axes), baum_i_four_all(x[0]));
-  sum = baum_i_four_add(sum, baum_i_four_load(axes + 4), x[1]);
-  return baum_i_four_add(sum, baum_i_four_load(axes + 8), x[2]);
+  sum = baum_i_four_add(sum, baum_i_four_load(axes + stride), x[1]);
+  return baum_i_four_add(sum, baum_i_four_load(axes + 2 * stride), x[2]);
+}
+
+/* Returns A x, where `axes` contains the columns of A, each followed by one number. */
+BAUM_I_INLINE baum_i_four baum_i_four_turned(const double *axes, const double *x)
+{
+  return baum_i_four_combined(axes, 4, x);
 }
 
 /* One column, or a vector. */

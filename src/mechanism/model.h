@@ -140,10 +140,10 @@ typedef struct baum_i_frame {
 
 /* Pose and velocities of a body in space. Spatial elements read this struct instead of q. */
 typedef struct baum_i_spatial_frame {
-  double r[3];    /* origin */
-  double v[3];    /* velocity of the origin in ground axes; zero if only positions are known */
-  double w[3];    /* angular velocity in ground axes; zero if only positions are known */
-  double axes[9]; /* rotation matrix A, row-major, from body axes to ground axes */
+  double r[4]; /* origin, followed by 0 like the next two vectors, which can thus be loaded whole */
+  double v[4]; /* velocity of the origin in ground axes; zero if only positions are known */
+  double w[4]; /* angular velocity in ground axes; zero if only positions are known */
+  double axes[12]; /* rotation matrix A, row-major, from body axes to ground axes; then zeros */
 } baum_i_spatial_frame;
 
 /* Return the frame of a planar body as a frame in space. */

@@ -20,9 +20,9 @@ baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const doubl
     planar.w = v && kind == BAUM_I_FRAME_BODY ? v[2] : 0.0;
     return baum_i_lifted(&planar);
   }
-  memcpy(frame.r, q, sizeof frame.r);
+  memcpy(frame.r, q, 3 * sizeof *q);
   if (v) {
-    memcpy(frame.v, v, sizeof frame.v);
+    memcpy(frame.v, v, 3 * sizeof *v);
   }
   if (kind == BAUM_I_FRAME_SPATIAL_BODY) {
     baum_i_rotation_of(q + 3, frame.axes);
