@@ -349,16 +349,19 @@ static baum_i_space_pass pass_of(const baum_workspace *w, const baum_i_block_pat
                              .gamma = w->gamma};
 }
 
-static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, double t,
-                             const double *q, const double *v, const baum_i_right_side *right)
+/* Set everything that precedes the joints of hot files. If `bodies` is false, frames of bodies are
+ * not set yet. */
+static baum_status begin_space(baum_workspace *w, const baum_i_block_path *path, double t,
+                               const baum_i_space_pass *pass, const baum_i_right_side *right,
+                               bool bodies)
 {
-  const baum_i_space_pass pass = pass_of(w, path, q, v, right);
-  const baum_i_block_rows rows = rows_of(w, v, right);
-  begin_point(&w->point, t, q, v);
+  begin_point(&w->point, t, pass->q, pass->v);
   if (path->has_planar) {
-    w->point.kernel->set(w->mechanism, q, v, w->point.frames);
+    w->point.kernel->set(w->mechanism, pass->q, pass->v, w->point.frames);
   }
-  path->bodies_kernel->set(path->space, &pass);
+  if (bodies) {
+    path->bodies_kernel->set(path->space, pass, 0, path->space->stage_count);
+  }
   w->eliminated_by = NULL;
   w->jacobian_ready = false; /* if a function fails, J is partly overwritten */
   BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
@@ -367,7 +370,16 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
     BAUM_I_TRY(add_other_forces(w, path));
   }
   w->jacobian_ready = path->space_joints.count == 0 && path->fixed_count == 0;
-  path->joints_kernel->set(path->space, &pass);
+  return BAUM_OK;
+}
+
+static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, double t,
+                             const double *q, const double *v, const baum_i_right_side *right)
+{
+  const baum_i_space_pass pass = pass_of(w, path, q, v, right);
+  const baum_i_block_rows rows = rows_of(w, v, right);
+  BAUM_I_TRY(begin_space(w, path, t, &pass, right, true));
+  path->joints_kernel->set(path->space, &pass, 0, path->space->stage_count);
   path->space_sides->set(path->space, &rows);
   set_omitted_rates(w, path, v);
   if (right->row_gains) {
@@ -378,10 +390,36 @@ static baum_status set_space(baum_workspace *w, const baum_i_block_path *path, d
 
 static baum_i_pivots factor_space(baum_workspace *w, baum_i_block_path *path)
 {
-  path->factor_kernel->couple(path->space);
+  path->factor_kernel->couple(path->space, 0, path->space->stage_count);
   path->factorizations++;
   w->eliminated_by = path;
-  return path->factor_kernel->eliminate(path->space);
+  return path->factor_kernel->eliminate(path->space, 0, path->space->stage_count);
+}
+
+/* Do the same as set_space() and factor_space(), by stages (space_block.h) if possible. */
+static baum_status set_and_factor_space(baum_workspace *w, baum_i_block_path *path, double t,
+                                        const double *q, const double *v,
+                                        const baum_i_right_side *right, baum_i_pivots *pivots)
+{
+  if (!path->only_hot || right->row_gains) {
+    BAUM_I_TRY(set_space(w, path, t, q, v, right));
+    *pivots = factor_space(w, path);
+    return BAUM_OK;
+  }
+  const baum_i_space_pass pass = pass_of(w, path, q, v, right);
+  baum_i_space *space = path->space;
+  BAUM_I_TRY(begin_space(w, path, t, &pass, right, !path->only_weights));
+  for (int s = 0; s < space->stage_count; s++) {
+    if (path->only_weights) {
+      path->bodies_kernel->set(space, &pass, s, s + 1);
+    }
+    path->joints_kernel->set(space, &pass, s, s + 1);
+    path->factor_kernel->couple(space, s, s + 1);
+    *pivots = path->factor_kernel->eliminate(space, s, s + 1);
+  }
+  path->factorizations++;
+  w->eliminated_by = path;
+  return BAUM_OK;
 }
 
 static double correct(const baum_i_block_path *path)
@@ -429,11 +467,10 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
 /* `last` has the same meaning as in solve(). If `last` is true, the solution is a correction of the
  * velocities v. */
 static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool last,
-                               const double *v)
+                               const double *v, baum_i_pivots pivots)
 {
   const baum_i_space_kernel *kernel = path->space_kernel;
   baum_i_space *space = path->space;
-  baum_i_pivots pivots = factor_space(w, path);
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
@@ -477,8 +514,9 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   bool finite;
   w->solved_by = path;
   if (path->space) {
-    BAUM_I_TRY(set_space(w, path, t, q, v, right));
-    BAUM_I_TRY(solve_space(w, path, last, v));
+    baum_i_pivots pivots;
+    BAUM_I_TRY(set_and_factor_space(w, path, t, q, v, right, &pivots));
+    BAUM_I_TRY(solve_space(w, path, last, v, pivots));
     finite = path->space_kernel->read_motion(path->space, w->a);
   } else {
     BAUM_I_TRY(set_state(w, path, t, q, v, right));

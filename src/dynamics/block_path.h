@@ -38,6 +38,7 @@ struct baum_i_block_path {
   const baum_i_space_joints_kernel *joints_kernel;
   baum_i_space_joints space_joints;
   bool has_planar;   /* at least one body is planar */
+  bool only_hot;     /* hot files compute all joints (space_joints.h) */
   bool only_weights; /* all bodies are in space, and there are no force elements */
   baum_i_block *block;
   const baum_i_block_kernel *kernel;

@@ -419,6 +419,7 @@ static baum_status fill(baum_workspace *w, bool for_motion, const int *spins,
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   if (path->space) {
     path->has_planar = has_planar_bodies(w->mechanism);
+    path->only_hot = path->group_count == 0 && path->space_joints.count == path->space->node_count;
     path->only_weights = !path->has_planar && w->mechanism->force_count == 0;
     BAUM_I_TRY(baum_i_space_joints_set(w, path->space, &path->space_joints));
   }

@@ -143,10 +143,11 @@ BAUM_I_INLINE void set_planar_body(int body, const baum_i_space_pass *pass)
   }
 }
 
-static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass)
+static void set_bodies(baum_i_space *b, const baum_i_space_pass *pass, int first, int end)
 {
   const baum_i_space_pass at = *pass;
-  for (int i = 1; i < b->body_count; i++) {
+  for (int k = at.joints.body_start[first]; k < at.joints.body_start[end]; k++) {
+    int i = at.joints.bodies[k];
     if (baum_i_is_spatial((baum_i_frame_kind)at.places[i].kind)) {
       set_body(b, i, &at);
     } else {

@@ -140,12 +140,48 @@ static void set_pointers(const baum_i_space *space, baum_i_space_joint *joint)
   }
 }
 
-/* Compares joints by shape, then by the order of elimination. */
-static int by_shape(const void *a, const void *b)
+/* Compares joints by stage, then by shape, then by the order of elimination. */
+static int by_stage(const void *a, const void *b)
 {
   const baum_i_space_joint *x = a;
   const baum_i_space_joint *y = b;
+  if (x->stage != y->stage) {
+    return x->stage - y->stage;
+  }
   return x->shape != y->shape ? x->shape - y->shape : x->node - y->node;
+}
+
+/* Sorts the bodies by stages, and finds the starts of all stages. Bodies without joints are in the
+ * first one. */
+static baum_status make_stages(const baum_i_space *space, baum_i_space_joints *joints)
+{
+  int32_t *stage = baum_i_alloc((size_t)space->body_count, sizeof *stage);
+  int32_t *start = joints->body_start;
+  if (!stage) {
+    return BAUM_ERR_MEMORY;
+  }
+  joints->joint_start = start + space->stage_count + 1;
+  for (int i = joints->count - 1; i >= 0; i--) { /* the last stage comes first */
+    for (int k = 0; k < 2; k++) {
+      stage[joints->list[i].body[k]] = joints->list[i].stage;
+    }
+    joints->joint_start[joints->list[i].stage]++;
+  }
+  for (int t = 1; t < space->body_count; t++) {
+    start[stage[t]]++;
+  }
+  for (int s = 0; s < space->stage_count; s++) { /* starts are ends for now */
+    start[s + 1] += start[s];
+    joints->joint_start[s + 1] += joints->joint_start[s];
+  }
+  for (int t = space->body_count - 1; t > 0; t--) {
+    joints->bodies[--start[stage[t]]] = t;
+  }
+  for (int i = 0; i < joints->count; i++) {
+    joints->joint_start[joints->list[i].stage]--;
+  }
+  baum_i_free(stage);
+  return BAUM_OK;
 }
 
 /* Tells whether rows other than a spin row are omitted. */
@@ -154,15 +190,21 @@ static bool omits_own_rows(const baum_i_space_node *node)
   return (node->omitted & ((1u << baum_i_space_own_rows(node)) - 1u)) != 0;
 }
 
+static baum_status make_arrays(const baum_i_space *space, baum_i_space_joints *out)
+{
+  size_t bodies = (size_t)space->body_count;
+  out->list = baum_i_alloc((size_t)space->node_count, sizeof *out->list);
+  out->bodies = baum_i_alloc(bodies, sizeof *out->bodies);
+  out->body_start = baum_i_alloc(2 * ((size_t)space->stage_count + 1), sizeof *out->body_start);
+  out->frames = baum_i_alloc_lines(bodies, sizeof *out->frames);
+  return out->list && out->bodies && out->body_start && out->frames ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
 baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *space,
                                      unsigned char *is_done, baum_i_space_joints *out)
 {
   const baum_mechanism *m = w->mechanism;
-  out->list = baum_i_alloc((size_t)space->node_count, sizeof *out->list);
-  out->frames = baum_i_alloc_lines((size_t)space->body_count, sizeof *out->frames);
-  if (!out->list || !out->frames) {
-    return BAUM_ERR_MEMORY;
-  }
+  BAUM_I_TRY(make_arrays(space, out));
   for (int c = 0; c < 12; c += 5) {
     out->frames[0].columns[c] = 1.0;
   }
@@ -180,12 +222,13 @@ baum_status baum_i_space_joints_find(const baum_workspace *w, baum_i_space *spac
                                                    .node = k,
                                                    .row = joint->row,
                                                    .body = {first, second},
+                                                   .stage = space->node_stages[k],
                                                    .omits = omits_own_rows(node) ? 1 : 0};
       set_pointers(space, &out->list[out->count++]);
     }
   }
-  qsort(out->list, (size_t)out->count, sizeof *out->list, by_shape);
-  return BAUM_OK;
+  qsort(out->list, (size_t)out->count, sizeof *out->list, by_stage);
+  return make_stages(space, out);
 }
 
 baum_status baum_i_space_joints_set(const baum_workspace *w, const baum_i_space *space,
@@ -256,6 +299,8 @@ void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint
 void baum_i_space_joints_clear(const baum_i_space_joints *joints)
 {
   baum_i_free(joints->list);
+  baum_i_free(joints->bodies);
+  baum_i_free(joints->body_start);
   baum_i_free_lines(joints->numbers);
   baum_i_free_lines(joints->frames);
 }

@@ -54,6 +54,7 @@ typedef struct baum_i_space_joint {
   int32_t node;
   int32_t row;   /* the first of its rows */
   int32_t omits; /* non-zero: at least one of its rows is omitted */
+  int32_t stage;
   /* The bodies in the order for which Phi is x_1 - x_0, where x_k is the joint's point on body[k].
    * Phi of a pin is x_a - x_b, so its first body is body_b. */
   int32_t body[2];
@@ -67,10 +68,15 @@ typedef struct baum_i_space_joint {
   const double *spin;    /* R of its spin row for both bodies, if it has one */
 } baum_i_space_joint;
 
-/* The joints of a block path, and a frame for each body. */
+/* The joints of a block path, and a frame for each body. The bodies and joints of stage s
+ * (space_block.h) are bodies[i] and list[k] with body_start[s] <= i < body_start[s + 1] and
+ * joint_start[s] <= k < joint_start[s + 1]. A body is set before the first of its joints. */
 typedef struct baum_i_space_joints {
   int count;
-  baum_i_space_joint *list; /* sorted by shapes */
+  baum_i_space_joint *list; /* sorted by stages, then by shapes */
+  int32_t *bodies;          /* all bodies but ground */
+  int32_t *body_start;      /* (stage_count + 1) */
+  int32_t *joint_start;     /* (stage_count + 1) */
   double *numbers;
   baum_i_space_frame *frames; /* (body_count), ground first */
 } baum_i_space_joints;
@@ -106,9 +112,10 @@ typedef struct baum_i_space_pass {
  * with the pivot 1. */
 void baum_i_space_joint_omit(const baum_i_space *space, const baum_i_space_joint *joint);
 
+/* Functions for the stages from `first` to `end` - 1. */
 typedef struct baum_i_space_bodies_kernel {
-  /* Sets the frames of all bodies, and the forces and a0 of bodies in space. */
-  void (*set)(baum_i_space *space, const baum_i_space_pass *pass);
+  /* Sets the frames of bodies, and the forces and a0 of bodies in space. */
+  void (*set)(baum_i_space *space, const baum_i_space_pass *pass, int first, int end);
 } baum_i_space_bodies_kernel;
 
 extern const baum_i_space_bodies_kernel baum_i_space_bodies_kernel_plain;
@@ -116,7 +123,7 @@ extern const baum_i_space_bodies_kernel baum_i_space_bodies_kernel_wide;
 
 typedef struct baum_i_space_joints_kernel {
   /* Sets sides, r, D and J a0 - r of the joints' nodes, and their rows of Phi, Phi' and gamma. */
-  void (*set)(baum_i_space *space, const baum_i_space_pass *pass);
+  void (*set)(baum_i_space *space, const baum_i_space_pass *pass, int first, int end);
 } baum_i_space_joints_kernel;
 
 extern const baum_i_space_joints_kernel baum_i_space_joints_kernel_plain;

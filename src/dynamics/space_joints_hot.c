@@ -446,10 +446,10 @@ BAUM_I_INLINE void set_joint_of_shape(const baum_i_space *b, const baum_i_space_
   }
 }
 
-static void set_joints(baum_i_space *b, const baum_i_space_pass *pass)
+static void set_joints(baum_i_space *b, const baum_i_space_pass *pass, int first, int end)
 {
   const baum_i_space_pass at = *pass;
-  for (int i = 0; i < at.joints.count; i++) {
+  for (int i = at.joints.joint_start[first]; i < at.joints.joint_start[end]; i++) {
     set_joint_of_shape(b, &at.joints.list[i], &at);
   }
 }

@@ -100,9 +100,10 @@ void baum_i_space_destroy(baum_i_space *space)
   if (!space) {
     return;
   }
-  const void *arrays[] = {space->list,      space->side_list,     space->pairs,
-                          space->couplings, space->zeros,         space->targets,
-                          space->numbers,   space->island_bodies, space->island_nodes};
+  const void *arrays[] = {space->stages,        space->node_stages, space->list,
+                          space->side_list,     space->pairs,       space->couplings,
+                          space->zeros,         space->targets,     space->numbers,
+                          space->island_bodies, space->island_nodes};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }

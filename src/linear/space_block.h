@@ -101,7 +101,8 @@ typedef struct baum_i_space_pair {
   int32_t to;   /* start of their block in off[] */
   int32_t adds; /* 0: the pair sets the block; otherwise it adds to the block */
   int32_t body;
-  int32_t sign; /* both sides are lean: product of their signs; otherwise 0 */
+  int32_t sign;  /* both sides are lean: product of their signs; otherwise 0 */
+  int32_t stage; /* in which the block must be set */
   int32_t rows[2];
   int32_t move[2];
   int32_t turn[2];
@@ -114,6 +115,15 @@ typedef struct baum_i_space_coupling {
   int32_t numbers; /* start of the numbers of the later node in nodes[] */
   int32_t rows;    /* of the later node */
 } baum_i_space_coupling;
+
+/* A mechanism with many nodes is set, coupled and eliminated in stages, so that the data of a stage
+ * stay in the cache. A stage eliminates successive nodes. All nodes and couplings that this changes
+ * are set in the same stage or before. The members are the first ones of the stage. */
+typedef struct baum_i_space_stage {
+  int32_t node;
+  int32_t pair;
+  int32_t target; /* in targets[] */
+} baum_i_space_stage;
 
 /* Pivots of a node. Its rows are divided into a first block of up to three rows and a second block.
  * `det` contains the determinant of the first block, and the determinant that the second block has
@@ -155,6 +165,7 @@ typedef struct baum_i_space {
   int pair_count;
   int coupling_count;
   int zero_count;
+  int stage_count;
   int numbers_of_sides, numbers_of_nodes, numbers_of_rows, numbers_off;
   int hub;       /* mass block with too many sides; -1: none */
   double length; /* [m] see the layout */
@@ -165,8 +176,10 @@ typedef struct baum_i_space {
   baum_i_space_body *bodies;        /* (body_count) */
   baum_i_space_node *list;          /* (node_count) in the order of elimination */
   baum_i_space_side *side_list;     /* (side_count) */
-  baum_i_space_pair *pairs;         /* (pair_count) ascending in `to` */
+  baum_i_space_pair *pairs;         /* (pair_count) ascending in stages and then in `to` */
   baum_i_space_coupling *couplings; /* (coupling_count) */
+  baum_i_space_stage *stages;       /* (stage_count + 1) */
+  int32_t *node_stages;             /* (node_count) stage in which a node must be set */
   /* The bodies of island i are island_bodies[k] for body_start[i] <= k < body_start[i + 1]. The
    * nodes of an island are found in the same way with island_nodes[] and node_start[]. Island 0
    * consists of ground and fixed bodies, and has no nodes. */
@@ -263,10 +276,13 @@ typedef struct baum_i_space_sides_kernel {
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_plain;
 extern const baum_i_space_sides_kernel baum_i_space_sides_kernel_wide;
 
-/* Functions of hot files (base/hot.h) for the factorization, like those of baum_i_block_kernel. */
+/* Functions of hot files (base/hot.h) for the factorization of stages `first` to `end` - 1, like
+ * those of baum_i_block_kernel. */
 typedef struct baum_i_space_factor_kernel {
-  void (*couple)(baum_i_space *space);
-  baum_i_pivots (*eliminate)(baum_i_space *space);
+  void (*couple)(baum_i_space *space, int first, int end);
+  /* Rates the pivots of all nodes after the last stage. After other stages, returns
+   * BAUM_I_PIVOTS_GOOD. */
+  baum_i_pivots (*eliminate)(baum_i_space *space, int first, int end);
 } baum_i_space_factor_kernel;
 
 extern const baum_i_space_factor_kernel baum_i_space_factor_kernel_plain;

@@ -89,12 +89,12 @@ static void couple_any(const baum_i_space *b, const baum_i_space_pair *pair)
   }
 }
 
-static void couple(baum_i_space *b)
+static void couple(baum_i_space *b, int first, int end)
 {
-  for (int i = 0; i < b->zero_count; i++) {
+  for (int i = 0; first == 0 && i < b->zero_count; i++) {
     memset(b->off + b->zeros[2 * i], 0, (size_t)b->zeros[2 * i + 1] * sizeof *b->off);
   }
-  for (int i = 0; i < b->pair_count; i++) {
+  for (int i = b->stages[first].pair; i < b->stages[end].pair; i++) {
     const baum_i_space_pair *pair = &b->pairs[i];
     if (pair->sign == 0) {
       couple_any(b, pair);
@@ -386,12 +386,12 @@ BAUM_I_INLINE void eliminate_coupling(int n, const baum_i_space *b, double *numb
 
 /* ---- nodes ---- */
 
-/* Tells whether node k + 1 also has n rows, like node k, and is not coupled with node k. Couplings
- * are in ascending order of `later`. */
-BAUM_I_INLINE bool has_twin(int n, const baum_i_space *b, int k)
+/* Tells whether node k + 1 is before node `end`, has n rows, like node k, and is not coupled with
+ * node k. Couplings are in ascending order of `later`. */
+BAUM_I_INLINE bool has_twin(int n, const baum_i_space *b, int k, int end)
 {
   const int32_t *start = b->order.start + k;
-  return k + 1 < b->node_count && b->list[k + 1].rows == n &&
+  return k + 1 < end && b->list[k + 1].rows == n &&
          (start[0] == start[1] || b->couplings[start[0]].later > k + 1);
 }
 
@@ -408,15 +408,16 @@ BAUM_I_INLINE void factor_nodes(int n, int count, const baum_i_space *b, int k,
   }
 }
 
-/* Eliminates node k, which has n rows, and its twin if it has one. Moves the pointer to the next
- * target. Returns the next node. */
-BAUM_I_INLINE int eliminate_nodes(int n, const baum_i_space *b, int k, const int32_t **target)
+/* Eliminates node k, which has n rows, and its twin if it has one before node `last`. Moves the
+ * pointer to the next target. Returns the next node. */
+BAUM_I_INLINE int eliminate_nodes(int n, const baum_i_space *b, int k, int last,
+                                  const int32_t **target)
 {
   const baum_i_space_coupling *first = b->couplings + b->order.start[k];
   const baum_i_space_coupling *second = b->couplings + b->order.start[k + 1];
   const baum_i_space_coupling *end = second;
   double *numbers[2] = {b->nodes + b->list[k].at, b->nodes + b->list[k].at};
-  if (has_twin(n, b, k)) {
+  if (has_twin(n, b, k, last)) {
     numbers[1] = b->nodes + b->list[k + 1].at;
     factor_nodes(n, 2, b, k, numbers);
     end = b->couplings + b->order.start[k + 2];
@@ -443,11 +444,13 @@ BAUM_I_INLINE int eliminate_nodes(int n, const baum_i_space *b, int k, const int
   return k;
 }
 
-/* Eliminates the nodes from node k on that have n rows. Returns the next node. */
-BAUM_I_INLINE int eliminate_run(int n, const baum_i_space *b, int k, const int32_t **target)
+/* Eliminates nodes before node `end`, from node k on, while they have n rows. Returns the next
+ * node. */
+BAUM_I_INLINE int eliminate_run(int n, const baum_i_space *b, int k, int end,
+                                const int32_t **target)
 {
-  while (k < b->node_count && b->list[k].rows == n) {
-    k = eliminate_nodes(n, b, k, target);
+  while (k < end && b->list[k].rows == n) {
+    k = eliminate_nodes(n, b, k, end, target);
   }
   return k;
 }
@@ -481,20 +484,24 @@ static double weakest(const baum_i_space *b)
   return known ? smaller : (double)NAN;
 }
 
-static baum_i_pivots eliminate(baum_i_space *b)
+static baum_i_pivots eliminate(baum_i_space *b, int first, int end)
 {
-  memcpy(b->motion, b->from, (size_t)(MOTION * b->body_count) * sizeof *b->motion);
-  const int32_t *target = b->targets;
-  for (int k = 0; k < b->node_count;) {
+  const int32_t *target = b->targets + b->stages[first].target;
+  const int last = b->stages[end].node;
+  for (int k = b->stages[first].node; k < last;) {
     switch (b->list[k].rows) {
-    case 1: k = eliminate_run(1, b, k, &target); break;
-    case 2: k = eliminate_run(2, b, k, &target); break;
-    case 3: k = eliminate_run(3, b, k, &target); break;
-    case 4: k = eliminate_run(4, b, k, &target); break;
-    case 5: k = eliminate_run(5, b, k, &target); break;
-    default: k = eliminate_run(6, b, k, &target); break;
+    case 1: k = eliminate_run(1, b, k, last, &target); break;
+    case 2: k = eliminate_run(2, b, k, last, &target); break;
+    case 3: k = eliminate_run(3, b, k, last, &target); break;
+    case 4: k = eliminate_run(4, b, k, last, &target); break;
+    case 5: k = eliminate_run(5, b, k, last, &target); break;
+    default: k = eliminate_run(6, b, k, last, &target); break;
     }
   }
+  if (end < b->stage_count) {
+    return BAUM_I_PIVOTS_GOOD;
+  }
+  memcpy(b->motion, b->from, (size_t)(MOTION * b->body_count) * sizeof *b->motion);
   b->weakest = b->weak_pivot;
   if (is_fine(b)) {
     return BAUM_I_PIVOTS_GOOD;

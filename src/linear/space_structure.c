@@ -12,6 +12,10 @@
 /* Limits on sides and couplings, as in block_structure.c. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
 
+/* Number of nodes that a stage eliminates. Their data have 300 to 600 kB. The number is even,
+ * because nodes are factored in pairs. */
+enum { STAGE = 128 };
+
 /* sides[] begins with the constant parts E = I and E = -I of lean sides, which start at POSITIVE
  * and NEGATIVE and end at CONSTANTS. */
 enum { POSITIVE = 0, NEGATIVE = 20, CONSTANTS = 40 };
@@ -27,6 +31,7 @@ typedef struct builder {
   int32_t *side_node;   /* (side_count) node of each side, in the order of rows */
   int32_t *graph_start; /* (node_count + 1) */
   baum_i_vector neighbours;
+  int32_t *coupling_stage; /* (coupling_count) stage in which the block of a coupling must be set */
   baum_i_vector pairs, zeros, targets;
 } builder;
 
@@ -296,12 +301,21 @@ static baum_status place_nodes(builder *u)
 
 /* ---- couplings ---- */
 
+static void lower(int32_t *x, int32_t to)
+{
+  *x = to < *x ? to : *x;
+}
+
 static baum_status make_couplings(builder *u)
 {
   baum_i_space *b = u->space;
   b->coupling_count = b->order.start[b->node_count];
+  b->stage_count = b->node_count / STAGE + 1;
   b->couplings = baum_i_alloc((size_t)b->coupling_count, sizeof *b->couplings);
-  if (!b->couplings) {
+  b->stages = baum_i_alloc((size_t)b->stage_count + 1, sizeof *b->stages);
+  b->node_stages = baum_i_alloc((size_t)b->node_count, sizeof *b->node_stages);
+  u->coupling_stage = baum_i_alloc((size_t)b->coupling_count, sizeof *u->coupling_stage);
+  if (!b->couplings || !b->stages || !b->node_stages || !u->coupling_stage) {
     return BAUM_ERR_MEMORY;
   }
   for (int k = 0; k < b->node_count; k++) {
@@ -312,6 +326,7 @@ static baum_status make_couplings(builder *u)
                                                 .at = b->numbers_off,
                                                 .numbers = b->list[later].at,
                                                 .rows = b->list[later].rows};
+      u->coupling_stage[e] = k / STAGE;
       b->numbers_off += rounded(height * b->list[k].rows);
     }
   }
@@ -352,6 +367,13 @@ static int by_block(const void *a, const void *b)
   return x->to != y->to ? (x->to > y->to) - (x->to < y->to) : x->turn[0] - y->turn[0];
 }
 
+static int by_stage(const void *a, const void *b)
+{
+  const baum_i_space_pair *x = a;
+  const baum_i_space_pair *y = b;
+  return x->stage != y->stage ? x->stage - y->stage : by_block(a, b);
+}
+
 static baum_status make_pairs(builder *u)
 {
   baum_i_space *b = u->space;
@@ -371,6 +393,7 @@ static baum_status make_pairs(builder *u)
     int first = next;
     for (; next < u->pairs.count && pairs[next].to == b->couplings[e].at; next++) {
       pairs[next].adds = next > first;
+      pairs[next].stage = u->coupling_stage[e];
     }
     if (next == first) {
       int end = e + 1 < b->coupling_count ? b->couplings[e + 1].at : b->numbers_off;
@@ -381,18 +404,53 @@ static baum_status make_pairs(builder *u)
   return BAUM_OK;
 }
 
-/* The f-th coupling of a node is multiplied with all earlier couplings of this node. */
+/* The f-th coupling of a node is multiplied with all earlier couplings of this node. The block from
+ * which the product is subtracted must be set before. */
 static baum_status make_targets(builder *u)
 {
   baum_i_space *b = u->space;
   const baum_i_elimination *order = &b->order;
   for (int k = 0; k < b->node_count; k++) {
+    if (k % STAGE == 0) {
+      b->stages[k / STAGE].target = u->targets.count;
+    }
     for (int f = order->start[k] + 1; f < order->start[k + 1]; f++) {
       for (int e = order->start[k]; e < f; e++) {
         int32_t to = baum_i_elimination_find(order, order->later[e], order->later[f]);
         BAUM_I_TRY(baum_i_vector_append_number(&u->targets, b->couplings[to].at));
+        lower(&u->coupling_stage[to], k / STAGE);
       }
     }
+  }
+  return BAUM_OK;
+}
+
+/* ---- stages ---- */
+
+/* Sorts the pairs by stages. A node must be set before the first of its couplings. */
+static baum_status make_stages(builder *u)
+{
+  baum_i_space *b = u->space;
+  baum_i_space_pair *pairs = u->pairs.items;
+  int next = 0;
+  for (int k = 0; k < b->node_count; k++) {
+    b->node_stages[k] = k / STAGE;
+  }
+  for (int k = 0; k < b->node_count; k++) {
+    for (int e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
+      lower(&b->node_stages[k], u->coupling_stage[e]);
+      lower(&b->node_stages[b->couplings[e].later], u->coupling_stage[e]);
+    }
+  }
+  if (u->pairs.count > 1) {
+    qsort(pairs, (size_t)u->pairs.count, u->pairs.size, by_stage);
+  }
+  for (int s = 0; s <= b->stage_count; s++) {
+    while (next < u->pairs.count && pairs[next].stage < s) {
+      next++;
+    }
+    b->stages[s].node = s < b->stage_count ? s * STAGE : b->node_count;
+    b->stages[s].pair = next;
   }
   return BAUM_OK;
 }
@@ -407,9 +465,9 @@ static void give_all(builder *u)
   b->zeros = baum_i_vector_give(&u->zeros, &b->zero_count);
   b->zero_count /= 2;
   b->targets = baum_i_vector_give(&u->targets, &ignored);
-  const void *const arrays[] = {u->nodes.items, u->sides.items,     u->column_body,
-                                u->start,       u->sorted,          u->side_node,
-                                u->graph_start, u->neighbours.items};
+  const void *const arrays[] = {u->nodes.items, u->sides.items,      u->column_body,
+                                u->start,       u->sorted,           u->side_node,
+                                u->graph_start, u->neighbours.items, u->coupling_stage};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -419,8 +477,8 @@ typedef baum_status step(builder *u);
 
 baum_status baum_i_space_find_structure(const baum_i_space_layout *layout, baum_i_space *space)
 {
-  static step *const steps[] = {make_bodies, make_nodes,     sort_sides, find_order,
-                                place_nodes, make_couplings, make_pairs, make_targets};
+  static step *const steps[] = {make_bodies,    make_nodes,   sort_sides, find_order, place_nodes,
+                                make_couplings, make_targets, make_pairs, make_stages};
   builder u = {.layout = layout,
                .space = space,
                .nodes = {.size = sizeof(baum_i_space_node)},

@@ -152,7 +152,7 @@ static void compare_couplings(const pair *p)
 {
   const baum_i_space *a = p->space[0];
   for (int k = 0; k < 2; k++) {
-    p->path[k]->factor_kernel->couple(p->space[k]);
+    p->path[k]->factor_kernel->couple(p->space[k], 0, p->space[k]->stage_count);
   }
   for (int e = 0; e < a->coupling_count; e++) {
     int end = e + 1 < a->coupling_count ? a->couplings[e + 1].at : a->numbers_off;
@@ -234,7 +234,8 @@ static bool compare(const baum_mechanism *m)
     compare_couplings(&p);
     copy_numbers(&p);
     for (int k = 0; k < 2; k++) {
-      baum_i_pivots pivots = p.path[k]->factor_kernel->eliminate(p.space[k]);
+      baum_i_pivots pivots =
+        p.path[k]->factor_kernel->eliminate(p.space[k], 0, p.space[k]->stage_count);
       p.path[k]->space_kernel->substitute(p.space[k], p.w[k]->lambda);
       good = good && pivots == BAUM_I_PIVOTS_GOOD;
     }
@@ -300,12 +301,78 @@ static void both_versions_agree_for_planar_pins(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* A chain of bodies on a helix. Points stay on planes of the next body but one, so that the
+ * elimination has fill. */
+static baum_mechanism *make_net(int bodies)
+{
+  baum_mechanism *m = create_mechanism();
+  baum_body_id ids[3] = {BAUM_GROUND, BAUM_GROUND, BAUM_GROUND};
+  for (int i = 0; i < bodies; i++) {
+    baum_spatial_body_def def = baum_spatial_body_def_default();
+    baum_spatial_spherical_def ball = baum_spatial_spherical_def_default();
+    baum_spatial_point_on_plane_def plane = baum_spatial_point_on_plane_def_default();
+    memmove(ids, ids + 1, 2 * sizeof *ids);
+    for (int c = 0; c < 3; c++) {
+      const double phase = 0.4 * i + 1.6 * c;
+      def.position[c] = c < 2 ? cos(phase) : 0.1 * i;
+      ball.point[c] = c < 2 ? cos(phase - 0.2) : 0.1 * i - 0.05;
+      plane.point[c] = c < 2 ? 1.2 * cos(phase - 0.4) : 0.1 * i - 0.1;
+      plane.axis[c] = cos(1.3 * i + c);
+    }
+    assert_int_equal(baum_mechanism_add_spatial_body(m, &def, &ids[2]), BAUM_OK);
+    ball.body_a = ids[1];
+    ball.body_b = ids[2];
+    plane.body_b = ids[2];
+    assert_int_equal(baum_mechanism_add_spatial_spherical(m, &ball, NULL), BAUM_OK);
+    plane.body_a = ids[0];
+    if (i > 1) {
+      assert_int_equal(baum_mechanism_add_spatial_point_on_plane(m, &plane, NULL), BAUM_OK);
+    }
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static void stages_do_not_change_the_solution(void **state)
+{
+  enum { BODIES = 300 };
+  static const baum_i_right_side right = {
+    .bending = 1.0, .damping = 3.0, .stiffness = 2.0, .force = true};
+  static double q[7 * BODIES];
+  static double v[6 * BODIES];
+  static double a[6 * BODIES];
+  static double lambda[4 * BODIES];
+  baum_workspace *w;
+  chance c = chance_of(6);
+  (void)state;
+  baum_mechanism *m = make_net(BODIES);
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
+  for (int i = 0; i < m->nv; i++) {
+    v[i] = chance_number(&c, -2.0, 2.0);
+  }
+  baum_i_block_path *path = w->path;
+  assert_true(path && path->space && path->only_hot && path->space->stage_count > 2);
+  assert_true(path->space->stages[1].target > 0);
+  assert_int_equal(baum_i_block_path_solve(w, path, 0.0, q, v, &right), BAUM_OK);
+  memcpy(a, w->a, (size_t)m->nv * sizeof *a);
+  memcpy(lambda, w->lambda, (size_t)m->nc * sizeof *lambda);
+  path->only_hot = false; /* all stages at once */
+  assert_int_equal(baum_i_block_path_solve(w, path, 0.0, q, v, &right), BAUM_OK);
+  assert_true(largest(a, m->nv) > 1.0);
+  assert_close(a, w->a, m->nv, 1e-12, 0.0);
+  assert_close(lambda, w->lambda, m->nc, 1e-12, 0.0);
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(both_versions_agree_for_scenes),
     cmocka_unit_test(both_versions_agree_for_random_mechanisms),
     cmocka_unit_test(both_versions_agree_for_planar_pins),
+    cmocka_unit_test(stages_do_not_change_the_solution),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

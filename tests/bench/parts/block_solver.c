@@ -58,11 +58,13 @@ static bool run_phases(const block_solver *s, int last_phase)
   double *lambda = s->at->workspace->lambda;
   bool done = run_geometry(s);
   if (done && last_phase >= PHASE_ASSEMBLY) {
-    path->space ? path->factor_kernel->couple(path->space) : path->kernel->couple(path->block);
+    path->space ? path->factor_kernel->couple(path->space, 0, path->space->stage_count)
+                : path->kernel->couple(path->block);
   }
   if (done && last_phase >= PHASE_FACTOR) {
-    baum_i_pivots pivots = path->space ? path->factor_kernel->eliminate(path->space)
-                                       : path->kernel->eliminate(path->block);
+    baum_i_pivots pivots =
+      path->space ? path->factor_kernel->eliminate(path->space, 0, path->space->stage_count)
+                  : path->kernel->eliminate(path->block);
     done = pivots != BAUM_I_PIVOTS_BAD;
   }
   if (done && last_phase >= PHASE_SOLVE) {
