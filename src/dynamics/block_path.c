@@ -413,8 +413,9 @@ typedef struct trust {
 static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool last)
 {
   const baum_i_space *space = path->space;
+  bool sound = last || path->refine_kernel->check_weak_nodes(space);
   bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
-  if (good || last) {
+  if ((good && sound) || last) {
     return (trust){.good = good, .simple = false};
   }
   /* If masses are uneven, a rounding error of lambda that is negligible for heavy bodies may
@@ -422,8 +423,8 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
    * permit the direction of the acceleration. */
   double amplified = path->refine_kernel->amplification(space);
   double most = path->uneven ? MOST_LOST_UNEVEN : MOST_LOST;
-  return (trust){.good = space->weakest > FAIR_PIVOT && amplified <= most * space->weakest,
-                 .simple = amplified <= CANCELLED};
+  bool fair = space->weakest > FAIR_PIVOT && amplified <= most * space->weakest;
+  return (trust){.good = sound && fair, .simple = amplified <= CANCELLED};
 }
 
 /* `last` has the same meaning as in solve(). If `last` is true, the solution is a correction of the

@@ -299,6 +299,8 @@ typedef struct baum_i_space_refine_kernel {
    * the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
+  /* Tells whether the residual r - J a is small at all nodes with weak pivots in both blocks. */
+  bool (*check_weak_nodes)(const baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest change of the multipliers or of the
    * accelerations, relative to their largest values in the island. */
   double (*correct)(baum_i_space *space);
