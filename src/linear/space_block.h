@@ -245,6 +245,7 @@ void baum_i_space_use_force(baum_i_space *space, bool use);
  * do for planar mechanisms. */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
+void baum_i_space_move_rest(baum_i_space *space);
 
 /* Computes what det[] of baum_i_space_measure would be if no other node had been eliminated before
  * this one. */
