@@ -43,8 +43,8 @@ BAUM_I_INLINE four three(const double *from)
   return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
 }
 
-/* Returns (I w) x w. Both products of an entry are rounded, so that they cancel exactly if two moments
- * of inertia are equal. A rounding error could be large compared with the third moment. */
+/* Returns (I w) x w. Both products of an entry are rounded, so that they cancel exactly if two
+ * moments of inertia are equal. A rounding error could be large compared with the third moment. */
 BAUM_I_INLINE four gyroscopic_moment(const double *inertia, const double *w)
 {
   four momentum = baum_i_four_turned(inertia, w);

@@ -424,8 +424,8 @@ static void slender_rods_that_rotate_freely_have_accurate_accelerations(void **s
   assert_int_equal(failures, 0);
 }
 
-/* Makes a body on a hinge on ground. Its moments of inertia about its centre are small compared with
- * those about the hinge. The axis and the velocities are random. */
+/* Makes a body on a hinge on ground. Its moments of inertia about its centre are small compared
+ * with those about the hinge. The axis and the velocities are random. */
 static posed pose_small_body(double inertia, uint64_t *seed)
 {
   model m;

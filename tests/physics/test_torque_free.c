@@ -233,7 +233,7 @@ static void rattle_keeps_the_angular_momentum_to_rounding(void **state)
   (void)run(baum_generalized_alpha(), 0.01, (double)NAN, p);
 }
 
-/* Euler's equation about the axis of a symmetric body is I w' = 0. Rounding errors of the right-hand
+/* Euler's equation about the axis of a symmetric body is I w' = 0. Rounding errors of the right
  * side would be divided by the moment of inertia about the axis, which is tiny here. */
 static void symmetric_bodies_keep_their_spin(void **state)
 {

@@ -162,8 +162,8 @@ static void the_solvers_of_the_whole_system_give_the_normal_part(void **state)
 
 /* ---- weak pivots ---- */
 
-/* Adds a body and joins it to the previous one at (x, 0, 0). The centre of the body is not there, and
- * its moments of inertia are so small that the pivots of the joint are weak. */
+/* Adds a body and joins it to the previous one at (x, 0, 0). The centre of the body is elsewhere,
+ * and its moments of inertia are so small that the pivots of the joint are weak. */
 static baum_body_id add_small_body(baum_mechanism *m, bool in_space, baum_body_id before, double x,
                                    chance *c)
 {
