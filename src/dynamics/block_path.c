@@ -9,7 +9,9 @@
 #include "linear/block_pull.h"
 #include "mechanism/planar/frames.h"
 
-enum { MOST_REFINEMENTS = 3 };
+/* Solutions for other right-hand sides may take more refinements, because the factors have already
+ * been accepted. */
+enum { MOST_REFINEMENTS = 3, MOST_FURTHER_REFINEMENTS = 8 };
 
 /* Limits of the relative change of the multipliers in a refinement. Below SETTLED the refinement
  * has converged; up to SETTLING the result is still acceptable. */
@@ -251,6 +253,7 @@ BAUM_I_INLINE baum_status solve(baum_workspace *w, baum_i_block_path *path, bool
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
+  path->weak = pivots != BAUM_I_PIVOTS_GOOD;
   kernel->substitute(block, w->lambda);
   last = last && !is_small_change(w, path, v);
   bool check = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
@@ -451,7 +454,8 @@ typedef struct trust {
 static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool last)
 {
   const baum_i_space *space = path->space;
-  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven;
+  bool sound = path->refine_kernel->check_weak_nodes(space);
+  bool good = pivots == BAUM_I_PIVOTS_GOOD && !path->uneven && sound;
   if (good || last) {
     return (trust){.good = good, .simple = false};
   }
@@ -460,8 +464,8 @@ static trust judge(const baum_i_block_path *path, baum_i_pivots pivots, bool las
    * permit the direction of the acceleration. */
   double amplified = path->refine_kernel->amplification(space);
   double most = path->uneven ? MOST_LOST_UNEVEN : MOST_LOST;
-  return (trust){.good = space->weakest > FAIR_PIVOT && amplified <= most * space->weakest,
-                 .simple = amplified <= CANCELLED};
+  bool fair = space->weakest > FAIR_PIVOT && amplified <= most * space->weakest;
+  return (trust){.good = sound && fair, .simple = amplified <= CANCELLED};
 }
 
 /* `last` has the same meaning as in solve(). If `last` is true, the solution is a correction of the
@@ -477,6 +481,7 @@ static baum_status solve_space(baum_workspace *w, baum_i_block_path *path, bool 
   kernel->substitute(space, w->lambda);
   last = last && !is_small_change(w, path, v);
   const trust of = judge(path, pivots, last);
+  path->weak = !of.good;
   if (of.good && !last) {
     return BAUM_OK;
   }
@@ -531,23 +536,40 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 
 /* ---- other right-hand sides ---- */
 
+static void find_residual(const baum_i_block_path *path)
+{
+  if (path->space) {
+    path->residual_kernel->find(path->space);
+  } else {
+    baum_i_block_find_residual(path->block);
+  }
+}
+
+static double correct_any(const baum_i_block_path *path)
+{
+  return path->space ? path->refine_kernel->correct(path->space)
+                     : path->kernel->correct(path->block);
+}
+
 /* Set out (nv) to `factor` times the solution for the right-hand side that was written to the
- * solver. */
+ * solver. If pivots are weak, refine it. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
-  bool finite;
-  if (path->space) {
-    (void)path->refine_kernel->correct(path->space);
-    finite = path->space_kernel->read_motion(path->space, out);
-  } else {
-    (void)path->kernel->correct(path->block);
-    finite = path->kernel->read_motion(path->block, out);
+  double change = correct_any(path);
+  for (int k = 0; k < MOST_FURTHER_REFINEMENTS && path->weak && !(change <= SETTLING); k++) {
+    find_residual(path);
+    change = correct_any(path);
   }
+  bool finite = path->space ? path->space_kernel->read_motion(path->space, out)
+                            : path->kernel->read_motion(path->block, out);
   int nv = path->space ? path->space->structure->nv : path->block->structure->nv;
   for (int i = 0; i < nv; i++) {
     out[i] *= factor;
   }
-  return finite ? BAUM_OK : BAUM_ERR_NOT_FINITE;
+  if (!finite) {
+    return BAUM_ERR_NOT_FINITE;
+  }
+  return path->weak && change > SETTLING ? BAUM_ERR_SINGULAR : BAUM_OK;
 }
 
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r, double *out)
@@ -560,6 +582,17 @@ baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const dou
   return solve_again(path, 1.0, out);
 }
 
+/* Refinement needs r = -J x, which one correction does not compute. */
+static void set_rows_of_motion(const baum_i_block_path *path)
+{
+  find_residual(path);
+  if (path->space) {
+    baum_i_space_move_rest(path->space);
+  } else {
+    baum_i_block_move_rest(path->block);
+  }
+}
+
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
                                           double *out)
 {
@@ -567,6 +600,9 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
     baum_i_space_pull(path->space, x);
   } else {
     baum_i_block_pull(path->block, x);
+  }
+  if (path->weak) {
+    set_rows_of_motion(path);
   }
   return solve_again(path, -1.0, out);
 }

@@ -56,6 +56,7 @@ struct baum_i_block_path {
   bool mass_is_constant;
   bool always_check;    /* `block` has many nodes: check the residual of every solution */
   bool uneven;          /* masses differ by large factors, so that digits may cancel */
+  bool weak;            /* the last solution could not be trusted without refinement */
   double largest_pivot; /* largest result of the measure in pivot.c */
   int fixed_count;      /* number of fixed bodies that the path excludes */
   int64_t factorizations;
@@ -139,7 +140,7 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
 /* Solve with the factors of the last solution. The first function sets out (nv) to the vector with
  * J out = r (nc) that is smallest in the metric of M. The second function sets out to P x
  * (normal_part.c), the part of x (nv) that the constraints remove. Both may return
- * BAUM_ERR_NOT_FINITE, without a message. */
+ * BAUM_ERR_NOT_FINITE, or BAUM_ERR_SINGULAR if refinement does not converge, without a message. */
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r,
                                         double *out);
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,

@@ -43,6 +43,17 @@ BAUM_I_INLINE four three(const double *from)
   return from ? baum_i_four_set(from[0], from[1], from[2], 0.0) : baum_i_four_zero();
 }
 
+/* Returns (I w) x w. Both products of an entry are rounded, so that they cancel exactly if two
+ * moments of inertia are equal. A rounding error could be large compared with the third moment. */
+BAUM_I_INLINE four gyroscopic_moment(const double *inertia, const double *w)
+{
+  four momentum = baum_i_four_turned(inertia, w);
+  four first = baum_i_four_times(momentum, baum_i_four_rotated(three(w)));
+  four second = baum_i_four_times(baum_i_four_rotated(momentum), three(w));
+  return baum_i_four_rotated(
+    baum_i_four_minus(baum_i_four_rounded(first), baum_i_four_rounded(second)));
+}
+
 /* Sets the force on a body in space, and a0. */
 BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const double *w,
                              const baum_i_space_pass *pass)
@@ -56,8 +67,7 @@ BAUM_I_INLINE void set_force(const baum_i_space *b, int body, bool rigid, const 
   baum_i_store(pass->force + first, baum_i_four_low(push));
   pass->force[first + 2] = baum_i_four_high(push)[0];
   if (rigid && w) {
-    four momentum = baum_i_four_turned(own->inertia, w);
-    turn = baum_i_four_cross(momentum, three(w));
+    turn = gyroscopic_moment(own->inertia, w);
   }
   if (rigid && pass->moments) {
     turn = three(pass->moments + first + 3);

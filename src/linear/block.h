@@ -210,7 +210,7 @@ static inline void baum_i_block_use_force(baum_i_block *block, bool use)
 void baum_i_block_find_residual(baum_i_block *block);
 
 /* Prepares a solution with the present factors (block_pull.c): sets motion, pull and multipliers to
- * 0 and rest to r (nc). The next correct() then gives a motion with J a = r. */
+ * 0, and both r and rest to r (nc). The next correct() then gives a motion with J a = r. */
 void baum_i_block_set_rest(baum_i_block *block, const double *r);
 
 /* Quality of the pivots of a factorization. */

@@ -9,6 +9,8 @@
 
 static void clear(baum_i_block *block)
 {
+  baum_i_block_use_force(block, false);
+  memset(block->right, 0, 2 * (size_t)block->node_count * sizeof *block->right);
   memset(block->motion, 0, (size_t)block->motion_size * sizeof *block->motion);
   memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
   for (int k = 0; k < block->node_count; k++) {
@@ -54,12 +56,21 @@ void baum_i_block_set_rest(baum_i_block *block, const double *r)
   clear(block);
   for (int i = 0; i < block->pin_count; i++) {
     const baum_i_pin_node *pin = &block->pins[i];
-    memcpy(block->rest + 2 * (size_t)pin->node, r + pin->row, 2 * sizeof *r);
+    memcpy(block->right + 2 * (size_t)pin->node, r + pin->row, 2 * sizeof *r);
   }
   for (int i = 0; i < block->full_count; i++) {
     const baum_i_full_node *full = &block->fulls[i];
     for (int k = 0; k < 2; k++) {
-      block->rest[2 * (size_t)full->node + (size_t)k] = full->row[k] < 0 ? 0.0 : r[full->row[k]];
+      block->right[2 * (size_t)full->node + (size_t)k] = full->row[k] < 0 ? 0.0 : r[full->row[k]];
     }
+  }
+  memcpy(block->rest, block->right, 2 * (size_t)block->node_count * sizeof *block->rest);
+}
+
+void baum_i_block_move_rest(baum_i_block *block)
+{
+  for (int i = 0; i < 2 * block->node_count; i++) {
+    block->right[i] = -block->rest[i];
+    block->rest[i] = 0.0;
   }
 }

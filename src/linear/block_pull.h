@@ -10,4 +10,8 @@
  * fixed bodies 0 is used in place of x. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 
+/* Sets r to the negative of rest, and rest to 0. After baum_i_block_pull() and
+ * baum_i_block_find_residual(), the corrected motion can thus be corrected again. */
+void baum_i_block_move_rest(baum_i_block *block);
+
 #endif

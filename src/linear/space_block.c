@@ -297,12 +297,23 @@ int baum_i_space_set_mass(baum_i_space *space, const double *mass)
 static void clear(baum_i_space *b)
 {
   size_t motion = BAUM_I_SPACE_MOTION * (size_t)b->body_count;
+  baum_i_space_use_force(b, false);
   memset(b->motion, 0, motion * sizeof *b->motion);
   memset(b->pull, 0, motion * sizeof *b->pull);
   memset(b->rest, 0, (size_t)b->numbers_of_rows * sizeof *b->rest);
   for (int k = 0; k < b->node_count; k++) {
     const baum_i_space_node *node = &b->list[k];
-    memset(b->nodes + node->at, 0, (size_t)baum_i_space_vector(node->rows) * sizeof *b->nodes);
+    size_t numbers = 2 * (size_t)baum_i_space_vector(node->rows); /* lambda and r */
+    memset(b->nodes + node->at, 0, numbers * sizeof *b->nodes);
+  }
+}
+
+/* Sets r of the rows of a node except its spin row to `factor` times rest. */
+static void set_right(const baum_i_space *b, const baum_i_space_node *node, double factor)
+{
+  double *r = b->nodes + node->at + baum_i_space_vector(node->rows);
+  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
+    r[i] = factor * b->rest[node->place + i];
   }
 }
 
@@ -315,6 +326,16 @@ void baum_i_space_set_rest(baum_i_space *space, const double *r)
       bool omitted = (node->omitted >> i & 1u) != 0;
       space->rest[node->place + i] = omitted ? 0.0 : r[node->row[i]];
     }
+    set_right(space, node, 1.0);
+  }
+}
+
+void baum_i_space_move_rest(baum_i_space *space)
+{
+  for (int k = 0; k < space->node_count; k++) {
+    const baum_i_space_node *node = &space->list[k];
+    set_right(space, node, -1.0);
+    memset(space->rest + node->place, 0, (size_t)baum_i_space_own_rows(node) * sizeof *space->rest);
   }
 }
 

@@ -259,6 +259,7 @@ void baum_i_space_use_force(baum_i_space *space, bool use);
  * do for planar mechanisms. */
 void baum_i_space_set_rest(baum_i_space *space, const double *r);
 void baum_i_space_pull(baum_i_space *space, const double *x);
+void baum_i_space_move_rest(baum_i_space *space);
 
 /* Computes what det[] of baum_i_space_measure would be if no other node had been eliminated before
  * this one. */
@@ -316,6 +317,8 @@ typedef struct baum_i_space_refine_kernel {
    * the returned quotient is large, digits have cancelled. */
   double (*amplification)(const baum_i_space *space);
   bool (*check)(const baum_i_space *space);
+  /* Tells whether the residual r - J a is small at all nodes with weak pivots in both blocks. */
+  bool (*check_weak_nodes)(const baum_i_space *space);
   /* Corrects a and lambda once. Returns the largest change of the multipliers or of the
    * accelerations, relative to their largest values in the island. */
   double (*correct)(baum_i_space *space);

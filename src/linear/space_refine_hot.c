@@ -248,6 +248,57 @@ static double amplification(const baum_i_space *b)
   return most;
 }
 
+/* ---- weak nodes ---- */
+
+/* Rounding errors of the first block of a node are divided by the ratio of this block
+ * (baum_i_space_measure), and those of the second block by both ratios. A node is weak if the
+ * product of its ratios is below WEAK or NaN. */
+static const double WEAK = 1e-4;
+/* Largest residual of a weak node, relative to the largest acceleration of the island. In 90000
+ * random chains of bodies, errors of a and lambda were below 1e-10 if residuals were below this
+ * limit, and up to 1e-7 otherwise. */
+static const double SMALL = 0x1p-40;
+
+static bool is_weak(const baum_i_space_measure *m)
+{
+  return !(m->det[0] * m->det[1] > WEAK * (m->size[0] * m->size[1]));
+}
+
+/* Tells whether the residual is small in all rows of a node except its spin row. `size` is the
+ * largest acceleration of the island [m/s^2]. */
+static bool check_weak_node(const baum_i_space *b, const baum_i_space_node *node, double size)
+{
+  double rest[8] = {0.0};
+  baum_i_column_store(rest, 1, 0, true,
+                      node->rows > 4 ? rest_of(b, node, true, NULL)
+                                     : rest_of(b, node, false, NULL));
+  bool fine = true;
+  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
+    fine = fine && fabs(rest[i]) <= SMALL * size * b->units[node->place + i];
+  }
+  return fine;
+}
+
+static bool check_weak_nodes(const baum_i_space *b)
+{
+  bool fine = true;
+  int count = 0;
+  for (int k = 0; k < b->node_count; k++) {
+    count += is_weak(&b->measures[k]);
+  }
+  for (int i = 1; i < b->island_count && count > 0; i++) {
+    double size = -1.0; /* not yet known */
+    for (int k = b->node_start[i]; k < b->node_start[i + 1] && fine; k++) {
+      int node = b->island_nodes[k];
+      if (is_weak(&b->measures[node])) {
+        size = size < 0.0 ? b->length * largest_motion(b, i, b->has_thin) : size;
+        fine = check_weak_node(b, &b->list[node], size);
+      }
+    }
+  }
+  return fine;
+}
+
 /* ---- refinement ---- */
 
 /* Subtracts U x from the numbers of a later node. U has n columns. */
@@ -462,6 +513,7 @@ static double correct_rows(baum_i_space *b)
 const baum_i_space_refine_kernel BAUM_I_HOT(baum_i_space_refine_kernel) = {
   .amplification = amplification,
   .check = check,
+  .check_weak_nodes = check_weak_nodes,
   .correct = correct,
   .correct_rows = correct_rows,
 };

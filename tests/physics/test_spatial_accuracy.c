@@ -24,6 +24,8 @@ static const double ORDINARY = 1e-12;
 static const double LONG = 5e-12;
 /* Masses or moments of inertia differ by a factor of 1e6. */
 static const double UNEVEN = 1e-11;
+/* Moments of inertia are small compared with m s^2, where s is the distance of a joint. */
+static const double SMALL = 1e-10;
 /* If large moments of joints on a light body nearly cancel, rounding the positions or J changes the
  * acceleration of the body by more than the error of the solver. In the tests of uneven masses,
  * ROUNDED times this change is therefore subtracted from the errors. */
@@ -422,6 +424,51 @@ static void slender_rods_that_rotate_freely_have_accurate_accelerations(void **s
   assert_int_equal(failures, 0);
 }
 
+/* Makes a body on a hinge on ground. Its moments of inertia about its centre are small compared
+ * with those about the hinge. The axis and the velocities are random. */
+static posed pose_small_body(double inertia, uint64_t *seed)
+{
+  model m;
+  baum_body_id body;
+  baum_mechanism *mechanism = create_mechanism();
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  baum_spatial_revolute_def hinge = baum_spatial_revolute_def_default();
+  for (int i = 0; i < 3; i++) {
+    def.inertia[i] = inertia * draw(seed, 0.7, 1.0);
+    def.position[i] = draw(seed, -1.0, 1.0);
+    hinge.point[i] = 0.0;
+    hinge.axis[i] = draw(seed, -1.0, 1.0);
+  }
+  check(baum_mechanism_add_spatial_body(mechanism, &def, &body));
+  hinge.body_a = BAUM_GROUND;
+  hinge.body_b = body;
+  check(baum_mechanism_add_spatial_revolute(mechanism, &hinge, NULL));
+  check(baum_mechanism_freeze(mechanism));
+  posed p = pose_model(model_adopt(mechanism, &m), m);
+  for (int i = 0; i < p.nv; i++) {
+    p.v[i] = draw(seed, -1.0, 1.0);
+  }
+  check(baum_workspace_project(p.workspace, 0.0, p.q, p.v));
+  return p;
+}
+
+/* Both blocks of the only node have weak pivots, although most single pivots are not too weak. */
+static void small_bodies_on_hinges_keep_ten_digits(void **state)
+{
+  (void)state;
+  errors worst = {0};
+  uint64_t seed = 4;
+  print_head("small bodies on hinges");
+  for (int k = 0; k < 1000; k++) {
+    posed p = pose_small_body(pow(10.0, draw(&seed, -4.0, -2.0)), &seed);
+    meet(&p, 0.0, 0.0, &worst);
+    unpose(&p);
+  }
+  printf("%-44s %10.1e %10.1e %10.0e\n", "moments of inertia 1e-4 to 1e-2 kg m^2", worst.a,
+         worst.lambda, SMALL);
+  assert_true(worst.a <= SMALL && worst.lambda <= SMALL);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -433,6 +480,7 @@ int main(void)
     cmocka_unit_test(thin_shafts_between_heavy_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_keep_eleven_digits),
     cmocka_unit_test(slender_rods_that_rotate_freely_have_accurate_accelerations),
+    cmocka_unit_test(small_bodies_on_hinges_keep_ten_digits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -233,9 +233,36 @@ static void rattle_keeps_the_angular_momentum_to_rounding(void **state)
   (void)run(baum_generalized_alpha(), 0.01, (double)NAN, p);
 }
 
+/* Euler's equation about the axis of a symmetric body is I w' = 0. Rounding errors of the right
+ * side would be divided by the moment of inertia about the axis, which is tiny here. */
+static void symmetric_bodies_keep_their_spin(void **state)
+{
+  (void)state;
+  for (int axis = 0; axis < 3; axis++) {
+    baum_mechanism *m = create_mechanism();
+    baum_workspace *workspace = NULL;
+    baum_spatial_body_def def = baum_spatial_body_def_default();
+    double q[7];
+    double a[6];
+    def.inertia[axis] = 1e-8;
+    check(baum_mechanism_add_spatial_body(m, &def, NULL));
+    check(baum_mechanism_freeze(m));
+    check(baum_workspace_create(m, &workspace));
+    check(baum_workspace_design(workspace, q, NULL));
+    for (int k = 1; k <= 20; k++) {
+      const double v[6] = {0.0, 0.0, 0.0, 0.1 * k, 1.0 / k, 0.7};
+      check(baum_workspace_acceleration(workspace, 0.0, q, v, 0.0, 0.0, a, NULL));
+      assert_true(a[3 + axis] == 0.0);
+    }
+    baum_workspace_destroy(workspace);
+    baum_mechanism_destroy(m);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(symmetric_bodies_keep_their_spin),
     cmocka_unit_test(rk8_keeps_the_orientation_for_a_thousand_revolutions),
     cmocka_unit_test(rattle_keeps_the_angular_momentum_to_rounding),
     cmocka_unit_test(cvode_bdf_keeps_the_orientation_for_a_thousand_revolutions),

@@ -160,6 +160,92 @@ static void the_solvers_of_the_whole_system_give_the_normal_part(void **state)
   assert_true(check_by(BAUM_I_KKT_QR, false, &KIND) > MECHANISMS / 2);
 }
 
+/* ---- weak pivots ---- */
+
+/* Adds a body and joins it to the previous one at (x, 0, 0). The centre of the body is elsewhere,
+ * and its moments of inertia are so small that the pivots of the joint are weak. */
+static baum_body_id add_small_body(baum_mechanism *m, bool in_space, baum_body_id before, double x,
+                                   chance *c)
+{
+  baum_body_id body;
+  double inertia = chance_decade(c, 1e-6, 1e-4);
+  if (in_space) {
+    baum_spatial_body_def def = baum_spatial_body_def_default();
+    baum_spatial_revolute_def hinge = baum_spatial_revolute_def_default();
+    for (int i = 0; i < 3; i++) {
+      def.inertia[i] = inertia;
+      def.position[i] = chance_number(c, -1.0, 1.0) + (i == 0 ? x : 0.0);
+      hinge.point[i] = i == 0 ? x : 0.0;
+      hinge.axis[i] = chance_number(c, -1.0, 1.0);
+    }
+    assert_int_equal(baum_mechanism_add_spatial_body(m, &def, &body), BAUM_OK);
+    hinge.body_a = before;
+    hinge.body_b = body;
+    assert_int_equal(baum_mechanism_add_spatial_revolute(m, &hinge, NULL), BAUM_OK);
+  } else {
+    baum_planar_body_def def = baum_planar_body_def_default();
+    def.inertia = inertia;
+    def.position[0] = x + chance_number(c, -1.0, 1.0);
+    def.position[1] = chance_number(c, -1.0, 1.0);
+    assert_int_equal(baum_mechanism_add_planar_body(m, &def, &body), BAUM_OK);
+    add_planar_pin(m, NULL, before, body, x, 0.0);
+  }
+  return body;
+}
+
+static void assert_same(int n, const double *x, const double *y)
+{
+  for (int i = 0; i < n; i++) {
+    ASSERT_NEAR(x[i], y[i], 0.0, 1e-10);
+  }
+}
+
+/* Compares the normal part with that of the solver of the whole system. Returns whether pivots were
+ * weak. */
+static bool compare_solvers(const baum_mechanism *m, chance *c)
+{
+  static vectors d[2];
+  baum_workspace *w[2];
+  double rows[SIZE] = {0.0};
+  draw_vector(c, m->nv, d[0].v);
+  draw_vector(c, m->nv, d[0].x);
+  for (int k = 0; k < 2; k++) {
+    baum_i_kkt_choice choice = k == 0 ? BAUM_I_KKT_AUTO : BAUM_I_KKT_KLU;
+    assert_int_equal(baum_i_workspace_create(m, choice, &w[k]), BAUM_OK);
+    assert_int_equal(k == 0 ? baum_i_use_blocks(w[k]) : BAUM_OK, BAUM_OK);
+    assert_int_equal(baum_i_acceleration(w[k], 0.0, m->design_q, d[0].v, 0.0, 0.0), BAUM_OK);
+    assert_int_equal(baum_i_normal_part(w[k], d[0].x, d[k].normal), BAUM_OK);
+  }
+  baum_i_jacobian_times(&w[1]->structure, w[1]->jacobian, d[0].x, rows);
+  assert_int_equal(baum_i_least_with_rows(w[0], rows, d[0].out), BAUM_OK);
+  bool weak = w[0]->solved_by && w[0]->solved_by->weak;
+  assert_same(m->nv, d[0].normal, d[1].normal);
+  assert_same(m->nv, d[0].out, d[1].normal);
+  baum_workspace_destroy(w[0]);
+  baum_workspace_destroy(w[1]);
+  return weak;
+}
+
+static void weak_pivots_do_not_spoil_the_normal_part(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    chance c = chance_of(3);
+    int weak = 0;
+    for (int i = 0; i < MECHANISMS; i++) {
+      baum_mechanism *m = create_mechanism();
+      baum_body_id body = BAUM_GROUND;
+      for (int n = 0; n < 3; n++) {
+        body = add_small_body(m, k == 1, body, n, &c);
+      }
+      assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+      weak += compare_solvers(m, &c) ? 1 : 0;
+      baum_mechanism_destroy(m);
+    }
+    assert_true(weak > MECHANISMS / 2);
+  }
+}
+
 static void without_rows_the_normal_part_is_zero(void **state)
 {
   (void)state;
@@ -187,6 +273,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_block_solver_gives_the_normal_part),
     cmocka_unit_test(the_solvers_of_the_whole_system_give_the_normal_part),
+    cmocka_unit_test(weak_pivots_do_not_spoil_the_normal_part),
     cmocka_unit_test(without_rows_the_normal_part_is_zero),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
