@@ -747,7 +747,7 @@ typedef struct baum_mobility {
   baum_joint_id worst_joint; /**< The joint whose row has the violation worst_phi. */
   char text[1024];           /**< The results in words, with the names of elements. */
   int32_t velocity_rows;     /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] degrees of freedom of position: nv minus the rank of J without rows of velocity level.
+  /** [-] degrees of freedom of position: nv minus the rank of J without its rows of velocity level.
    *  degrees_of_freedom counts the degrees of freedom of velocity instead, which are fewer if there
    *  are rows of velocity level. */
   int32_t position_degrees_of_freedom;
@@ -799,7 +799,8 @@ typedef struct baum_report {
   /** The results in words, with the names of elements and with reasons. */
   char text[2048];
   int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] nv minus the rank of J without rows of velocity level; -1 if it is not known. */
+  /** [-] degrees of freedom of position: nv minus the rank of J without its rows of velocity level;
+   *  -1 if this number is not known. */
   int32_t position_degrees_of_freedom;
 } baum_report;
 

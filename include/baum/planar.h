@@ -3,16 +3,16 @@
  *  Planar bodies, joints and forces. More joints are in planar_joints.h.
  *
  *  Coordinates: a planar body has three coordinates (x, y, angle), and a particle has two (x, y).
- *  The velocities are the time derivatives of these coordinates. x and y are the position of the
- *  centre of mass in ground axes. Angles are positive counter-clockwise; they grow continuously
- *  over several revolutions.
+ *  The velocities are the time derivatives of these coordinates. The coordinates x and y are the
+ *  position of the centre of mass in ground axes. Angles are positive counter-clockwise; they grow
+ *  continuously over several revolutions.
  *
  *  Points: give a joint or a spring either `point`, or both `point_a` and `point_b`. NaN means that
  *  a point is not given. `point` is a single point in ground axes, which both bodies share in the
  *  design configuration. `point_a` is a point of body_a in the axes of body_a, and `point_b` a
  *  point of body_b in the axes of body_b. Points of ground are in ground axes. The point of a
- *  particle is the particle itself. Springs and distance joints require point_a and point_b,
- *  because with `point` their length would be 0.
+ *  particle is the particle itself. Distance joints and springs between two points require point_a
+ *  and point_b, because with `point` their length would be 0.
  *
  *  Design configuration: the positions and angles that the definitions of the bodies give. Assembly
  *  starts from it.
