@@ -3,7 +3,7 @@
  *  Runs: simulations of the motion of frozen mechanisms. This header declares baum_simulation (one
  *  run), the integrators, the options of a run, the functions that advance it, and its results.
  *
- *  Integrators: the comment of each integrator lists the formulations that it offers. The first
+ *  Integrators: the description of each integrator lists the formulations that it offers. The first
  *  formulation of the list is the default. The words in parentheses after BAUMGARTE name the rule
  *  that chooses the gains by default (stabilization.h). baum_kinematics() has no formulations.
  *
@@ -51,22 +51,22 @@ BAUM_API const baum_integrator *baum_rk3(void);
 BAUM_API const baum_integrator *baum_rk4(void);
 /** A good choice for loose tolerances.
  *  @return  the embedded Runge-Kutta pair of Dormand and Prince, orders 5 and 4, explicit, with
- *           rtol or with a fixed step. Six evaluations per step. Formulations: PROJECTION,
- *           BAUMGARTE (auto), UNSTABILIZED */
+ *           rtol or with a fixed step. Six evaluations of the accelerations per step. Formulations:
+ *           PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_dp5(void);
 /** The first choice if the forces are not stiff and rtol is 1e-5 or less.
  *  @return  DOP853 (Hairer, Norsett, Wanner 1993), a Runge-Kutta method of order 8 with error
  *           estimates of orders 5 and 3, explicit, with rtol or with a fixed step. Twelve
- *           evaluations per step, and three more if the step is interpolated. Formulations: as for
- *           baum_dp5() */
+ *           evaluations of the accelerations per step, and three more if the step is interpolated.
+ *           Formulations: as for baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
 /** A method that uses past steps. As long as it does not have enough past steps, it takes steps
  *  with a Runge-Kutta method instead. This happens at the start, after baum_simulation_set_state(),
  *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
  *  in time, and after a requested time that is not on the grid of steps.
- *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
- *           Formulations: BAUMGARTE (best damping), UNSTABILIZED. The method does not offer
- *           PROJECTION, because past steps cannot be projected */
+ *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation of the
+ *           accelerations per step. Formulations: BAUMGARTE (best damping), UNSTABILIZED. The
+ *           method does not offer PROJECTION, because past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
 /** @return three-step Adams-Bashforth method, order 3. Otherwise it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab3(void);
@@ -98,8 +98,8 @@ BAUM_API const baum_integrator *baum_cvode_adams(void);
  *  @return  the BDF method of SUNDIALS CVODE, with rtol. Formulations: PROJECTION, BAUMGARTE
  *           (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** A method for stiff forces, and for comparisons. Use INDEX3 only to compare formulations: with
- *  INDEX3, errors are far above the tolerance.
+/** A method for stiff forces, and for comparisons of formulations. Use INDEX3 only for such
+ *  comparisons: with INDEX3, errors are far above the tolerance.
  *  @return  SUNDIALS IDA, BDF of variable order for the unknowns y = (q, v, lambda), with rtol.
  *           Formulations: GGL, BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
@@ -112,8 +112,8 @@ BAUM_API const baum_integrator *baum_ida(void);
  *  @return  kinematics, without integration */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
-/** List all integrators, for bindings and tables. A program that calls this function is linked with
- *  all integrators, including SUNDIALS.
+/** Get an integrator by its number, for bindings and tables that list all integrators. A program
+ *  that calls this function is linked with all integrators, including SUNDIALS.
  *  @param k  0, 1, ...
  *  @return  the integrator; NULL if there are at most k integrators */
 BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
@@ -182,9 +182,10 @@ typedef enum baum_start {
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
-/** Solver of the linear equations of motion, which are equation (7) of the page "docs/notation.md".
- *  baum_simulation_explain() states which solver a run uses, and why. This option affects neither
- *  assembly nor the multipliers of redundant rows: both are always computed with KLU and QR. */
+/** Solver of the linear system for the accelerations and the multipliers, which is equation (7) of
+ *  the page "docs/notation.md". baum_simulation_explain() states which solver a run uses, and why.
+ *  The option `solver` affects neither assembly nor the multipliers of redundant rows: both are
+ *  always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
    *  configurations where BLOCK is not accurate. */
@@ -203,7 +204,7 @@ typedef enum baum_solver {
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
-/** A progress function. While a call advances a run, it calls this function repeatedly, at
+/** A progress function. While a call advances a run, the run calls this function repeatedly, at
  *  intervals given by the option progress_interval. The first interval begins when the call begins.
  *  The function may read the run, also with baum_simulation_get(). Inside the function, calls that
  *  change, advance or save the run fail with BAUM_ERR_STATE, and baum_simulation_destroy() does
@@ -226,37 +227,39 @@ typedef struct baum_simulation_options {
   baum_formulation formulation;
   baum_gains gains;    /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Accept gains that are known to be unstable. Default: false. */
-  double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
+  double step;         /**< [s] > 0, length of a fixed step. Default: NaN, not given. */
   /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v (mechanism.h).
    *  cvode_bdf divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are
-   *  about equally accurate at the same rtol. Both methods divide by less if the divided rtol would
-   *  otherwise be below 1e-13. Default: NaN, not given. */
+   *  about equally accurate at the same rtol. Both methods use a smaller divisor if division by 6.9
+   *  or 3 would give an rtol below 1e-13. Default: NaN, not given. */
   double rtol;
   /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
-   *  times the scale. Default: NaN, none. */
+   *  times the scale of the coordinate. Default: NaN, none. */
   double atol;
   /** [s] > 0, longest step of a variable-step integrator. If an event function passes zero twice
    *  within a quarter of a step, the run may miss both events; a smaller max_step prevents this.
    *  Default: NaN, none. */
   double max_step;
-  double start_time;  /**< [s] time at which the run starts. Default: 0. */
-  baum_start start;   /**< How the run begins. Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver; /**< Solver of the linear equations. Default: BAUM_SOLVER_AUTO. */
+  double start_time; /**< [s] time at which the run starts. Default: 0. */
+  baum_start start;  /**< How the run begins. Default: BAUM_START_ASSEMBLE. */
+  /** Solver of the linear system for the accelerations and the multipliers.
+   *  Default: BAUM_SOLVER_AUTO. */
+  baum_solver solver;
   /** Check the derivatives of user functions. When the run is created,
-   *  baum_mechanism_check_derivatives() checks them. During the run they are checked again after
-   *  32, 96, 224, 480, ... steps. They are also checked at the end of a call that advances the run,
-   *  unless the last check during the run is too recent: the number of steps since this check must
-   *  exceed half of the number of steps before it by at least 16. The checks during the run call
-   *  the functions at states near those of the run. If a derivative is wrong there, the run warns
-   *  with BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last
-   *  good state, even without this option. If one of them is wrong, the message names it.
-   *  Default: true. */
+   *  baum_mechanism_check_derivatives() checks them. During the run they are checked again: if the
+   *  last check was after n steps of the run, the next one is after 2 n + 32 steps. A run that is
+   *  advanced in a single call is thus checked after 32, 96, 224, 480, ... steps. The end of a call
+   *  that advances the run adds a check if the run has taken at least 1.5 n + 16 steps, or has made
+   *  no check yet. The checks during the run call the functions at states near those of the run. If
+   *  a derivative is wrong there, the run warns with BAUM_WARNING_WRONG_DERIVATIVE. If a step
+   *  fails, the derivatives are checked at the last good state, even without this option. If one of
+   *  them is wrong, the message names it. Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
   int64_t max_steps;
   baum_progress_fn *progress; /**< The run calls this function repeatedly. Default: NULL, none. */
-  /** [s] of wall time, >= 0, between two calls of progress. Default: 0.05. */
+  /** [s] of wall time, >= 0, between two calls of the progress function. Default: 0.05. */
   double progress_interval;
   void *user; /**< Passed to the function `progress`, not owned. Default: NULL. */
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for positions. Refused with a
@@ -369,9 +372,9 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
 
-/** Limit the wall time of calls that advance the run. A call that takes longer finishes its present
- *  step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call continues the
- *  run. Such stops change neither the motion nor the warnings of the run.
+/** Limit the wall time of each call that advances the run. A call that takes longer finishes its
+ *  present step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call
+ *  continues the run. Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
  *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
@@ -381,11 +384,11 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
 /** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
  *  and the new state violates the constraints by no more than the run has violated them so far
  *  (counters.max_phi and counters.max_phi_rate), the new state is used as it is. Otherwise the
- *  option `start` decides whether the new state is assembled, refused or used as it is. q
- *  determines angles of spatial joints only up to whole revolutions. Each such angle takes the
- *  possible value that is nearest to its last value. There is one exception: if a driver prescribes
- *  the angle, and t differs from the time of the run, the angle takes the possible value that is
- *  nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
+ *  option `start` decides whether the new state is assembled, refused or used as it is. The
+ *  positions q determine angles of spatial joints only up to whole revolutions. Each such angle
+ *  takes the possible value that is nearest to its last value. There is one exception: if a driver
+ *  prescribes the angle, and t differs from the time of the run, the angle takes the possible value
+ *  that is nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -411,9 +414,9 @@ BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum
                                                baum_joint_coordinate coordinate, double angle);
 
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
- *  laws of drivers of the other run. The options, counters and warnings of the present run do not
- *  change. A run with another integrator, formulation, tolerance or solver can thus continue where
- *  the other run has failed. q and v are changed only as much as is necessary to satisfy the
+ *  laws of drivers of the other run. The present run keeps its own options, counters and warnings.
+ *  A run with another integrator, formulation, tolerance or solver can thus continue where the
+ *  other run has failed. q and v are changed only as much as is necessary to satisfy the
  *  constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
  *  @param from        the other run. Its mechanism must be the same, or another one with the same
@@ -462,7 +465,7 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *    nearby.
  *
  *  To avoid a jump of the position, let s be the present coordinate. To avoid a jump of the
- *  velocity, too, let ds be its present velocity, and change only dds.
+ *  velocity, too, let ds be the present velocity of this coordinate, and change only dds.
  *  @param simulation  unchanged on failure
  *  @param driver      a driver of the mechanism
  *  @param s           [rad or m] finite, value at the present time t0
@@ -491,7 +494,7 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  mechanism and of the options. A library with another format version refuses the buffer.
  *  @param      simulation  the run
  *  @param[out] buffer      (capacity) of any alignment. If it is NULL, the function writes only
- *                          size, and does not change the run.
+ *                          `size`, and does not change the run.
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that every scheduled change of an input
  *                          adds 32 bytes.
@@ -506,15 +509,15 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  same mechanism and options, which may be in another process. With the same library on the same
  *  kind of processor, the restored run continues bit for bit as the saved run does.
  *
- *  The library checks that both mechanisms have the same elements in the same order, with equal
- *  masses, points, stiffnesses and so on. It also checks that both runs have the same events, and
- *  the same options integrator, formulation, gains, row_gains, step, tolerances, max_step, solver
- *  and energy_account. Events must therefore be added before the run is restored. The library
- *  cannot check user functions. They must be the same, and if they keep a state of their own, this
- *  state is not saved. If a rule chooses the gains, their values come from the saved run, as does
- *  the choice of redundant rows. Restoring allocates memory in three cases only: drivers were set
- *  in the saved run, the saved run has longer schedules than this run, or the two runs omit
- *  different redundant rows.
+ *  The library checks that the mechanism of the saved run and the mechanism of this run have the
+ *  same elements in the same order, with equal masses, points, stiffnesses and so on. It also
+ *  checks that the two runs have the same events, and the same options integrator, formulation,
+ *  gains, row_gains, step, tolerances, max_step, solver, energy_account and error_check. Events
+ *  must therefore be added before the run is restored. The library cannot check user functions.
+ *  They must be the same, and if they keep a state of their own, this state is not saved. The
+ *  choice of redundant rows comes from the saved run, and so do the gains if a rule chooses them.
+ *  Restoring allocates memory in three cases only: drivers were set in the saved run, the saved run
+ *  has longer schedules than this run, or the two runs omit different redundant rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -538,9 +541,10 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- results --------------------------------------------------------------------------------- */
 
-/** A quantity that a channel records. The number of its columns is in parentheses. Units are m,
- *  rad, N, N m and s. The units of user coordinates and user constraints are your choice. The unit
- *  of a multiplier is J per unit of its row.
+/** A quantity that a channel records. The number of columns of each quantity is in parentheses. The
+ *  point, body and joint of a channel are fields of baum_channel. Units are m, rad, N, N m and s.
+ *  The units of user coordinates and user constraints are your choice. The unit of a multiplier is
+ *  joule per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) of the
  *  page "docs/notation.md" at the present state. This equation contains no stabilization terms. The
@@ -549,15 +553,16 @@ typedef enum baum_quantity {
   BAUM_Q = 1,        /**< Positions (nq). */
   BAUM_V = 2,        /**< Velocities (nv). */
   BAUM_A = 3,        /**< Accelerations (nv). */
-  BAUM_LAMBDA = 4,   /**< Multipliers of `joint`, or of all joints (nc). */
-  BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all joints (nc). */
-  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of `joint`, or of all joints (nc). */
+  BAUM_LAMBDA = 4,   /**< Multipliers of the channel's joint, or of all joints (nc). */
+  BAUM_PHI = 5,      /**< Constraint violation of the channel's joint, or of all joints (nc). */
+  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of the channel's joint, or of all joints (nc). */
   BAUM_ENERGY = 7,   /**< Kinetic and potential energy [J] (2). */
-  /** Planar body: x and y of `point`, and the angle (3). Spatial body: x, y and z of `point`, and
-   *  the quaternion (7). Other bodies: their part of q. */
+  /** Planar body: x and y of the channel's point, and the angle of the body (3). Spatial body: x, y
+   *  and z of the channel's point, and the quaternion of the body (7). Particles and user
+   *  coordinates: their part of q. */
   BAUM_BODY_POSE = 8,
-  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of `point` and angular
-   *  velocity, both in ground axes (6). */
+  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of the channel's point
+   *  and angular velocity, both in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
   /** Force and moment on body_b (3 for planar joints, 6 for spatial joints), see planar.h and
    *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda of
@@ -872,7 +877,8 @@ typedef struct baum_near_singular {
   baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
-/** Read a near-singular interval. Runs with baum_kinematics() have no such intervals.
+/** Read a near-singular interval: an interval of time in which the run was near a singular
+ *  configuration. Runs with baum_kinematics() have no such intervals.
  *  @param      simulation   the run
  *  @param      k            number of the interval, 0 to counters.near_singular_intervals - 1; a
  *                           run keeps the first 64
@@ -887,8 +893,9 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  result. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow, or may not decay. */
-  /** rtol is smaller than the error of derivatives that are computed by differences. */
+  BAUM_WARNING_GAINS = 2, /**< With the gains of the run, violations may grow, or may not decay. */
+  /** The option rtol is smaller than the error of derivatives that are computed by finite
+   *  differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,
   /** IDA runs with INDEX3, which is meant only for comparisons. */
   BAUM_WARNING_INDEX3 = 4,
@@ -902,10 +909,11 @@ typedef enum baum_warning_code {
   /** The error of the motion is unknown, because the second integration that estimates it failed or
    *  became too expensive. */
   BAUM_WARNING_ERROR_UNKNOWN = 9,
-  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */
-  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
+  BAUM_WARNING_BRANCH = 100,    /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101, /**< The constraint violation is too large. */
+  /** Omitted redundant rows no longer follow from the other rows. */
+  BAUM_WARNING_CONTRADICTION = 102,
+  BAUM_WARNING_ACCURACY = 103, /**< The estimated error of the motion is large. */
   /** Several motions may start from the initial configuration. */
   BAUM_WARNING_SINGULAR_START = 104,
   /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion

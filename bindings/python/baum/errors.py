@@ -123,7 +123,7 @@ class GainsWarning(Warning):
 
 
 class NoisyDerivativesWarning(Warning):
-    """rtol is below the error of derivatives that are computed by differences."""
+    """The option rtol is below the error of derivatives that are computed by finite differences."""
 
     code = 3
 

@@ -208,8 +208,8 @@ class Simulation(_calls.Closing):
     step: length of a fixed step [s], positive.
     rtol: tolerance of the local error [-], between 0 and 1, relative to typical sizes of q and v
         (their scales).
-    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. None
-        adds nothing.
+    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale of
+        the coordinate. None adds nothing.
     max_step: longest variable step [s], by default unlimited. Set max_step if a force is zero at
         first and begins to act later: a long step could miss this beginning. Also set it if an
         event function may pass zero twice within a quarter of a step.
@@ -228,7 +228,8 @@ class Simulation(_calls.Closing):
     start_time: time at which the run starts [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts such a configuration and does not assemble it.
-    solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
+    solver: the solver of the linear system for the accelerations and the multipliers: "auto",
+        "klu", "qr" or "block".
     check_derivatives: True compares the derivatives of your functions with finite differences, at
         the start and at some later states of the run. A derivative that is wrong at the start
         raises baum.Error. For one that is wrong later, the run issues a WrongDerivativeWarning.
