@@ -416,8 +416,8 @@ BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
  *  laws of drivers of the other run. The present run keeps its own options, counters and warnings.
  *  A run with another integrator, formulation, tolerance or solver can thus continue where the
- *  other run has failed. q and v are changed only as much as is necessary to satisfy the
- *  constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
+ *  other run has failed. The positions and velocities are changed only as much as is necessary to
+ *  satisfy the constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
  *  @param from        the other run. Its mechanism must be the same, or another one with the same
  *                     elements and the same numbers in their definitions
@@ -568,7 +568,8 @@ typedef enum baum_quantity {
    *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda of
    *  their rows, with one number for each velocity of their bodies. */
   BAUM_JOINT_REACTION = 10,
-  /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
+  /** The coordinate of the joint that the channel's field `coordinate` selects, and the time
+   *  derivative of this coordinate, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
   BAUM_BODY_ACCELERATION = 12, /**< The time derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] that a driver exerts on the coordinate it prescribes (1). The field
