@@ -805,11 +805,11 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
-  /** [J] present potential energy of gravity, linear springs, constant loads and user
-   *  potentials. */
+  /** [J] present potential energy of gravity, linear springs, user potentials, and loads that are
+   *  only a constant force in ground axes. */
   double potential;
   double start; /**< [J] kinetic plus potential energy at the start. */
-  /** [J] work of the loads that have an input or a torque, or that follow their body. */
+  /** [J] work of the loads that have an input, a torque or a moment, or that follow their body. */
   double loads;
   double springs; /**< [J] work of springs with a user law. */
   double dampers; /**< [J] work of the dampers of linear springs. */
