@@ -719,11 +719,11 @@ typedef struct baum_counters {
   int64_t factorizations;
   /** [-] factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
-  /** [-] iterations of kinematics and of the implicit methods: CVODE, IDA, RATTLE and
+  /** [-] iterations of baum_kinematics() and of the implicit methods: CVODE, IDA, RATTLE and
    *  generalized-alpha. */
   int64_t nonlinear_iterations;
   int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
-  /** [-] evaluations in which the matrix in equation (7) was almost singular. */
+  /** [-] evaluations in which the matrix of the equations of motion was almost singular. */
   int64_t near_singular;
   int64_t warnings; /**< [-] number of kinds of warnings that occurred. */
   /** [s] wall time inside the functions that advance the run: baum_simulation_advance_to(),

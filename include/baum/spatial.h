@@ -235,12 +235,12 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
  *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
  *  decomposition. It is defined as follows: apply to body_b the smallest rotation that makes axis_b
  *  parallel to axis. Then only a rotation about the axis remains between the bodies, and the angle
- *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. A run
- *  counts the revolutions of this angle. The bodies need not be connected by a joint. If the spring
- *  should act on a coordinate of a joint, use a joint spring instead. If axis and axis_b point in
- *  opposite directions, the angle is undefined and the torque is zero. Close to this configuration,
- *  a small rotation may change the angle by up to 2 pi. If the steps of a run are too long to
- *  follow this change of the angle, the run warns with BAUM_WARNING_BUSHING. */
+ *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. During
+ *  a run, the angle is continuous over several revolutions. The bodies need not be connected by a
+ *  joint. If the spring should act on a coordinate of a joint, use a joint spring instead. If axis
+ *  and axis_b point in opposite directions, the angle is undefined and the torque is zero. Close to
+ *  this configuration, a small rotation may change the angle by up to 2 pi. If the steps of a run
+ *  are too long to follow this change of the angle, the run warns with BAUM_WARNING_BUSHING. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by baum_spatial_torsion_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */

@@ -250,7 +250,7 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
 
 /** Find all intervals of alpha h in which gains of a given damping ratio alpha / beta are stable.
  *  Most methods have one interval, which begins at 0. The function may miss intervals, and gaps
- *  between intervals, that are narrower than 1 % of their alpha h.
+ *  between intervals, if they are narrower than 1 % of the alpha h at which they lie.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] size of the arrays; >= 0
