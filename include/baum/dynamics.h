@@ -167,7 +167,8 @@ BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, c
                                           const double *v, double *force);
 
 /** Evaluate the kinetic energy and the potential energy. The potential energy is the sum of the
- *  potentials of gravity, springs, constant loads and user potentials.
+ *  potentials of gravity, springs, loads that are only a constant force in ground axes, and user
+ *  potentials.
  *  @param      workspace        a workspace of the mechanism
  *  @param      t                [s] time
  *  @param[in]  q                (nq) positions

@@ -269,32 +269,35 @@ typedef struct baum_simulation_options {
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for velocities. Refused with a
    *  fixed step. Default: 1. */
   double tolerance_v;
-  /** [-] > 0; rtol is multiplied by this factor for multipliers. This factor may be finite only for
-   *  IDA with BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is
-   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
-   *  multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the largest
-   *  present |lambda_k| n_k, and the largest M_jj s_j^2 r^2, where r [1/s] is the rate of the
-   *  motion at the start. This rate is the largest of |v_j| / s_j and sqrt(|a_j| / s_j) over all
-   *  coordinates j, where v are the velocities and a the accelerations. In an equilibrium at rest,
-   *  r is sqrt(g/L) instead, where g is the acceleration of gravity and L the characteristic
-   *  length. In an equilibrium at rest without gravity, r is 1 per second.
-   *  baum_simulation_explain() states r with the tolerances.
+  /** [-] > 0; rtol is multiplied by this factor for multipliers. Only IDA with the formulation
+   *  BAUMGARTE or UNSTABILIZED accepts a finite factor. The tolerance of the multiplier of row i is
+   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of the Jacobian J, with each
+   *  column j multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the
+   *  largest present value of |lambda_k| n_k, and the largest value of M_jj s_j^2 r^2, where M is
+   *  the mass matrix and r [1/s] is the rate of the motion at the start. This rate is the largest
+   *  of |v_j| / s_j and sqrt(|a_j| / s_j) over all coordinates j, where v are the velocities and a
+   *  the accelerations. In an equilibrium at rest, r is sqrt(g/L) instead, where g is the
+   *  acceleration of gravity and L the characteristic length. In an equilibrium at rest without
+   *  gravity, r is 1 per second. baum_simulation_explain() reports r together with the tolerances.
    *  Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
-  /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
-   *  this option. Default: false. */
+  /** Compute the energy account that baum_simulation_energy_account() returns. The integrator
+   *  baum_kinematics() refuses this option. Default: false. */
   bool energy_account;
-  /** [-] array of row_gain_count factors f_i > 0. The gains of row i are then alpha f_i
-   *  and beta f_i. Copied. Default: NULL, all 1. */
+  /** [-] array of row_gain_count factors f_i > 0. The gains of constraint row i are alpha f_i and
+   *  beta f_i. Copied. Default: NULL, all 1. */
   const double *row_gains;
-  int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
-  /** Estimate the error of the motion by a second integration, from the start on, and warn if the
-   *  error is large; see counters.error_estimate. If the run has a fixed step, the second
-   *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
-   *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
-   *  If the second integration fails, or takes more than ten times as many evaluations as the run,
-   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics refuses this option,
-   *  because it does not integrate.
+  /** [-] number of elements of row_gains; must be the number of constraint rows of the mechanism
+   *  (nc) if row_gains is given. Default: 0. */
+  int32_t row_gain_count;
+  /** During the whole run, estimate the error of the motion by a second integration, and warn if
+   *  the error is large; see error_estimate in baum_counters. If the run has a fixed step, the
+   *  second integration uses rk8 with rtol = 1e-8. If the run has variable steps, the second
+   *  integration uses the same method with 0.03 times the rtol of the run, which must be at least
+   *  2e-14. The cost of the run at least doubles. If the second integration fails, or takes more
+   *  than ten times as many evaluations as the run, it ends, and the run warns
+   *  (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this option, because it
+   *  does not integrate.
    *
    *  Without this option, a fixed-step run starts a second integration only if the sum of its local
    *  errors becomes large enough to matter. Default: false. */
@@ -589,8 +592,9 @@ typedef struct baum_channel {
   size_t struct_size;     /**< Set by the default function. Do not write. */
   baum_quantity quantity; /**< What the channel records. Default: 0, must be set. */
   baum_body_id body;      /**< The body, for the quantities BAUM_BODY_*. Default: none. */
-  /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for BAUM_LAMBDA,
-   *  BAUM_PHI and BAUM_PHI_RATE. Default: none. */
+  /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT. For BAUM_LAMBDA, BAUM_PHI
+   *  and BAUM_PHI_RATE the joint is optional: without it, the channel records the rows of all
+   *  joints. Default: none. */
   baum_joint_id joint;
   /** [m] the point in body axes, for the quantities BAUM_BODY_*; z must be 0 for planar bodies.
    *  Default: (0, 0, 0), the centre of mass.
@@ -714,20 +718,23 @@ typedef struct baum_counters {
    *  is not on its grid of steps. */
   int64_t short_steps;
   /** [-] evaluations of the equations of motion. Most methods solve equation (7) of the page
-   *  "docs/notation.md" in each evaluation, and implicit methods compute a residual. */
+   *  "docs/notation.md" in each evaluation. IDA and generalized-alpha compute the residual of their
+   *  equations instead. */
   int64_t evaluations;
   /** [-] factorizations of the matrix in equation (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
   /** [-] factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
-  /** [-] iterations of kinematics and of the implicit methods: CVODE, IDA, RATTLE and
+  /** [-] iterations of baum_kinematics() and of the implicit methods: CVODE, IDA, RATTLE and
    *  generalized-alpha. */
   int64_t nonlinear_iterations;
   int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
-  /** [-] evaluations in which the matrix in equation (7) was almost singular. */
+  /** [-] evaluations in which the matrix of the equations of motion was almost singular. */
   int64_t near_singular;
-  int64_t warnings;                 /**< [-] number of kinds of warnings that occurred. */
-  double wall;                      /**< [s] wall time inside advance_to, step and sample. */
+  int64_t warnings; /**< [-] number of kinds of warnings that occurred. */
+  /** [s] wall time inside the functions that advance the run: baum_simulation_advance_to(),
+   *  baum_simulation_step() and baum_simulation_sample(). */
+  double wall;
   double max_phi;                   /**< [m or rad] largest violation |Phi| over all steps. */
   double max_phi_rate;              /**< [m/s or rad/s] largest rate |Phi'| over all steps. */
   baum_joint_id max_phi_joint;      /**< The joint with the violation max_phi. */
@@ -757,7 +764,8 @@ typedef struct baum_counters {
   double damping;
   /** [-] number of intervals in which the run was near a singular configuration. */
   int64_t near_singular_intervals;
-  /** [-] near-singular intervals after which the motion is, or may be, on another branch. */
+  /** [-] number of near-singular intervals after which the motion is, or may be, on another branch
+   *  than before. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration. They are accepted although their
    *  error estimate is above the tolerance. */
@@ -770,10 +778,10 @@ typedef struct baum_counters {
    *  are relative to the characteristic length, and errors of angles are in radians. NaN means that
    *  the error is unknown, for example because the estimate failed or would cost too much. Without
    *  the option error_check, the estimate shows only whether the error is large: values up to 0.01
-   *  may be errors of the estimate itself. Without the option, a run with a fixed step has the
-   *  estimate 0 as long as its local errors are negligible, and NaN if inputs change every few
-   *  steps; a run with variable steps has the estimate NaN, except after a singularity crossing at
-   *  a loose tolerance. */
+   *  may be errors of the estimate itself. Without the option error_check, the estimate of a run
+   *  with a fixed step is 0 as long as the local errors of the run are negligible, and NaN if
+   *  inputs change every few steps. Without the option, the estimate of a run with variable steps
+   *  is NaN, except after a singularity crossing at a loose tolerance. */
   double error_estimate;
 } baum_counters;
 
@@ -792,21 +800,22 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  The residual is the part of the energy that no work explains; it is the energy error of the
  *  method. With a fixed step h, the residual is proportional to h^p for small h, where p is the
  *  order of the method. With variable steps, the residual decreases with the tolerance. If an
- *  evaluation for the account fails, the account ends with a warning. Its work terms and the
+ *  evaluation for the account fails, the account ends with a warning. The work terms and the
  *  residual are then NaN. The account does not change the motion.
  *
  *  The account costs additional evaluations of the equations of motion in each step. With a fixed
- *  step, most methods need 3 evaluations. dp5 needs 18 and rk8 needs 48, because they subdivide the
- *  step for the account. With variable steps, most methods need 4; rk8 needs 7, including the
- *  evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations are needed. */
+ *  step, most methods need 3 additional evaluations per step. dp5 needs 18 and rk8 needs 48,
+ *  because they subdivide the step for the account. With variable steps, most methods need 4; rk8
+ *  needs 7, including the evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations
+ *  are needed. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
-  /** [J] present potential energy of gravity, linear springs, constant loads and user
-   *  potentials. */
+  /** [J] present potential energy of gravity, linear springs, user potentials, and loads that are
+   *  only a constant force in ground axes. */
   double potential;
   double start; /**< [J] kinetic plus potential energy at the start. */
-  /** [J] work of the loads that have an input or a torque, or that follow their body. */
+  /** [J] work of the loads that have an input, a torque or a moment, or that follow their body. */
   double loads;
   double springs; /**< [J] work of springs with a user law. */
   double dampers; /**< [J] work of the dampers of linear springs. */
@@ -817,12 +826,13 @@ typedef struct baum_energy_account {
    *  the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel.
    */
   double bodies;
-  /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda. */
+  /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda, where
+   *  nu is the right-hand side of J v = nu. */
   double drivers;
   double violation;  /**< [J] work of violated constraints: the integral of -Phi'^T lambda. */
   double projection; /**< [J] change of kinetic and potential energy by projections. */
-  /** [J] work of the gains. It is already contained in the fields `drivers` and `violation`, so do
-   *  not add it to these fields. */
+  /** [J] work of Baumgarte's gains. It is already contained in the fields `drivers` and
+   *  `violation`, so do not add it to these fields. */
   double gains;
   /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
   double residual;
@@ -861,20 +871,20 @@ typedef enum baum_branch {
  *  only a constraint violation has kept p above 1e-3, the run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] end of a step; the interval does not begin before this time. */
-  /** [s] end of a step; the interval ends before this time. However, if the motion stays close to
-   *  singular configurations, the run may list the interval before the motion has left it. The
+  double begin;       /**< [s] time of the last state of the run before the interval. */
+  /** [s] time of the first state of the run after the interval. However, if the motion stays close
+   *  to singular configurations, the run may list the interval before the motion has left it. The
    *  interval then continues after this time. */
   double end;
   double t; /**< [s] time of the smallest pivot, which may be inside a step. */
   /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
    *  largest value that the smallest pivot has had at any state of the run so far. */
   double pivot;
-  /** [-] by how much the velocity after the interval differs from a smooth continuation of the
-   *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
+  /** [-] difference between the velocity after the interval and a smooth continuation of the motion
+   *  before the interval, relative to the size of the velocity. NaN: unknown. */
   double jump;
-  double jump_error;   /**< [-] estimated error of jump; NaN: unknown. */
-  baum_branch branch;  /**< How the motion continues. */
+  double jump_error;   /**< [-] estimated error of the field `jump`; NaN: unknown. */
+  baum_branch branch;  /**< How the motion continues after the interval. */
   baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
@@ -935,10 +945,11 @@ typedef struct baum_warning {
   size_t struct_size;     /**< Set by baum_simulation_warning(). */
   baum_warning_code code; /**< Kind of the warnings. */
   bool doubts_motion;     /**< True if the result may be wrong: code >= 100. */
-  baum_joint_id joint;    /**< Joint that the first warning names; all-zero if it names none. */
-  double first;           /**< [s] time of the first warning. */
-  double last;            /**< [s] time of the last warning. */
-  int64_t count;          /**< [-] number of warnings of this kind. */
+  /** Joint that the first warning names; all-zero if this warning names no joint. */
+  baum_joint_id joint;
+  double first;  /**< [s] time of the first warning. */
+  double last;   /**< [s] time of the last warning. */
+  int64_t count; /**< [-] number of warnings of this kind. */
   /** Message of the first warning, followed by the number of warnings. The text ends with the code
    *  and the name, such as "[warning 104 singular_start]". On the page "docs/cookbook/warnings.md",
    *  the section with the same code and name explains the warning and says what to do. */

@@ -136,10 +136,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 
 /* ---- point on a curve ------------------------------------------------------------------------ */
 
-/** A function that describes a curve in space, where the surfaces F(x, y, z) = 0 and G(x, y, z) = 0
- *  meet: it computes F, G and their derivatives. The derivatives must be exact on the curve and
- *  near it. Scale F and G so that their gradients have lengths of about 1 on the curve. The
- *  gradients must not be parallel there.
+/** A user function that describes a curve in space, the intersection of the surfaces F(x, y, z) = 0
+ *  and G(x, y, z) = 0. The function computes F, G and their derivatives. The derivatives must be
+ *  exact on the curve and near it. Scale F and G so that their gradients have lengths of about 1 on
+ *  the curve. On the curve, the gradients must not be parallel.
  *  @param[in]  xyz   (3) [m] x, y and z of a point, in the axes of body_a, with body_a's point as
  *                    origin
  *  @param[out] out   (20) F [m]; F_x, F_y, F_z [-]; F_xx, F_xy, F_xz, F_yy, F_yz, F_zz [1/m]; and
@@ -157,7 +157,7 @@ typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *use
  *  The coordinates x, y and z in F and G are relative to body_a's point and in the axes of body_a.
  *  body_a must have an orientation; body_b may be a particle. baum_mechanism_check_derivatives()
  *  compares the derivatives of F and G with finite differences. Integrators that need third
- *  derivatives compute them by differences of the second derivatives. */
+ *  derivatives compute them by finite differences of the second derivatives. */
 typedef struct baum_spatial_curve_def {
   size_t struct_size;  /**< Set by baum_spatial_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

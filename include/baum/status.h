@@ -12,7 +12,8 @@
  *  last good step. The library never prints, exits or aborts. SUNDIALS is an exception: if memory
  *  runs out while a run with CVODE or IDA is created, SUNDIALS may print a line or crash.
  *
- *  Threads: each thread has its own message. All other state is in objects that you create. */
+ *  Threads: each thread has its own message of the last call that did not return 0, see
+ *  baum_message(). All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
 #define BAUM_STATUS_H
 

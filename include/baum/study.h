@@ -339,7 +339,7 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
   X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
   X(double, projection_work, DONE, "J", "change of energy by projections")                         \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
+  X(double, gains_work, DONE, "J", "work of Baumgarte's gains, see baum_energy_account")           \
   X(double, work, DONE, "evaluations", "evaluations + factorizations + implicit iterations")       \
   X(double, cpu, DONE, "s", "least CPU time to create a run and advance it, without samples")      \
   X(double, cpu_spread, DONE, "s", "second smallest CPU time minus the smallest")                  \

@@ -223,8 +223,8 @@ class Simulation(_calls.Closing):
     allow_unstable: True accepts gains that are known to be unstable.
     tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
         and multipliers [-], positive. By default tolerance_lambda is infinite, so the error of
-        multipliers is not tested. It may be finite only for "ida" with "baumgarte" or
-        "unstabilized".
+        multipliers is not tested. Only "ida" with the formulation "baumgarte" or "unstabilized"
+        accepts a finite tolerance_lambda.
     start_time: time at which the run starts [s].
     start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
         constraints. "as_given" accepts such a configuration and does not assemble it.
