@@ -86,8 +86,8 @@ typedef struct baum_planar_rack_and_pinion_def {
   /** [m] radius of the pitch circle, not 0. Positive if the rack is to the left of the pinion, seen
    *  in the direction of the axis, and negative if it is to the right. Default: 0, must be set. */
   double radius;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_rack_and_pinion_def;
 
@@ -144,8 +144,8 @@ typedef struct baum_planar_gear_def {
   /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
    *  set. */
   double radius_b;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_gear_def;
 
