@@ -153,7 +153,7 @@ def c_program(path, text, folded=False):
 def c_programs(name):
     shown = IN_C.get(name, {})
     if not shown and (ROOT / "examples" / f"{name}.c").exists():
-        shown = {name: "The same in C"}
+        shown = {name: "The same example in C"}
     paths = [(ROOT / "examples" / f"{program}.c", text) for program, text in shown.items()]
     return "".join(c_program(path, text) for path, text in paths)
 
@@ -245,8 +245,9 @@ class Gallery:
             body += "| parameter | default | meaning |\n|---|---|---|\n"
             for p in entry.parameters.values():
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
-        body += f'\nBuild variants with `catalog.build("{entry.name}", name=value)`. [The table of all mechanisms]'
-        body += "(../docs/mechanisms.md) has the sources of the data.\n"
+            first = next(iter(entry.parameters))
+            body += f'\nTo build a variant, set parameters by name, as in `baum.catalog.build("{entry.name}", {first}=...)`.'
+        body += "\n[A table](../docs/mechanisms.md) compares the references of all mechanisms with published values.\n"
         source = source_of(entry)
         body += c_program(source, "How the catalogue builds it, in C", folded=True)
         name = f"known_{entry.name}"

@@ -179,31 +179,31 @@ typedef struct baum_coordinates_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
   /** (position_count) positions in the design configuration; they must lie on the configuration
-   *  manifold. Copied. Default: NULL, zeros; must be set if `rate` is set. */
+   *  manifold. Copied. Default: NULL, which means zeros; must be set if `rate` is set. */
   const double *q;
   /** (size) initial velocities. Where an entry is NaN, the velocity is free, which means that
    *  assembly determines it. Copied. Default: NULL, all free. */
   const double *v;
-  /** (size) > 0, the scale of each coordinate: the size of a typical change. Tolerances are
-   *  relative to the scale. Copied. Default: NULL, ones. */
+  /** (size) scale of each coordinate, > 0: the amount of a typical change. Tolerances are relative
+   *  to the scale. Copied. Default: NULL, ones. */
   const double *scale;
-  /** The mass matrix: out (size x size), symmetric and positive semidefinite. Default: NULL, must
-   *  be set. */
+  /** Computes the mass matrix, out (size x size), which is symmetric and positive semidefinite.
+   *  Default: NULL, must be set. */
   baum_q_fn *mass;
-  /** The generalized force g, including the velocity terms: out (size). Default: NULL, must be set.
-   */
+  /** Computes the generalized force g, out (size). It includes the velocity terms. Default: NULL,
+   *  must be set. */
   baum_force_fn *force;
-  /** dg/dq: out (size x size). Default: NULL, computed by differences. */
+  /** Computes dg/dq, out (size x size). Default: NULL, computed by differences. */
   baum_force_fn *force_q;
-  /** dg/dv: out (size x size). Default: NULL, computed by differences. */
+  /** Computes dg/dv, out (size x size). Default: NULL, computed by differences. */
   baum_force_fn *force_v;
-  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
+  baum_q_fn *potential;     /**< Computes the potential energy, out (1) [J]. Default: NULL, none. */
   bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
   bool held;                /**< True if assembly must not change q. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
-  /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
-   *  Default: NULL, ones. */
+  /** (position_count) amount of a typical change of each position, > 0. Copied. Used only if
+   *  `rate` is set. Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate; /**< Computes q' = N(q) v. Default: NULL, q' = v. */
   /** Moves q by a displacement. Default: NULL; must be set if `rate` is set. */
@@ -291,13 +291,16 @@ typedef struct baum_user_constraint_def {
   const baum_body_id *bodies;
   int32_t body_count; /**< [-] number of bodies, > 0. Default: 0, must be set. */
   int32_t row_count;  /**< [-] number of rows, > 0. Default: 0, must be set. */
-  /** Phi(q, t): out (row_count). Default: NULL, must be set unless velocity_level is true. */
+  /** Computes Phi(q, t), out (row_count). Default: NULL, must be set unless velocity_level is true.
+   */
   baum_q_fn *phi;
-  /** J: out (row_count x nv). Default: NULL, computed by differences of `phi`. */
+  /** Computes J, out (row_count x nv). Default: NULL, computed by differences of `phi`. */
   baum_q_fn *jacobian;
-  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of `phi` in t. */
+  /** Computes nu = -dPhi/dt, out (row_count). Default: NULL, computed by differences of `phi` in t.
+   */
   baum_q_fn *nu;
-  /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of `phi`. */
+  /** Computes gamma in J a = gamma, out (row_count). Default: NULL, computed by differences of
+   *  `phi`. */
   baum_qv_fn *gamma;
   void *user; /**< Passed to the functions. Not owned. Default: NULL. */
   /** True for constraints J v = nu on velocities, without a Phi. If the function `nu` is NULL,
@@ -477,15 +480,16 @@ typedef struct baum_user_force_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count;   /**< [-] number of bodies, > 0. Default: 0, must be set. */
-  baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
-  /** Derivatives of the force with respect to displacements of the bodies: out (nv x nv).
-   *  Default: NULL, computed by differences. */
+  int32_t body_count; /**< [-] number of bodies, > 0. Default: 0, must be set. */
+  /** Computes the generalized force, out (nv). Default: NULL, must be set. */
+  baum_force_fn *force;
+  /** Computes the derivatives of the force with respect to displacements of the bodies,
+   *  out (nv x nv). Default: NULL, computed by differences. */
   baum_force_fn *force_q;
-  /** Derivatives of the force with respect to v: out (nv x nv). Default: NULL, computed by
-   *  differences. */
+  /** Computes the derivatives of the force with respect to v, out (nv x nv). Default: NULL,
+   *  computed by differences. */
   baum_force_fn *force_v;
-  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
+  baum_q_fn *potential;     /**< Computes the potential energy, out (1) [J]. Default: NULL, none. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
 } baum_user_force_def;
@@ -540,7 +544,7 @@ typedef struct baum_joint_spring_def {
   size_t struct_size;  /**< Set by baum_joint_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  /** [-] coordinate of the joint on which the spring acts. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] the coordinate on which the spring acts. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
   double stiffness; /**< [N m/rad or N/m] >= 0. Default: 0. */
   double damping;   /**< [N m s/rad or N s/m] >= 0. Default: 0. */

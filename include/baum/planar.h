@@ -155,8 +155,8 @@ typedef struct baum_planar_translational_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
   /** [rad] constant value of angle_b - angle_a. Default: NaN, the value in the design
    *  configuration. */

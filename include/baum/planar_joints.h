@@ -28,8 +28,8 @@ typedef struct baum_planar_pin_in_slot_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
 } baum_planar_pin_in_slot_def;
 
@@ -80,14 +80,14 @@ typedef struct baum_planar_rack_and_pinion_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
   /** [m] radius of the pitch circle, not 0. Positive if the rack is to the left of the pinion, seen
    *  in the direction of the axis, and negative if it is to the right. Default: 0, must be set. */
   double radius;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_rack_and_pinion_def;
 
@@ -145,8 +145,8 @@ typedef struct baum_planar_gear_def {
   /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
    *  set. */
   double radius_b;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_gear_def;
 
@@ -245,7 +245,8 @@ typedef struct baum_planar_knife_edge_def {
   size_t struct_size;  /**< Set by baum_planar_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
-  baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
+  /** The body on which the blade slides; must differ from body_a. Default: BAUM_GROUND. */
+  baum_body_id body_b;
   /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
    *  given. */
   double point[2];

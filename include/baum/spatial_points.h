@@ -66,8 +66,8 @@ typedef struct baum_spatial_point_on_line_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_line_def;
 
@@ -107,8 +107,8 @@ typedef struct baum_spatial_point_on_plane_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_plane_def;
 
@@ -264,7 +264,8 @@ typedef struct baum_spatial_knife_edge_def {
   size_t struct_size;  /**< Set by baum_spatial_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
-  baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
+  /** The body on which the blade slides; must differ from body_a. Default: BAUM_GROUND. */
+  baum_body_id body_b;
   /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
    *  given. */
   double point[3];

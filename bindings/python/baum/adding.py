@@ -231,7 +231,7 @@ class Adding:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points. The joint has one row [m].
+        """Add a massless rod between two points. The joint has one row, with the unit m.
 
         point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
         length: length of the rod [m], positive; by default the distance in the design
@@ -375,7 +375,7 @@ class Adding:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Let a point of body_a move only in the direction of a blade that is fixed in body_a.
+        """Allow a point of body_a to move only in the direction of a blade that is fixed in body_a.
         Examples are a skate, and a wheel seen from above.
 
         The joint has one row at velocity level [m/s]: the velocity of the point across the blade is

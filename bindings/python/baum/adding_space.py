@@ -270,7 +270,7 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points in space. The joint has one row [m].
+        """Add a massless rod between two points in space. The joint has one row, with the unit m.
 
         point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
         length: length of the rod [m], positive; by default the distance in the design
