@@ -55,7 +55,7 @@ SECTIONS = {
     "studies": ("Studies and mistakes", ""),
     "cookbook": (
         "Cookbook",
-        "Pages of the [cookbook](../docs/cookbook/index.md) that show a motion.\n\n",
+        "These pages of the [cookbook](../docs/cookbook/index.md) show a motion.\n\n",
     ),
 }
 # The C programs that a page shows, with a text about each. A page that is not listed shows the C program with the name
@@ -291,8 +291,8 @@ class Gallery:
         text = "# Gallery\n\nEvery page about a mechanism shows its motion, measured quantities, the program that "
         text += "computed them, and a check against a known value. The programs run when this site is built; the "
         text += "build fails if a check fails. Each program is in `examples/`, where the tests of the project run it, "
-        text += "or it uses a mechanism of the library `baum_catalog` "
-        text += "([Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
+        text += "or it builds a mechanism of the library `baum_catalog` "
+        text += "(see [Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
         for section, (heading, about) in SECTIONS.items():
             text += f"## {heading}\n\n{about}{self.cards_of(section)}"
         names = [name for _, name, _ in cards if "/" not in name]
