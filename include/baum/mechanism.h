@@ -24,9 +24,9 @@
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
  *  number. The shapes of arrays are in parentheses.
  *
- *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
- *  characteristic length of the mechanism, and the scale of an angle is 1. For user coordinates,
- *  the field `scale` gives the scale.
+ *  Scales: the tolerance of a coordinate is relative to the *scale* of this coordinate. The scale
+ *  of a length is the characteristic length of the mechanism, and the scale of an angle is 1. For
+ *  user coordinates, the field `scale` gives the scale.
  *
  *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
  *  rows and lambda are in the order in which the joints were added.
@@ -88,7 +88,7 @@ typedef struct baum_mechanism baum_mechanism;
 /** Identifies a body of a mechanism. The id is also valid in copies of this mechanism. An all-zero
  *  id means no body, and functions refuse it. */
 typedef struct baum_body_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_body_id;
 
@@ -96,19 +96,19 @@ typedef struct baum_body_id {
  *  joint, and functions refuse it.
  */
 typedef struct baum_joint_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_joint_id;
 
 /** Identifies a force. An all-zero id means no force, and functions refuse it. */
 typedef struct baum_force_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_force_id;
 
 /** Identifies an input. An all-zero id means no input. */
 typedef struct baum_input_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_input_id;
 
@@ -160,20 +160,20 @@ typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest point of the configuration manifold, for example a quaternion by the
- *  unit quaternion of the same direction. Do not change the sign of a quaternion here. Integrators
- *  that combine the positions of several steps would lose their order of accuracy at the change of
- *  sign. */
+ *  unit quaternion of the same direction. This function must not change the sign of a quaternion.
+ *  Integrators that combine the positions of several steps would lose their order of accuracy at
+ *  the change of sign. */
 typedef void baum_normalize_fn(double *q, void *user);
 
 /** A body with user coordinates. Functions of yours give its mass matrix and its force.
  *
  *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
- *  quaternion, set position_scale and the fields below it; the time derivative of q is then N(q) v.
- *  In this case every function except `rate` and `normalize` receives a normalized q. Derivatives
- *  with respect to q, such as force_q, are then derivatives along the `size` components of a
- *  displacement. This also applies to constraints on these coordinates: their Jacobian is the
- *  product of dPhi/dq and N. The functions rate, move, difference and normalize report a failure by
- *  writing NaN. */
+ *  quaternion, also set the last fields of this struct, from position_scale to position_count; the
+ *  time derivative of q is then N(q) v. In this case every function except `rate` and `normalize`
+ *  receives a normalized q. Derivatives with respect to q, such as force_q, are then derivatives
+ *  along the `size` components of a displacement. This also applies to constraints on these
+ *  coordinates: their Jacobian is the product of dPhi/dq and N. The functions rate, move,
+ *  difference and normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by baum_coordinates_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
@@ -277,7 +277,7 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
  *  those of a wheel that does not slip. For such constraints, `jacobian` is required and `phi` must
- *  be NULL. With Baumgarte's gain alpha (stabilization.h), their accelerations satisfy
+ *  be NULL. With Baumgarte's gain alpha (stabilization.h), the accelerations a satisfy
  *  J a = gamma - alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
@@ -332,8 +332,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint. Drivers, couplings, joint springs, channels and events name one of
- *  these coordinates. The joints have the following ones:
+/** A coordinate of a joint. Drivers, couplings, joint springs, output channels and events each
+ *  refer to one coordinate. The joints have the following ones:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT
@@ -422,7 +422,7 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  Angles of spatial joints are known only up to whole revolutions. Without a law, the row
  *  therefore remains satisfied if such an angle changes by whole revolutions. If both coordinates
  *  are angles of spatial joints, this is true only if ratio is a fraction with a denominator of at
- *  most 1000. With any other ratio, the row counts the revolutions.
+ *  most 1000. With any other ratio, the value of the row depends on the number of revolutions.
  *
  *  The reaction of a coupling is the generalized force -J^T lambda of its row, with one number for
  *  each velocity of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints
@@ -589,7 +589,8 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
  *  begin with the initial value and keep it until baum_simulation_set_input() or
  *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
- *  @param[in]  name       label in messages. Copied. NULL stands for "input<k>".
+ *  @param[in]  name       label in messages. Copied. NULL stands for "input<k>" with the number k
+ *                         of the input, counted from 1.
  *  @param      initial    the initial value; finite, in a unit of your choice
  *  @param[out] id         receives the id of the input; not written on failure. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
@@ -777,24 +778,30 @@ typedef struct baum_report {
   int32_t forces;     /**< [-] number of forces, not counting gravity. */
   int32_t velocities; /**< [-] number of velocities, nv. */
   int32_t rows;       /**< [-] number of constraint rows, nc. */
-  /** [-] nv minus the rank of J; -1 if it is not known, see baum_mechanism_mobility(). */
+  /** [-] nv minus the rank of J; -1 if the mechanism cannot be assembled. */
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] rows omitted from every solution. */
   int32_t constant_rows;  /**< [-] rows that do not depend explicitly on time. */
-  /** [-] groups of bodies that joints connect with each other. Fixed bodies do not count. */
+  /** [-] groups of bodies connected with each other by joints. Fixed bodies do not count. */
   int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;
   bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
   bool constant_force; /**< True if all forces are constant. */
-  bool blocks;         /**< True if the block solver solves the equations, false if KLU does. */
-  /** [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism has
-   *  spatial bodies but no user coordinates; otherwise it is a pair of rows. */
+  /** True if the block solver solves the equations, false if KLU does, a sparse LU factorization
+   *  of the whole system. */
+  bool blocks;
+  /** [-] nodes of the block solver; 0 if KLU solves the equations. A node is a whole joint if the
+   *  mechanism has spatial bodies but no user coordinates; otherwise it is a pair of rows. */
   int32_t nodes;
-  int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
-  int32_t fill; /**< [-] pairs of nodes that become coupled only by the elimination; 0 for KLU. */
-  /** [-] largest number of couplings that a node has when it is eliminated; 0 for KLU. */
+  /** [-] pairs of nodes that are coupled during elimination; 0 if KLU solves the equations. */
+  int32_t couplings;
+  /** [-] pairs of nodes that become coupled only by the elimination; 0 if KLU solves the equations.
+   */
+  int32_t fill;
+  /** [-] largest number of couplings that a node has when it is eliminated; 0 if KLU solves the
+   *  equations. */
   int32_t most_couplings;
   int32_t most_joints; /**< [-] number of joints of the body most_joined. */
   /** The body with the most joints, among bodies that are not fixed; none if there are no joints.
@@ -817,7 +824,7 @@ typedef struct baum_report {
 BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                            size_t caller_size);
 
-/** Compare the derivatives that user functions return with finite differences. These derivatives
+/** Compare finite differences with the derivatives that user functions return. These derivatives
  *  are `jacobian`, `nu`, `gamma`, `force_q`, `force_v`, and the derivatives of laws and curves. By
  *  default, baum_simulation_create() makes this check, too.
  *

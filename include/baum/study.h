@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Studies measure accuracy against cost. A study runs one mechanism over one time span with many
- *  settings, which are integrators with their options. It measures the error and the cost of each
- *  setting, and recommends one of them.
+ *  Studies measure the accuracy and the cost of integration methods. A study runs one mechanism
+ *  over one time span with many settings, which are integrators with their options. It measures the
+ *  error and the cost of each setting, and recommends one of them.
  *
  *    baum_study_create(mechanism, 0.0, 2.0, &study);
  *    baum_study_add_standard(study, NULL);

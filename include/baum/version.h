@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The version of the library and its optional parts.
- */
+ *  The version of the library, and the optional parts that it contains. */
 #ifndef BAUM_VERSION_H
 #define BAUM_VERSION_H
 

@@ -64,7 +64,7 @@ class Event(_Event):
 
     t: its time [s].
     event: its number, which Simulation.event() has returned.
-    direction: 1 if the function rises in time, -1 if it falls.
+    direction: 1 if the event function or the coordinate rises in time, -1 if it falls.
     name: the name that Simulation.event() was given, by default "event 0", "event 1", ...
     """
 
