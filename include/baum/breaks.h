@@ -47,9 +47,9 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
 /** Schedule the values of an input. The input has the value values[k] from times[k] to times[k +
- *  1]. After the last time, it keeps the last value. Before times[0] the input keeps the value that
- *  it has when this function is called. The schedule makes the input a function of time: the input
- *  also follows the schedule when the run goes backward in time, and after
+ *  1]. After the last time, it keeps the last value. Before times[0], the input keeps the value
+ *  that it has when this function is called. The schedule makes the input a function of time:
+ *  the input also follows the schedule when the run goes backward in time, and after
  *  baum_simulation_set_state() has moved the run to another time.
  *
  *  Each time at which the value changes is a break time of this run, see

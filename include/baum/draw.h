@@ -175,8 +175,8 @@ typedef struct baum_page {
   const char *title;  /**< Default: NULL, the title "Mechanism". */
   /** (count) [s] times of the samples, monotone. Default: NULL, must be set. */
   const double *times;
-  /** [-] > 0, number of samples. A page keeps at most 600 samples. It always keeps those at which a
-   *  plotted column has its largest or its smallest value. Default: 0, must be set. */
+  /** [-] > 0, number of samples. A page keeps at most 600 samples, always including those at which
+   *  a plotted column has its largest or its smallest value. Default: 0, must be set. */
   int64_t count;
   /** (channel_count) the channels that each row of `rows` contains. BAUM_Q must be one of them.
    *  Reactions (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */

@@ -252,7 +252,7 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
     ) -> Joint:
         """Add a weld in space: two bodies do not move relative to each other. They keep the
-        relative orientation of the design configuration.
+        relative orientation that they have in the design configuration.
 
         The joint has six rows: three for the points [m] and three for the orientation [-].
 
