@@ -287,7 +287,7 @@ class Page:
             elif name == "point":
                 text += " The method has no argument `point`."
             elif name.endswith("count"):
-                text += f" The method has no argument `{name}`, because it counts the entries of the lists."
+                text += f" The method has no argument `{name}`, because it takes this number from the lengths of its lists."
             else:
                 sys.exit(f"modelling.py: Mechanism.{self.method} has no argument {name}")
         return text

@@ -12,10 +12,10 @@
  *  order in which the joints were added. The units of results follow from the units of the
  *  coordinates.
  *
- *  Every call returns BAUM_OK or one of these statuses: BAUM_ERR_ARGUMENT (an argument is NULL or
- *  not finite), BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element),
- *  BAUM_ERR_STATE (the call comes from a user function that the same workspace is calling). The
- *  comments of the functions name further statuses.
+ *  Every call may return BAUM_OK, BAUM_ERR_ARGUMENT (an argument is NULL or not finite),
+ *  BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element), or BAUM_ERR_STATE (the
+ *  call comes from a user function that the same workspace is calling). The comments of the
+ *  functions name the other statuses that a function may return.
  *
  *  Threads: only one thread at a time may use a workspace. Any number of workspaces may share a
  *  mechanism. */

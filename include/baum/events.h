@@ -72,7 +72,7 @@ typedef struct baum_event_def {
   /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
   double tolerance;
   void *user; /**< Passed to `function`. Not owned. Default: NULL. */
-  /** [-] which coordinate of `joint`. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of `joint` that the event observes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_event_def;
 

@@ -303,8 +303,8 @@ typedef struct baum_user_constraint_def {
    *  `phi`. */
   baum_qv_fn *gamma;
   void *user; /**< Passed to the functions. Not owned. Default: NULL. */
-  /** True for constraints J v = nu on velocities, without a Phi. If the function `nu` is NULL,
-   *  these constraints have nu = 0. Default: false. */
+  /** True for constraints J v = nu on velocities. In this case, `jacobian` must be set and `phi`
+   *  must be NULL. If the function `nu` is NULL, these constraints have nu = 0. Default: false. */
   bool velocity_level;
 } baum_user_constraint_def;
 

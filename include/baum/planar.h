@@ -42,8 +42,9 @@ typedef struct baum_planar_body_def {
   double angle; /**< [rad] angle of the body axes in the design configuration. Default: 0. */
   /** [m/s] velocity of the centre of mass at the start. Default: NaN, assembly determines it. */
   double velocity[2];
-  double angular_velocity; /**< [rad/s] value at the start. Default: NaN, assembly determines it. */
-  bool held;               /**< True if assembly must not move the body. Default: false. */
+  /** [rad/s] angular velocity at the start. Default: NaN, assembly determines it. */
+  double angular_velocity;
+  bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_planar_body_def;
 
 /** @copydoc baum_coordinates_def_init() */

@@ -49,7 +49,7 @@ typedef struct baum_spatial_body_def {
   /** [m/s] velocity of the centre of mass at the start, in ground axes. Default: NaN, assembly
    *  determines it. */
   double velocity[3];
-  /** [rad/s] value at the start, in body axes. Default: NaN, assembly determines it. */
+  /** [rad/s] angular velocity at the start, in body axes. Default: NaN, assembly determines it. */
   double angular_velocity[3];
   bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_body_def;
@@ -192,9 +192,9 @@ typedef struct baum_spatial_cable_def {
   /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law for the tension [N], which replaces stiffness, damping, free_length and transition. They
-   *  must then have their defaults, and the cable has no potential energy. The law must return 0
-   *  where the cable is slack. Default: NULL. */
+  /** A law that computes the tension [N]. It replaces stiffness, damping, free_length and
+   *  transition, which must then have their defaults. A cable with a law has no potential energy.
+   *  The law must return 0 where the cable is slack. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads its argument `rate`, the time derivative of the length. RATTLE requires
@@ -262,8 +262,8 @@ typedef struct baum_spatial_torsion_spring_def {
   double damping;   /**< [N m s/rad] >= 0. Default: 0. */
   /** [rad] angle at which the spring exerts no torque. Default: NaN, which means 0. */
   double free_angle;
-  /** A law for the torque [N m] that replaces stiffness, damping and free_angle, which must then
-   *  have their defaults. Default: NULL. */
+  /** A law that computes the torque [N m]. It replaces stiffness, damping and free_angle, which
+   *  must then have their defaults. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads its argument `rate`, the time derivative of the angle. RATTLE requires
@@ -369,7 +369,9 @@ typedef struct baum_spatial_load_def {
   /** [N] the force in ground axes, or in body axes if `follows_body` is true. Default: (0, 0, 0).
    */
   double force[3];
-  double moment[3]; /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
+  /** [N m] the moment in ground axes, or in body axes if `follows_body` is true; must be zero on a
+   *  particle. Default: (0, 0, 0). */
+  double moment[3];
   /** An input whose value multiplies force and moment. Default: none. */
   baum_input_id input;
   /** True if force and moment are in body axes and rotate with the body, false if they are in

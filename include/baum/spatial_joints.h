@@ -284,7 +284,8 @@ typedef struct baum_spatial_planar_def {
   double axis_b[3];
   /** [-] direction of the coordinate x, projected onto the plane; in ground axes if `point` is
    *  given, otherwise in the axes of body_a. Default: NaN, the direction of the ground x axis in
-   *  the design configuration, or of the ground y axis if the normal is along x. */
+   *  the design configuration, or that of the ground y axis if the normal is along the ground x
+   *  axis. */
   double x_axis[3];
 } baum_spatial_planar_def;
 
@@ -420,11 +421,12 @@ typedef struct baum_spatial_constant_velocity_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] axis of the first shaft, body_a, with any length except 0; in ground axes if `point` is
-   *  given, otherwise in the axes of body_a. Default: (0, 0, 1). */
+  /** [-] axis of the first shaft, which is fixed in body_a. The vector may have any length except
+   *  0. It is in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] axis of the second shaft, body_b; in ground axes if `point` is given, otherwise in the
-   *  axes of body_b. Default: NaN, equal to axis in the design configuration. */
+  /** [-] axis of the second shaft, which is fixed in body_b; in ground axes if `point` is given,
+   *  otherwise in the axes of body_b. Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
 } baum_spatial_constant_velocity_def;
 

@@ -215,13 +215,14 @@ typedef struct baum_spatial_rolling_disc_def {
   baum_body_id
     body_a; /**< The body with the plane; must differ from body_b. Default: BAUM_GROUND. */
   baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
-  double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
+  double point_a[3];   /**< [m] a point in the plane, in axes of body_a. Default: (0, 0, 0). */
   /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
   double normal[3];
   double centre[3]; /**< [m] centre of the disc, in axes of body_b. Default: (0, 0, 0). */
   double axis_b[3]; /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
   double radius;    /**< [m] > 0, largest radius of the disc. Default: 0, must be set. */
-  /** [m] radius of the cross-section of the rim, from 0 to radius. Default: 0. */
+  /** [m] radius of the circular cross-section of the rim: 0 for a thin disc, equal to `radius` for
+   *  a sphere, or a value between them. Default: 0. */
   double rim_radius;
 } baum_spatial_rolling_disc_def;
 

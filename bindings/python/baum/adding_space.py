@@ -252,7 +252,7 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
     ) -> Joint:
         """Add a weld in space: two bodies do not move relative to each other. They keep the
-        relative orientation of the design configuration.
+        relative orientation that they have in the design configuration.
 
         The joint has six rows: three for the points [m] and three for the orientation [-].
 
@@ -490,8 +490,9 @@ class AddingInSpace:
         user: Any = None,
         transition: Scalar | None = None,
     ) -> Force:
-        """Add a cable, rope or tendon. It runs in straight lines from one point to the next, slides
-        over these points without friction, and can only pull. The points are fixed in bodies.
+        """Add a cable, rope or tendon, which can only pull. It runs in straight lines through
+        points that are fixed in bodies. It is attached to the first and the last point, and slides
+        over the other points without friction.
 
         With the stretch s = length - free_length, the tension is stiffness s + damping w(s /
         transition) (d/dt length) if s and this sum are positive, otherwise 0. The function w(x) =
