@@ -811,7 +811,7 @@ typedef struct baum_report {
   char text[2048];
   int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
   /** [-] degrees of freedom of position: nv minus the rank of J without its rows of velocity level;
-   *  -1 if this number is not known. */
+   *  -1 if the mechanism cannot be assembled. */
   int32_t position_degrees_of_freedom;
 } baum_report;
 
