@@ -157,8 +157,8 @@ typedef struct baum_study_grid {
   double finest;
   /** A smaller grid for a first answer. Its cost is approximately 1/25 of the cost of the default
    *  grid. It contains every integrator with its default gains and its default formulation, or with
-   *  `formulation` if this field is set. Each integrator has at most 5 settings, and `constants` is
-   *  ignored. Default: false. */
+   *  `formulation` if this field is set. Each integrator has at most 5 step sizes and at most 5
+   *  tolerances, and `constants` is ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
