@@ -314,7 +314,7 @@ class Study(_calls.Closing):
         """Add the standard grid of settings, or only its settings with one integrator or one
         formulation. Returns the study.
 
-        settings: number of steps or tolerances of each method, 1 to 64.
+        settings: number of step sizes or tolerances of each method, 1 to 64.
         constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
             to 4.
         coarsest: longest step of integrators of the orders 3 to 5 [s]. The longest steps of
