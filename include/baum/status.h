@@ -69,8 +69,9 @@ BAUM_API const char *baum_status_text(baum_status status);
  *           thread that returns a status other than 0 */
 BAUM_API const char *baum_message(void);
 
-/** Set the message of this thread. This function is for libraries that are built on this one, and
- *  for user functions that fail: the library appends the message of the user function to its own.
+/** Set the message of this thread. This function is for libraries that use baum, and for user
+ *  functions that fail. If a user function fails, the message of baum ends with the message of
+ *  the user function.
  *  @param     status   returned unchanged
  *  @param[in] message  copied, truncated if very long; NULL: the general meaning of the status
  *  @return  status, so that you can write `return baum_fail(...)` */

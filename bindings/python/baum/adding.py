@@ -156,9 +156,9 @@ class Adding:
 
         If the positions do not form a vector, for example if they are a unit quaternion, also give
         the arguments below. The positions q and their displacements (small changes of position)
-        then have different numbers of entries: q has position_count, and a displacement has size,
-        like v. Derivatives with respect to q, such as force_q, are then derivatives along
-        displacements, so they have size columns.
+        then have different numbers of entries: q has `position_count` entries, and a displacement
+        has `size` entries, like v. Derivatives with respect to q, such as force_q, are then
+        derivatives along displacements, so they have `size` columns.
 
         position_count: number of positions, which is then the length of q.
         rate(q, v): the time derivative of q, N(q) v.
@@ -549,9 +549,10 @@ class Adding:
         stiffness: [N/m].
         damping: [N s/m].
         free_length: length without force [m], by default the distance in the design configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping and free_length, which must then have their defaults.
-            The spring then has no potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate,
+            where rate is the time derivative of the length. The law replaces stiffness, damping and
+            free_length, which must then have their defaults. A spring with a law has no potential
+            energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
             False.
         user: passed to a compiled function as its last argument.
@@ -578,8 +579,9 @@ class Adding:
         damping: [N m s/rad].
         free_angle: angle without torque [rad], by default the angle in the design configuration.
         law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
-            rate. The law replaces stiffness, damping and free_angle, which must then have their
-            defaults. The spring then has no potential energy.
+            rate, where rate is the time derivative of the angle. The law replaces stiffness,
+            damping and free_angle, which must then have their defaults. A spring with a law has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
@@ -606,8 +608,9 @@ class Adding:
         free_value: value without force [rad] or [m], by default the value in the design
             configuration.
         law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
-            respect to both arguments. The law replaces stiffness, damping and free_value, which
-            must then have their defaults. The spring then has no potential energy.
+            respect to both arguments; rate is the time derivative of the coordinate. The law
+            replaces stiffness, damping and free_value, which must then have their defaults. A
+            spring with a law has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())

@@ -507,10 +507,10 @@ class AddingInSpace:
         damping: [N s/m].
         free_length: length up to which the cable is slack [m], by default the length in the design
             configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping, free_length and transition, which must then have their
-            defaults. The law must return zeros where the cable is slack. The cable then has no
-            potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate,
+            where rate is the time derivative of the length. The law replaces stiffness, damping,
+            free_length and transition, which must then have their defaults. The law must return
+            zeros where the cable is slack. A cable with a law has no potential energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.
@@ -565,8 +565,8 @@ class AddingInSpace:
         """Add an elastic connection of two bodies in space, with stiffness and damping in all six
         directions.
 
-        Points and axes are given as for joints. axis is the z axis of the bushing, and x_axis is
-        its x axis, given as in spatial_planar().
+        Points and axes are given as for joints. `axis` is the z axis of the bushing, and `x_axis`
+        is its x axis, given as in spatial_planar().
 
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing

@@ -314,15 +314,16 @@ class Study(_calls.Closing):
         """Add the standard grid of settings, or only its settings with one integrator or one
         formulation. Returns the study.
 
-        settings: number of steps or tolerances of each method, 1 to 64.
+        settings: number of step sizes or tolerances of each method, 1 to 64.
         constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
             to 4.
-        coarsest: longest step of methods of the orders 3 to 5 [s]. The longest steps of methods of
-            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default all these steps
-            follow from the speed of the motion.
-        finest: smallest rtol [-], by default 1e-13, or 1e-11 if derivatives are computed by
-            differences.
-        quick: True adds the quick grid, with at most 5 settings of each integrator.
+        coarsest: longest step of integrators of the orders 3 to 5 [s]. The longest steps of
+            integrators of the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times this step. By default
+            all these steps follow from the speed of the motion.
+        finest: smallest rtol [-], by default 1e-13, or 1e-11 if a user constraint has neither
+            `jacobian` nor `gamma`.
+        quick: True adds the quick grid, with at most 5 step sizes and at most 5 tolerances of each
+            integrator.
         """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
