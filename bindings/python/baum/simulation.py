@@ -683,7 +683,7 @@ class Simulation(_calls.Closing):
         browser: False opens no browser. You can then visit View.url yourself.
 
         The page has buttons that pause the run, take one step of the integrator, and resume the
-        run. While the run is paused, the call that advances it waits. Ctrl-C and cancel() end the
+        run. While the run is paused, a call such as advance_to() waits. Ctrl-C and cancel() end the
         waiting. If all pages of the run are closed, the run continues. A view ends with close(), at
         the end of a `with` block, or when the simulation ends. The server of the view answers only
         programs on this computer that know the secret in View.url.
