@@ -613,7 +613,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         parameters: numbers that users of the FMU can change, written as "element.field", such as
             "rod.mass". They may also be positions and velocities of bodies at the start.
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
-            start_time. Choose a fixed step for control loops.
+            start_time. If the FMU is part of a control loop, choose a fixed step.
 
         Raises ValueError if the mechanism contains functions, because an FMU cannot contain Python
         functions.

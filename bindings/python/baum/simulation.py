@@ -229,7 +229,9 @@ class Simulation(_calls.Closing):
     start: "assemble" first moves the bodies such that the joints are closed. "exact" refuses a
         design configuration that violates constraints. "as_given" accepts such a configuration and
         does not assemble it.
-    solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
+    solver: the solver of the linear equations of motion: "klu" (sparse LU factorization), "qr"
+        (sparse QR factorization), "block" (Schur complement in blocks), or "auto", which chooses
+        one of them.
     check_derivatives: True compares the derivatives of your functions with finite differences, at
         the start and at some later states of the run. A derivative that is wrong at the start
         raises baum.Error. For a derivative that is wrong only later, the run issues a
@@ -572,8 +574,8 @@ class Simulation(_calls.Closing):
         """Restore a state from save() of this run, or of another run with the same mechanism and
         the same options.
 
-        Raises baum.Error with Status.ERR_BUFFER for bytes that no such run has saved. Python
-        warnings of the saved run are not issued again.
+        Raises baum.Error with Status.ERR_BUFFER for bytes that do not come from save() of such a
+        run. Python warnings of the saved run are not issued again.
         """
         given = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, given, len(given))
