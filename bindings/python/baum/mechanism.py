@@ -551,16 +551,16 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
         marks: Sequence[tuple[Scalar, str]] = (),
     ) -> Page:
-        """Make a page that shows any motion of a frozen mechanism, for example a motion that was
-        computed elsewhere, or several runs joined together. To show one run, use Run.page().
+        """Make an HTML page that shows any motion of a frozen mechanism, for example a motion that
+        was computed elsewhere, or several runs joined together. To show one run, use Run.page().
 
         t: times (n) [s], rising or falling.
         q: positions (n x nq). The page shows them unchanged, including their constraint violations.
         path: file to write. None writes no file; the returned page has a method save().
         traces: paths to draw, as in Run.page().
-        plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
-            same unit are drawn in the same plot.
-        marks: pairs of a time [s] and a text, which become marks on the time axis.
+        plots: curves, as a dict from a label to n values, such as {"height [m]": q[:, 1]}.
+            Consecutive curves whose labels end with the same unit are drawn in the same plot.
+        marks: marks on the time axis, each as a pair (time [s], text).
         """
         motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
         made = drawings.page(motion)
@@ -587,7 +587,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         **options: Unpack[SimulationOptions],
     ) -> Run:
         """Run through times (n) [s]. Return a Run with q, v and the channels in `record` at each
-        time.
+        time. A channel is a quantity such as "energy" or "slider.velocity".
 
         The run starts at the time that the option start_time gives. baum.Simulation describes the
         options and the errors. Exceptions that this method raises have the attribute `run` with the
@@ -606,15 +606,16 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         parameters: str | Sequence[str] = (),
         **options: Unpack[SimulationOptions],
     ) -> None:
-        """Write the mechanism as an FMU for co-simulation by FMI 3.0. No compiler is needed.
+        """Write the mechanism as an FMU for co-simulation according to FMI 3.0. No compiler is
+        needed.
 
         outputs: one channel or several channels, such as "slider.pose"; each of their columns is an
             output of the FMU.
-        inputs: inputs of the mechanism that are inputs of the FMU, by default all.
+        inputs: inputs of the mechanism that become inputs of the FMU, by default all.
         parameters: numbers that users of the FMU can change, written as "element.field", such as
             "rod.mass". They may also be positions and velocities of bodies at the start.
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
-            start_time. Choose a fixed step for control loops.
+            start_time. If the FMU is part of a control loop, choose a fixed step.
 
         Raises ValueError if the mechanism contains functions, because an FMU cannot contain Python
         functions.

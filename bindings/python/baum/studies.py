@@ -123,7 +123,8 @@ class Study(_calls.Closing):
         from the reference, divided by `unit`. By default the error of a run is the largest error of
         all positions, with lengths divided by the characteristic length, and angles in radians.
     reference: a known motion, which replaces the reference that the study computes itself. It is a
-        tuple (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time.
+        tuple (times, q), (times, q, v) or (times, q, v, lambda_). Each of the arrays q, v and
+        lambda_ has one row for each time.
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
     digits: the number of digits of the known motion that can be trusted.
     samples: number of times at which errors are measured, 2 to 1e6.
@@ -133,16 +134,17 @@ class Study(_calls.Closing):
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
         Python functions.
     energy_account: True measures the work that stabilization and projection do on the mechanism.
-    validate: True makes more runs of entries that may be recommended: over twice the time span,
-        and from perturbed starts.
+    validate: True makes further runs that test the entries that may be recommended: over twice the
+        time span, and from perturbed initial states.
     file: path of a file in which the study keeps its results. A later study can continue from it.
     grid: the settings that run() adds to a study without settings. "quick" takes seconds, or about
         a minute with Python functions. "full" takes about 25 times as long.
     progress: by default a bar in a terminal or a notebook, with an estimate of the time left; False
-        shows nothing. A function progress(done, total) is called after each entry. An entry counts
-        twice: once when its error is known, and once when its time is known. The function cancels
-        the study if it returns a true value. It may call cancel() and len() of the study, but no
-        other method.
+        shows nothing. If you give a function, progress(done, total) is called after each entry, and
+        while the study computes the reference. `done` is the number of entries whose error is known
+        plus the number of entries whose CPU time is known, and `total` is twice the number of
+        entries. The function cancels the study if it returns a true value. It may call cancel() and
+        len() of the study, but no other method.
 
     In a `with` block, the end of the block frees the memory of the study and closes its file.
 
