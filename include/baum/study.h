@@ -482,8 +482,8 @@ typedef enum baum_study_cost {
  *  or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size; /**< Set by baum_study_method_at(). */
-  /** Such as "rk8 projection". If an integrator can use fixed and variable steps, two of its
-   *  methods have the same name; fixed_step tells them apart. */
+  /** The name, such as "rk8 projection". If an integrator can use fixed and variable steps, two of
+   *  its methods have the same name; the field fixed_step distinguishes them. */
   const char *name;
   const baum_integrator *integrator; /**< Integrator of its entries. */
   baum_formulation formulation;      /**< Formulation of its entries. */
