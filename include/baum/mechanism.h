@@ -780,7 +780,7 @@ typedef struct baum_report {
   int32_t rows;       /**< [-] number of constraint rows, nc. */
   /** [-] nv minus the rank of J; -1 if the mechanism cannot be assembled. */
   int32_t degrees_of_freedom;
-  int32_t redundant_rows; /**< [-] rows omitted from every solution. */
+  int32_t redundant_rows; /**< [-] redundant rows, which the solver always omits. */
   int32_t constant_rows;  /**< [-] rows that do not depend explicitly on time. */
   /** [-] groups of bodies connected with each other by joints. Fixed bodies do not count. */
   int32_t islands;

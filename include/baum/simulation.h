@@ -876,9 +876,10 @@ typedef struct baum_near_singular {
    *  to singular configurations, the run may list the interval before the motion has left it. The
    *  interval then continues after this time. */
   double end;
-  double t; /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
-   *  largest value that the smallest pivot has had at any state of the run so far. */
+  double t; /**< [s] time at which p is smallest (see pivot); it may be inside a step. */
+  /** [-] the smallest p in the interval. At each state, p is the smallest pivot of the equations of
+   *  motion, divided by the largest value that the smallest pivot has had at any state of the run
+   *  so far. The page "docs/theory/singular.md" defines the smallest pivot. */
   double pivot;
   /** [-] difference between the velocity after the interval and a smooth continuation of the motion
    *  before the interval, relative to the size of the velocity. NaN: unknown. */

@@ -368,7 +368,7 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  of another entry that is at least as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
-  const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
+  const char *name;   /**< The name, such as "rk8 projection, rtol 1e-06". */
   /** The reason why the entry was refused or failed. For other entries: the first warning of the
    *  run, or "" if the run has no warning. */
   const char *message;
@@ -488,8 +488,8 @@ typedef enum baum_study_cost {
  *  in step or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size; /**< Set by baum_study_method_at(). */
-  /** Such as "rk8 projection". If an integrator can use fixed and variable steps, two of its
-   *  methods have the same name; fixed_step tells them apart. */
+  /** The name, such as "rk8 projection". If an integrator can use fixed and variable steps, two of
+   *  its methods have the same name; the field fixed_step distinguishes them. */
   const char *name;
   const baum_integrator *integrator; /**< Integrator of the method. */
   baum_formulation formulation;      /**< Formulation of the method. */

@@ -201,7 +201,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         return name in self._entries
 
     def __iter__(self) -> Iterator[Any]:
-        """Return the handles of all added elements, in the order of adding."""
+        """Return the handles of all added elements, in the order in which they were added."""
         return (self[name] for name, entry in self._entries.items() if entry is not GROUND)
 
     @property
@@ -295,7 +295,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @property
     def inputs(self) -> list[Input]:
-        """All inputs, in the order of adding."""
+        """All inputs, in the order in which they were added."""
         return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
     # ---- properties of the whole mechanism -------------------------------------------------------

@@ -277,7 +277,8 @@ def _set_functions(mechanism: Mechanism, own: Element, element: Any, functions: 
 def parse(text: str, functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from the text of a scene. The mechanism is not frozen.
 
-    functions: the functions and objects that the scene names, such as {"drag": drag} or globals().
+    functions: a dict that contains a function or an object for each name of a function or object
+        in the scene, such as {"drag": drag} or globals().
 
     Raises baum.Error if the text is not a scene; the message names the line. Raises KeyError if a
     function is missing.
@@ -303,8 +304,8 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from a file that Mechanism.save() or a C program has written. The argument
-    functions and the errors are those of baum.parse(). Messages of baum.Error begin with the
-    path."""
+    `functions` and the exceptions are the same as in baum.parse(), but the messages of baum.Error
+    begin with the path."""
     try:
         return parse(Path(path).read_text(encoding="utf-8"), functions)
     except UnicodeDecodeError as error:

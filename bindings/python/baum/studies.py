@@ -59,8 +59,8 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation `best`,
-    write m.simulate(t, **best).
+    """A dict of options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation
+    `best`, write m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
     """
@@ -342,8 +342,8 @@ class Study(_calls.Closing):
         return self
 
     def add_stress(self, integrator: str | Integrator | None = None) -> Study:
-        """Add stress settings, which have extreme steps, tolerances and gains, for one integrator
-        or, by default, for all. Returns the study."""
+        """Add stress settings, which have extreme steps, tolerances and gains. They use the given
+        integrator, or by default all integrators. Returns the study."""
         place = None if integrator is None else lookup(integrator).address
         self._long(lib.baum_study_add_stress, place)
         return self
@@ -353,10 +353,10 @@ class Study(_calls.Closing):
     def run(self) -> Study:
         """Compute the reference, and run the entries that are not done. Returns the study.
 
-        If the study has no entries, this call first adds those of the option `grid`. A Python
-        warning is issued if the reference cannot be trusted, or if the time budget is spent. If a
-        function of the mechanism raises an exception in a run of an entry, this entry fails, and
-        its message contains the exception.
+        If the study has no entries, this call first adds the settings that the option `grid`
+        selects. A Python warning is issued if the reference cannot be trusted, or if the time
+        budget is spent. If a function of the mechanism raises an exception in a run of an entry,
+        this entry fails, and its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -404,7 +404,7 @@ class Study(_calls.Closing):
 
     @property
     def entries(self) -> list[StudyEntry]:
-        """All entries, in the order of adding."""
+        """All entries, in the order in which they were added."""
         return [
             self._read(lib.baum_study_entry_at, _abi.baum_study_entry(), StudyEntry, k)
             for k in range(len(self))
@@ -423,7 +423,8 @@ class Study(_calls.Closing):
 
     @property
     def reference(self) -> StudyReference:
-        """How far the reference can be trusted. This is known after run()."""
+        """The quality of the reference: how far the reference can be trusted. It is known after
+        run()."""
         struct = _abi.baum_study_reference()
         found: StudyReference = self._read(lib.baum_study_reference_read, struct, StudyReference)
         return found
@@ -446,10 +447,11 @@ class Study(_calls.Closing):
     # ---- answers ---------------------------------------------------------------------------------
 
     def front(self, cost: Cost = "work") -> list[int]:
-        """Return the indices of the entries on the Pareto front, from cheap to accurate. No other
-        entry is both cheaper and more accurate than an entry on the front.
+        """Return the indices of the entries on the Pareto front, from the cheapest to the most
+        accurate. No other entry is both cheaper and more accurate than an entry on the front.
 
-        cost: "work", which is the same on every machine, or "cpu".
+        cost: "work" counts evaluations, factorizations and iterations of implicit methods, and is
+            the same on every machine. "cpu" is the CPU time.
         """
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
@@ -460,8 +462,9 @@ class Study(_calls.Closing):
     def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
         """Return what a method costs for a given error [-].
 
-        method: index of the method.
-        cost: "work" gives evaluations, "cpu" gives CPU time [s].
+        method: index of the method in `methods`.
+        cost: "work" gives the number of evaluations, factorizations and iterations of implicit
+            methods; "cpu" gives the CPU time [s].
         """
         out = ctypes.c_double()
         given = integer(method, "method"), number(error, "error"), word(COSTS, cost, "cost")
@@ -470,23 +473,24 @@ class Study(_calls.Closing):
 
     def compare(self, a: int, b: int, error: Scalar, cost: Cost = "work") -> float:
         """Return the cost of method a divided by the cost of method b, for the same error [-]. a
-        and b are indices."""
+        and b are indices of methods in `methods`."""
         out = ctypes.c_double()
         given = integer(a, "a"), integer(b, "b"), number(error, "error"), word(COSTS, cost, "cost")
         self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, this setting
-        keeps the limit also in runs from perturbed starts and over twice the time span. If no
-        setting does, the field `why` of the result says so. Raises baum.Error if no setting has so
-        small an error."""
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error of
+        this setting stays below this limit also in runs from perturbed initial states and over
+        twice the time span. If no setting achieves this, the attribute `why` of the result says so.
+        Raises baum.Error if no setting is accurate enough, or if the uncertainty of the reference
+        is larger than `error`."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
         """Return the most accurate setting whose run takes at most this CPU time [s] on this
-        machine. Raises baum.Error if there is none."""
+        machine. Raises baum.Error if no setting is fast enough."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
     def _answer(self, function: Any, *arguments: Any) -> Recommendation:
@@ -544,8 +548,8 @@ class Study(_calls.Closing):
         return in_python(report) if form == "text" else report
 
     def write(self, path: str | os.PathLike[str], title: str | None = None) -> None:
-        """Write a report to a file. The suffix determines its form: .txt, .csv, .json or .html. If
-        the file exists, it is replaced when the new one is complete."""
+        """Write a report to a file. The suffix of the path determines the form of the report: .txt,
+        .csv, .json or .html. An existing file is replaced only when the new file is complete."""
         suffix = os.path.splitext(os.fspath(path))[1]
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")

@@ -74,10 +74,10 @@ RECORDS = {
     "baum_near_singular": "An interval in which a run was near a singular configuration. branch is "
     '"continued", "left" or "unknown". The joint is a handle or None; after unpickling it is the '
     "name of the joint.",
-    "baum_study_entry": "What a setting costs and how accurate it is; NaN: not known. The scale of "
-    "a length is the characteristic length, and the scale of an angle is 1 rad. For error_lambda, "
-    "the multiplier of row i is multiplied by the norm of row i of the Jacobian, with each "
-    "column of the Jacobian multiplied by the scale of its coordinate.",
+    "baum_study_entry": "What a setting costs and how accurate it is. Unknown values are NaN. The "
+    "scale of a length is the characteristic length, and the scale of an angle is 1 rad. For "
+    "error_lambda, the multiplier of row i is multiplied by the norm of row i of the Jacobian. For "
+    "this norm, each column of the Jacobian is first multiplied by the scale of its coordinate.",
     "baum_study_method": "Entries of a study with the same integrator, formulation and gains.",
     "baum_study_reference": "How far the reference of a study can be trusted. error, error_q, "
     "error_v, error_lambda and energy_error are fields of StudyEntry.",
