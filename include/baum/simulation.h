@@ -287,8 +287,9 @@ typedef struct baum_simulation_options {
   int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
   /** Estimate the error of the motion by a second integration, from the start on, and warn if the
    *  error is large; see counters.error_estimate. If the run has a fixed step, the second
-   *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
-   *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
+   *  integration is rk8 at rtol 1e-8. If the run has variable steps, the second
+   *  integration uses the method of the run at 0.03 times its rtol, and the rtol of the run must be
+   *  at least 2e-14. The cost of the run at least doubles.
    *  If the second integration fails, or takes more than ten times as many evaluations as the run,
    *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics refuses this option,
    *  because it does not integrate.
