@@ -883,8 +883,8 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
                                                    baum_near_singular *out, size_t caller_size);
 
 /** Kinds of warnings. A warning with a code of 100 or more puts the motion in doubt: the result may
- *  be wrong by far more than its tolerance. Warnings with smaller codes are notes on a correct
- *  result. */
+ *  be wrong by far more than its tolerance. Warnings with smaller codes are notes, which do not put
+ *  the motion in doubt. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow, or may not decay. */
