@@ -294,8 +294,8 @@ typedef struct baum_simulation_options {
    *  the error is large; see error_estimate in baum_counters. If the run has a fixed step, the
    *  second integration uses rk8 with rtol = 1e-8. If the run has variable steps, the second
    *  integration uses the method of the run with 0.03 times its rtol, and the rtol of the run must
-   *  be at least 2e-14. The cost of the run at least doubles. If the second integration fails, or takes more
-   *  than ten times as many evaluations as the run, it ends, and the run warns
+   *  be at least 2e-14. The cost of the run at least doubles. If the second integration fails, or
+   *  takes more than ten times as many evaluations as the run, it ends, and the run warns
    *  (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this option, because it
    *  does not integrate.
    *
@@ -901,8 +901,8 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
                                                    baum_near_singular *out, size_t caller_size);
 
 /** Kinds of warnings. A warning with a code of 100 or more puts the motion in doubt: the result may
- *  be wrong by far more than its tolerance. Warnings with smaller codes are notes on a correct
- *  result. */
+ *  be wrong by far more than its tolerance. Warnings with smaller codes are notes, which do not put
+ *  the motion in doubt. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2, /**< With the gains of the run, violations may grow, or may not decay. */
