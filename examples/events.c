@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events and break times. In the first part a pendulum bounces at a stop, and the run finds the
- * times of the bounces. In the second part a torque acts on a pendulum during short intervals,
- * whose times are known in advance. */
+/* This example shows events and break times. In the first part a pendulum bounces at a stop, and
+ * the run finds the times of the bounces. In the second part a torque acts on a pendulum during
+ * short intervals, whose times are known in advance. */
 #include <baum/baum.h>
 
 #include "example_util.h"

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two legs of Theo Jansen's beach animals, moved by one driven crank. Jansen chose thirteen
-lengths: those of the crank and of the rods, and two distances from the crank to the hip. With these
-lengths, a foot moves along a nearly straight line while it is on the ground. The program writes a
-drawing, and a page that shows the motion."""
+"""One driven crank moves two legs of Theo Jansen's beach animals. Jansen chose thirteen lengths:
+those of the crank and of the rods, and two distances from the crank to the hip. With these lengths,
+a foot moves along a nearly straight line while it is on the ground. The program writes a drawing,
+and a page that shows the motion."""
 
 import sys
 from pathlib import Path

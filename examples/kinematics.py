@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The quick-return mechanism of a shaper, computed by kinematics. The motor leaves no degree of
-freedom, so every configuration follows from the constraints alone. The torque of the motor follows
-from the accelerations.
+"""This program computes the motion of the quick-return mechanism of a shaper by kinematics. The
+motor leaves no degree of freedom, so every configuration follows from the constraints alone. The
+torque of the motor follows from the accelerations.
 
 A pin of the crank slides in a slot of the rocker. A pin of the ram slides in the same slot, and a
 guide lets the ram move only horizontally. With the lengths R, D and H that are defined below, and

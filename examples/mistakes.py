@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Three typical modelling mistakes: a wrong point, a wrong axis and a wrong length, each in a
-four-bar linkage. The program writes pictures, in which red lines show which joint is open."""
+four-bar linkage. The program writes pictures of the design configuration, in which red lines mark
+the joints that are open, that is, violated."""
 
 from __future__ import annotations
 

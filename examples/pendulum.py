@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
+"""A pendulum modelled by one constraint function: 1 kg on a massless rod of 1 m, released from the
+horizontal."""
 
 import sys
 from typing import Any

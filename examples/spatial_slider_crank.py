@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A slider-crank in space. The crank rotates about the z axis. The slider moves on a line parallel
-to x, which lies beside and above the crank, at y = BESIDE and z = ABOVE. The crank is released at
-20 rad/s. The position of the slider follows from the angle of the crank in closed form, and the
-energy must stay constant."""
+"""A slider-crank in space. The crank rotates about the z axis. The slider moves parallel to the x
+axis, on the line y = BESIDE, z = ABOVE. The crank is released at 20 rad/s. The position of the
+slider follows from the angle of the crank in closed form, and the energy must stay constant."""
 
 import sys
 

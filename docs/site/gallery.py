@@ -55,7 +55,7 @@ SECTIONS = {
     "studies": ("Studies and mistakes", ""),
     "cookbook": (
         "Cookbook",
-        "Pages of the [cookbook](../docs/cookbook/index.md) that show a motion.\n\n",
+        "These pages of the [cookbook](../docs/cookbook/index.md) show a motion.\n\n",
     ),
 }
 # The C programs that a page shows, with a text about each. A page that is not listed shows the C program with the name
@@ -153,7 +153,7 @@ def c_program(path, text, folded=False):
 def c_programs(name):
     shown = IN_C.get(name, {})
     if not shown and (ROOT / "examples" / f"{name}.c").exists():
-        shown = {name: "The same in C"}
+        shown = {name: "The same example in C"}
     paths = [(ROOT / "examples" / f"{program}.c", text) for program, text in shown.items()]
     return "".join(c_program(path, text) for path, text in paths)
 
@@ -245,8 +245,9 @@ class Gallery:
             body += "| parameter | default | meaning |\n|---|---|---|\n"
             for p in entry.parameters.values():
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
-        body += f'\nBuild variants with `catalog.build("{entry.name}", name=value)`. [The table of all mechanisms]'
-        body += "(../docs/mechanisms.md) has the sources of the data.\n"
+            first = next(iter(entry.parameters))
+            body += f'\nTo build a variant, set parameters by name, as in `baum.catalog.build("{entry.name}", {first}=...)`.'
+        body += "\n[A table](../docs/mechanisms.md) compares the references of all mechanisms with published values.\n"
         source = source_of(entry)
         body += c_program(source, "How the catalogue builds it, in C", folded=True)
         name = f"known_{entry.name}"
@@ -290,8 +291,8 @@ class Gallery:
         text = "# Gallery\n\nEvery page about a mechanism shows its motion, measured quantities, the program that "
         text += "computed them, and a check against a known value. The programs run when this site is built; the "
         text += "build fails if a check fails. Each program is in `examples/`, where the tests of the project run it, "
-        text += "or it uses a mechanism of the library `baum_catalog` "
-        text += "([Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
+        text += "or it builds a mechanism of the library `baum_catalog` "
+        text += "(see [Mechanisms whose motion is known](../docs/mechanisms.md)).\n\n"
         for section, (heading, about) in SECTIONS.items():
             text += f"## {heading}\n\n{about}{self.cards_of(section)}"
         names = [name for _, name, _ in cards if "/" not in name]

@@ -199,7 +199,11 @@ def about_channels(name, found):
             f"{' and the angular velocity' if rotates else ''}{', both in ground axes' if name == 'spatial_body' else ''}."
             " `acceleration` contains the time derivative of `velocity`."
         )
-    text = " Each coordinate is recorded with its time derivative." if "`coordinate` (2)" in found else ""
+    text = ""
+    if "`coordinate` (2)" in found:
+        first = KINDS[name].coordinates[0]
+        text = f" `coordinate` and `{first}` are two names of the same quantity. Each coordinate is recorded with its time"
+        text += " derivative."
     if name in ("planar_gear", "coupling", "user_constraint"):
         text += " `reaction` contains the generalized force of the rows, with one number for each velocity of the bodies."
     elif "driver" in name:
@@ -256,13 +260,16 @@ class Page:
         text += f"## Fields\n\nThe table lists the fields of the C struct `baum_{self.name}_def`. {self.arguments(table)}"
         text += " Fields that are not set keep their defaults. Units are in brackets, where [-] means a pure number."
         shape = re.search(r"\| (\([a-z_]+\)) ", table)
-        text += f" An entry that begins with {shape[1]} is an array with this number of elements." if shape else ""
+        if shape:
+            text += f" An entry that begins with a name in parentheses, such as {shape[1]}, is an array with that number of"
+            text += " elements."
         text += f"\n\n{table}\n"
         found = channels(self.m, self.element) if self.m and self.kind.family != "force" else []
         if found:
             first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
-            text += f"## What a run can record\n\nThe argument `record` names what a run records, as in `{first}`. The following "
-            text += f"names can follow the dot; the number in parentheses is the number of values: {', '.join(found)}."
+            text += "## What a run can record\n\nThe argument `record` of {py:meth}`baum.Mechanism.simulate` names the "
+            text += f"quantities that a run records, as in `{first}`. After the dot stands one of the following names. "
+            text += f"The number in parentheses tells how many values it has: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
             text += self.in_c(found)
         links = uses(self.method)
@@ -280,7 +287,7 @@ class Page:
             elif name == "point":
                 text += " The method has no argument `point`."
             elif name.endswith("count"):
-                text += f" The method has no argument `{name}`, because it counts the entries of the lists."
+                text += f" The method has no argument `{name}`, because it takes this number from the lengths of its lists."
             else:
                 sys.exit(f"modelling.py: Mechanism.{self.method} has no argument {name}")
         return text

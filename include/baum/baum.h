@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Includes all public headers except catalog.h, which belongs to a separate library. Each header
- *  is the manual of its topic. */
+ *  Includes all public headers except catalog.h, which belongs to a separate library. The
+ *  comments in each header are the manual of its topic. */
 #ifndef BAUM_BAUM_H
 #define BAUM_BAUM_H
 

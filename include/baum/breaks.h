@@ -21,19 +21,19 @@ extern "C" {
  *  time. In a forward run, one step ends just before the break (a few rounding errors earlier), and
  *  the next step begins at the break. In a backward run, one step ends at the break, and the next
  *  step begins just before it. Methods that use past steps restart at the break
- *  (baum_counters.restarts counts this). If a break is not on the grid of a fixed-step method, the
- *  method shortens the step before the break (baum_counters.short_steps counts this) and begins a
- *  new grid at the break. Breaks do not change the times of outputs, with one exception: if the
- *  requested time of an output differs from a break only by rounding, the output is moved to the
- *  time of the break.
+ *  (baum_counters.restarts counts these restarts). If a break is not on the grid of a fixed-step
+ *  method, the method shortens the step before the break (baum_counters.short_steps counts such
+ *  steps) and begins a new grid at the break. Breaks do not change the times of outputs, with one
+ *  exception: if the requested time of an output differs from a break only by rounding, the output
+ *  is moved to the time of the break.
  *
  *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
  *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()
  *  describes how each formulation handles such a violation. baum_kinematics() is an exception: with
  *  this method, the velocities jump to the values that the law prescribes.
  *  @param     mechanism  not frozen; unchanged on failure
- *  @param[in] times      (count) [s] finite, in any order. They are added to the break times of
- *                        earlier calls. Copied. NULL if count is 0.
+ *  @param[in] times      (count) [s] new break times, finite, in any order. They are added to the
+ *                        break times of earlier calls. Copied. May be NULL if count is 0.
  *  @param     count      [-] >= 0
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const double *times,
@@ -47,9 +47,9 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
 /** Schedule the values of an input. The input has the value values[k] from times[k] to times[k +
- *  1]. After the last time, it keeps the last value. Before times[0] the input keeps the value that
- *  it has when this function is called. The schedule makes the input a function of time: the input
- *  also follows the schedule when the run goes backward in time, and after
+ *  1]. After the last time, it keeps the last value. Before times[0], the input keeps the value
+ *  that it has when this function is called. The schedule makes the input a function of time:
+ *  the input also follows the schedule when the run goes backward in time, and after
  *  baum_simulation_set_state() has moved the run to another time.
  *
  *  Each time at which the value changes is a break time of this run, see
@@ -61,8 +61,8 @@ BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanis
  *  @param     simulation  unchanged on failure
  *  @param     input       an input of the mechanism
  *  @param[in] times       (count) [s] finite, rising; times before the present time are allowed.
- *                         Copied. NULL if count is 0.
- *  @param[in] values      (count) finite. Copied. NULL if count is 0.
+ *                         Copied. May be NULL if count is 0.
+ *  @param[in] values      (count) values of the input, finite. Copied. May be NULL if count is 0.
  *  @param     count       [-] >= 0
  *  @return  as baum_simulation_set_input() */
 BAUM_API baum_status baum_simulation_schedule_input(baum_simulation *simulation,

@@ -12,10 +12,11 @@
  *  in structs are constant and must not be freed.
  *
  *  The reference of a mechanism is its known motion. This motion is given either as stored samples
- *  or by formulas (the field `exact` says which). Samples are valid for the default parameters
- *  only. Formulas are valid for all parameters, and for all times at which their rounding errors
- *  stay below the accuracy that `digits_q` and `digits_v` promise. If the reference is not valid
- *  for the parameters or the times of a motion, the library refuses to compare the motion with it.
+ *  or by formulas (baum_catalog_entry.exact says which). Samples are valid for the default
+ *  parameters only. Formulas are valid for all parameters, and for all times at which their
+ *  rounding errors stay below the accuracy that the fields `digits_q` and `digits_v` of
+ *  baum_catalog_entry promise. If the reference is not valid for the parameters or the times of a
+ *  motion, baum_catalog_compare() refuses to compare this motion with the reference.
  *
  *  Threads: every function may be called from any thread. */
 #ifndef BAUM_CATALOG_H
@@ -43,7 +44,7 @@ extern "C" {
 /** A mechanism of the catalogue. */
 typedef struct baum_catalog_entry {
   size_t struct_size; /**< Set by the function that fills the struct. */
-  const char *name;   /**< Such as "slider_crank". */
+  const char *name;   /**< Name of the mechanism, such as "slider_crank". */
   const char *title;  /**< Description in a few words. */
   const char *source; /**< Where the data of the mechanism come from. */
   /** How the reference was computed and checked; "" if the mechanism has no reference. */
@@ -54,10 +55,10 @@ typedef struct baum_catalog_entry {
   double start_time;       /**< [s] start of the motion and of its reference. */
   double end_time;         /**< [s] end of the motion and of its reference. */
   /** [-] number of correct digits of the reference positions: the error of a position q is at most
-   *  10^-digits_q max(1, |q|). NaN if there is no reference. */
+   *  10^(-digits_q) max(1, |q|). NaN if there is no reference. */
   double digits_q;
   /** [-] number of correct digits of the reference velocities: the error of a velocity v is at most
-   *  10^-digits_v max(1, |v|). NaN if there is no reference. */
+   *  10^(-digits_v) max(1, |v|). NaN if there is no reference. */
   double digits_v;
   bool exact; /**< True if the reference consists of formulas. */
   /** True if the motion with default parameters passes through no singular configuration. */
@@ -67,8 +68,8 @@ typedef struct baum_catalog_entry {
 /** A parameter of a mechanism of the catalogue. */
 typedef struct baum_catalog_parameter {
   size_t struct_size;  /**< Set by the function that fills the struct. */
-  const char *name;    /**< Such as "eccentricity". */
-  const char *unit;    /**< Such as "kg m^2"; "-" for a pure number. */
+  const char *name;    /**< Name of the parameter, such as "eccentricity". */
+  const char *unit;    /**< Unit of `value`, such as "kg m^2"; "-" for a pure number. */
   const char *meaning; /**< What the parameter describes. */
   double value;        /**< [unit] default value of the parameter. */
   bool positive;       /**< True if the value must be > 0. */
@@ -78,14 +79,16 @@ typedef struct baum_catalog_parameter {
 /** A value for a parameter. */
 typedef struct baum_catalog_setting {
   const char *name; /**< Name of the parameter. */
-  double value;     /**< [unit of the parameter] finite. */
+  double value;     /**< [unit of the parameter] value of the parameter, finite. */
 } baum_catalog_setting;
 
 /** A choice: which mechanism of the catalogue to build, and with which parameters. */
 typedef struct baum_catalog_choice {
-  const char *name;                     /**< Name of the entry. */
-  const baum_catalog_setting *settings; /**< (setting_count) values; NULL if there are none. */
-  int32_t setting_count; /**< [-] >= 0, number of settings; other parameters have their defaults. */
+  const char *name; /**< Name of the entry. */
+  /** (setting_count) values of some parameters. All other parameters have their default values. May
+   *  be NULL if setting_count is 0. */
+  const baum_catalog_setting *settings;
+  int32_t setting_count; /**< [-] >= 0, number of elements of `settings`. */
 } baum_catalog_choice;
 
 /** Count the entries of the catalogue. @return number of entries */
@@ -131,7 +134,7 @@ BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choic
 /* ---- references ------------------------------------------------------------------------------ */
 
 /** Read the times of the samples of a reference. If the reference consists of formulas, the times
- *  have equal distances.
+ *  are equally spaced.
  *  @param[in]  name   name of the entry
  *  @param[out] times  (sample_count) [s] rising, from start_time to end_time
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (the entry has no reference) */
@@ -139,9 +142,9 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 
 /** Compute positions and velocities of the reference at a time.
  *  @param[in]  choice  entry and parameters
- *  @param      t       [s] a time of baum_catalog_times(). If the reference consists of formulas,
- *                      any finite time is allowed.
- *  @param[out] q       (nq) positions in the order of the mechanism. May be NULL.
+ *  @param      t       [s] one of the times that baum_catalog_times() returns. If the reference
+ *                      consists of formulas, any finite time is allowed.
+ *  @param[out] q       (nq) positions in the order of the mechanism's coordinates. May be NULL.
  *  @param[out] v       (nv) velocities. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED
  *           (there is no reference, or none for these parameters, or the formulas are not accurate
@@ -165,7 +168,7 @@ BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, doubl
  *  user coordinates are not scaled. The error of an orientation in space is the rotation that leads
  *  from the reference to the state; it has three components, the rotations about the body axes
  *  [rad]. Errors of velocities are scaled in the same way and then divided by the largest scaled
- *  velocity of the reference. The fields q_floor and v_floor state the uncertainty of the
+ *  velocity of the reference. The fields q_floor and v_floor contain the uncertainty of the
  *  reference. An error that is smaller than this uncertainty has no meaning. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
@@ -187,7 +190,8 @@ typedef struct baum_catalog_error {
  *  @param[in]  times        (n) [s] each must be allowed as t in baum_catalog_reference()
  *  @param      n            [-] > 0
  *  @param[in]  q            (n x nq) positions at these times
- *  @param[in]  v            (n x nv) velocities at these times. NULL: velocities are not compared.
+ *  @param[in]  v            (n x nv) velocities at these times. If v is NULL, the function does not
+ *                           compare velocities.
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return  BAUM_OK, BAUM_ERR_STATE (not frozen), or a status of baum_catalog_reference() */

@@ -14,8 +14,8 @@
  *  a size that corresponds to its inertia. Joints and forces are drawn as symbols. You can give
  *  a body outlines (shapes of your own), which replace the shape that the library chooses.
  *
- *  Functions that write a file replace an older file of the same name in the way that the comment
- *  on baum_study_write() describes. Drawing does not change the mechanism. */
+ *  If a function of this header writes a file and a file of this name exists, the new file replaces
+ *  the older one as described at baum_study_write(). Drawing does not change the mechanism. */
 #ifndef BAUM_DRAW_H
 #define BAUM_DRAW_H
 
@@ -84,16 +84,17 @@ static inline baum_outline baum_outline_default(void)
   return outline;
 }
 
-/** Set the outlines of a body. The body is then drawn by these outlines instead of the shape that
- *  the library has chosen. Every body may have outlines of every form; ground may have them, too.
+/** Set the outlines of a body. The body is then drawn with these outlines instead of the shape that
+ *  the library has chosen. Planar and spatial bodies, particles and ground may have outlines of
+ *  every form.
  *  The mechanism may be frozen or not. Outlines change only drawings, not the motion. Copies of the
  *  mechanism have the same outlines. While this function runs, no other thread may draw or copy the
  *  mechanism.
  *  @param     mechanism  unchanged on failure
  *  @param     body       a body of the mechanism, but not a body of user coordinates, because such
  *                        a body has no position in space
- *  @param[in] outlines   (count) replace all earlier outlines of the body. Copied. NULL if count is
- *                        0.
+ *  @param[in] outlines   (count) new outlines, which replace all earlier outlines of the body.
+ *                        Copied. May be NULL if count is 0.
  *  @param     count      [-] >= 0, number of outlines; with 0 the body is drawn with the shape that
  *                        the library chooses
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY */
@@ -126,8 +127,9 @@ BAUM_API baum_status baum_mechanism_get_outline(const baum_mechanism *mechanism,
  *  line, plane or curve on which the point should be. For a distance joint, it connects a point
  *  with the sphere on which the point should be.
  *  @param      mechanism  must be frozen unless q is NULL
- *  @param[in]  q          (nq) positions. NULL: the design configuration.
- *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param[in]  q          (nq) positions. If q is NULL, the design configuration is drawn.
+ *  @param[out] text       (capacity) the picture, zero-terminated, truncated if too long. May be
+ *                         NULL if capacity is 0.
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_NOT_FINITE,
@@ -137,14 +139,14 @@ BAUM_API baum_status baum_mechanism_svg(const baum_mechanism *mechanism, const d
 
 /** Write the picture of baum_mechanism_svg() into a file.
  *  @param     mechanism  must be frozen unless q is NULL
- *  @param[in] q          (nq) positions. NULL: the design configuration.
+ *  @param[in] q          (nq) positions. If q is NULL, the design configuration is drawn.
  *  @param[in] path       path of the file
  *  @return  as baum_mechanism_svg(), and BAUM_ERR_FILE */
 BAUM_API baum_status baum_mechanism_write_svg(const baum_mechanism *mechanism, const double *q,
                                               const char *path);
 
-/** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, draw the
- *  configuration in which assembly stopped; red lines then show the joints in conflict.
+/** Draw the assembled configuration at t = 0. If the mechanism cannot be assembled, the function
+ *  draws the configuration in which assembly stopped, and red lines show the joints in conflict.
  *  @param      mechanism  frozen or not
  *  @param[out] text       (capacity) as in baum_mechanism_svg()
  *  @param      capacity   [byte]
@@ -166,14 +168,15 @@ typedef enum baum_mark_kind {
 } baum_mark_kind;
 
 /** The content of an HTML page: samples of a run as baum_simulation_sample() records them. All
- *  pointers belong to the caller and are read only during the call. */
+ *  pointers belong to the caller. The library reads them only during the call that writes or draws
+ *  the page. */
 typedef struct baum_page {
   size_t struct_size; /**< Set by the default function. Do not write. */
   const char *title;  /**< Default: NULL, the title "Mechanism". */
   /** (count) [s] times of the samples, monotone. Default: NULL, must be set. */
   const double *times;
-  /** [-] > 0, number of samples. A page keeps at most 600 samples. It always keeps those at which a
-   *  plotted column has its largest or its smallest value. Default: 0, must be set. */
+  /** [-] > 0, number of samples. A page keeps at most 600 samples, always including those at which
+   *  a plotted column has its largest or its smallest value. Default: 0, must be set. */
   int64_t count;
   /** (channel_count) the channels that each row of `rows` contains. BAUM_Q must be one of them.
    *  Reactions (BAUM_JOINT_REACTION) are shown as arrows. Default: NULL, must be set. */
@@ -193,15 +196,16 @@ typedef struct baum_page {
   /** (plot_count) labels of the columns, such as "slider velocity [m/s]". Consecutive columns with
    *  the same unit are drawn in the same plot. Default: NULL, must be set if plot_count > 0. */
   const char *const *plot_labels;
-  /** (trace_count) the points whose paths are drawn; each is a channel BAUM_BODY_POSE.
-   *  Default: NULL, none. */
+  /** (trace_count) the points whose paths are drawn; each is given as a channel with the quantity
+   *  BAUM_BODY_POSE. Default: NULL, none. */
   const baum_channel *traces;
   int32_t trace_count; /**< [-] >= 0, number of traces. Default: 0. */
-  /** (mark_count) [s] times of the marks, which stand for events and warnings. Default: NULL. */
+  /** (mark_count) [s] times of the marks, which stand for warnings, near-singular intervals and
+   *  events. Default: NULL. */
   const double *mark_times;
   const char *const *mark_texts; /**< (mark_count) labels of the marks. Default: NULL. */
-  /** (mark_count) kinds of the marks, as values of baum_mark_kind. Default: NULL, all are
-   *  BAUM_MARK_WARNING. */
+  /** (mark_count) kinds of the marks, as values of baum_mark_kind. Default: NULL, which means that
+   *  all marks are BAUM_MARK_WARNING. */
   const int32_t *mark_kinds;
   int32_t mark_count; /**< [-] >= 0, number of marks. Default: 0. */
 } baum_page;
@@ -231,7 +235,8 @@ BAUM_API baum_status baum_page_write(const baum_mechanism *mechanism, const baum
 /** Write a page into memory.
  *  @param      mechanism  frozen
  *  @param[in]  page       what the page shows
- *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param[out] text       (capacity) the page, zero-terminated, truncated if too long. May be
+ *                         NULL if capacity is 0.
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole page without the final zero. May be NULL.
  *  @return  as baum_page_write() without BAUM_ERR_FILE */
@@ -245,7 +250,8 @@ BAUM_API baum_status baum_page_print(const baum_mechanism *mechanism, const baum
  *  @param      mechanism  frozen
  *  @param[in]  page       what the page shows
  *  @param      sample     [-] >= 0, < count of the page
- *  @param[out] text       (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param[out] text       (capacity) the picture, zero-terminated, truncated if too long. May be
+ *                         NULL if capacity is 0.
  *  @param      capacity   [byte]
  *  @param[out] size       [byte] length of the whole picture without the final zero. May be NULL.
  *  @return  as baum_page_print(), and BAUM_ERR_NOT_FINITE for positions that are not finite */

@@ -12,10 +12,10 @@
  *  order in which the joints were added. The units of results follow from the units of the
  *  coordinates.
  *
- *  Every call returns BAUM_OK or one of these statuses: BAUM_ERR_ARGUMENT (an argument is NULL or
- *  not finite), BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element),
- *  BAUM_ERR_STATE (the call comes from a user function that the same workspace is calling). The
- *  comments of the functions name further statuses.
+ *  Every call may return BAUM_OK, BAUM_ERR_ARGUMENT (an argument is NULL or not finite),
+ *  BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE (the message names the element), or BAUM_ERR_STATE (the
+ *  call comes from a user function that the same workspace is calling). The comments of the
+ *  functions name the other statuses that a function may return.
  *
  *  Threads: only one thread at a time may use a workspace. Any number of workspaces may share a
  *  mechanism. */
@@ -90,7 +90,7 @@ BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_jo
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by a displacement dx (nv). For bodies whose positions form a vector, the result
+/** Move positions by the displacement dx. For bodies whose positions form a vector, the result
  *  is q + dx.
  *  @param         workspace  a workspace of the mechanism
  *  @param[in]     dx         (nv) the displacement
@@ -108,7 +108,7 @@ BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double
 BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
                                                const double *to, double *dx);
 
-/** Evaluate the constraints Phi(q, t) (equation 1).
+/** Evaluate the constraints Phi(q, t).
  *  @param      workspace      a workspace of the mechanism
  *  @param      t              [s] time
  *  @param[in]  q              (nq) positions
@@ -117,8 +117,8 @@ BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const 
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Evaluate the velocity Jacobian J = (dPhi/dq) N (equation 3). N is the matrix in q' = N v. For
- *  bodies whose positions form a vector, N is the identity matrix.
+/** Evaluate the velocity Jacobian J = (dPhi/dq) N, where N is the matrix in q' = N v. For bodies
+ *  whose positions form a vector, N is the identity matrix.
  *  @param      workspace      a workspace of the mechanism
  *  @param      t              [s] time
  *  @param[in]  q              (nq) positions
@@ -127,7 +127,7 @@ BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, con
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                              double *jacobian);
 
-/** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu (equation 3).
+/** Evaluate nu = -dPhi/dt, the right-hand side of the velocity constraints J v = nu.
  *  @param      workspace      a workspace of the mechanism
  *  @param      t              [s] time
  *  @param[in]  q              (nq) positions
@@ -136,7 +136,7 @@ BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t
 BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
                                        double *nu);
 
-/** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma (equation 4).
+/** Evaluate gamma, the right-hand side of the acceleration constraints J a = gamma.
  *  @param      workspace        a workspace of the mechanism
  *  @param      t                [s] time
  *  @param[in]  q                (nq) positions
@@ -167,7 +167,8 @@ BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, c
                                           const double *v, double *force);
 
 /** Evaluate the kinetic energy and the potential energy. The potential energy is the sum of the
- *  potentials of gravity, springs, constant loads and user potentials.
+ *  potentials of gravity, springs, loads that are only a constant force in ground axes, and user
+ *  potentials.
  *  @param      workspace        a workspace of the mechanism
  *  @param      t                [s] time
  *  @param[in]  q                (nq) positions
@@ -178,16 +179,16 @@ BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, c
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
                                            const double *v, double *kinetic, double *potential);
 
-/** Solve M a + J^T lambda = g and J a = gamma - 2 alpha Phi' - beta^2 Phi (equation 7) for the
- *  accelerations a and the multipliers lambda. With alpha = beta = 0, this is equation 5, without
- *  stabilization.
+/** Solve M a + J^T lambda = g and J a = gamma - 2 alpha Phi' - beta^2 Phi for the accelerations a
+ *  and the multipliers lambda. The gains alpha and beta are those of Baumgarte's stabilization.
+ *  With alpha = beta = 0, the equations are not stabilized.
  *
  *  The solution omits redundant constraint rows. Where multipliers are not unique, the function
  *  returns the multipliers of least norm. This norm weights each lambda_i with the length of row i
- *  of J M^(-1/2). These multipliers balance the forces with a relative error of at most 1e-9. If
- *  the rows that are not omitted become nearly dependent on each other, the workspace chooses other
- *  rows to omit, which allocates memory. From then on, baum_workspace_residual() omits the same
- *  rows.
+ *  of J M^(-1/2). The returned multipliers satisfy M a + J^T lambda = g with a relative error
+ *  of at most 1e-9. If the rows that are not omitted become nearly dependent on each other, the
+ *  workspace chooses other rows to omit, which allocates memory. From then on,
+ *  baum_workspace_residual() omits the newly chosen rows, too.
  *  @param      workspace        a workspace of the mechanism
  *  @param      t                [s] time
  *  @param[in]  q                (nq) positions
@@ -221,17 +222,18 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              double *reaction);
 
 /** The form of the equations that baum_workspace_residual() evaluates. The residual has three
- *  parts: q' - N v, M v' + J^T lambda - g, and the constraints in one of the forms below.
+ *  parts: q' - N v, where the matrix N maps velocities to q'; M v' + J^T lambda - g; and the
+ *  constraints in one of the forms below.
  *
- *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first expression by q' - N (v - W^-1 J^T mu),
- *  with one additional unknown mu for each constraint row. In the exact solution all mu are zero. W
- *  is a constant diagonal matrix. Its diagonal is the diagonal of M in the design configuration at
+ *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first part by q' - N (v - W^-1 J^T mu), with one
+ *  additional unknown mu for each constraint row. In the exact solution all mu are zero. W is a
+ *  constant diagonal matrix. Its diagonal is the diagonal of M in the design configuration at
  *  t = 0, but very small entries are raised: entry k is at least m / s_k^2, where s_k is the scale
- *  of coordinate k, and m is a millionth of the largest M_jj s_j^2.
+ *  of coordinate k, and m is a millionth of the largest of all products M_jj s_j^2.
  *
- *  Rows of velocity level (non-holonomic constraints J v = nu) have no Phi. For these rows, INDEX1
- *  contains J v' - gamma + alpha Phi', INDEX3 contains Phi' instead of Phi, and GGL contains mu_i
- *  instead of Phi. */
+ *  Rows of velocity level (non-holonomic constraints J v = nu) have no Phi; for these rows, Phi'
+ *  stands for J v - nu. INDEX1 contains J v' - gamma + alpha Phi' for them, INDEX3 contains Phi'
+ *  instead of Phi, and GGL contains mu_i instead of Phi. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
@@ -239,26 +241,31 @@ typedef enum baum_residual {
   BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu of all rows, followed by Phi of all rows. */
 } baum_residual;
 
-/** The equations to evaluate: their form and their gains. */
+/** The differential-algebraic equations to evaluate: the form of the constraints, and Baumgarte's
+ *  gains. */
 typedef struct baum_dae {
   baum_residual index; /**< Form of the constraints. */
-  double alpha;        /**< [1/s] finite; used only by BAUM_RESIDUAL_INDEX1. */
-  double beta;         /**< [1/s] finite; used only by BAUM_RESIDUAL_INDEX1. */
+  double alpha; /**< [1/s] Baumgarte's gain alpha, finite; used only by BAUM_RESIDUAL_INDEX1. */
+  double beta;  /**< [1/s] Baumgarte's gain beta, finite; used only by BAUM_RESIDUAL_INDEX1. */
 } baum_dae;
 
-/** A sparse square matrix in compressed-column form. Its size is the number of unknowns y. Within a
- *  column, entries are sorted by row. The caller owns the arrays. */
+/** A sparse square matrix in compressed-column form. It has one row and one column for each of the
+ *  unknowns y of baum_workspace_residual(). Within a column, entries are sorted by row. The caller
+ *  owns the arrays. */
 typedef struct baum_sparse {
-  int32_t *columns; /**< (size + 1) index of the first entry of each column. May be NULL. */
-  int32_t *rows;    /**< (nonzeros) row of each entry, from 0. May be NULL. */
+  /** (size + 1) for each column, the index of its first entry in the other two arrays; then the
+   *  number of entries. size is the number of columns. May be NULL. */
+  int32_t *columns;
+  int32_t *rows;    /**< (nonzeros) row of each entry, counted from 0. May be NULL. */
   double *values;   /**< (nonzeros) value of each entry. May be NULL. */
-  int32_t nonzeros; /**< [-] number of entries; always written. */
+  int32_t nonzeros; /**< [-] number of entries; written even if the arrays are NULL. */
 } baum_sparse;
 
-/** Evaluate the residual F(t, y, y') of the differential-algebraic equations. The unknowns are y =
- *  (q, v, lambda), and for GGL y = (q, v, lambda, mu). If row i is redundant and omitted, its
- *  constraint is replaced by the equation lambda_i = 0. GGL has two equations for each row, Phi'
- *  and Phi: lambda_i = 0 replaces Phi', and mu_i = 0 replaces Phi.
+/** Evaluate the residual F(t, y, y') of the differential-algebraic equations. The unknowns are
+ *  y = (q, v, lambda), or y = (q, v, lambda, mu) with BAUM_RESIDUAL_GGL. If row i is redundant and
+ *  omitted, its constraint is replaced by the equation lambda_i = 0. GGL has two equations for each
+ *  row, Phi' = 0 and Phi = 0. If row i is omitted, lambda_i = 0 replaces the first one, and
+ *  mu_i = 0 replaces the second one.
  *  @param      workspace    a workspace of the mechanism
  *  @param      t            [s] time
  *  @param[in]  dae          the equations to evaluate
@@ -292,14 +299,14 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
  *  given. Newton's method computes the change of q, and each of its steps is the smallest possible
  *  one in the mass-weighted norm. The sum of the steps is therefore close to the smallest possible
  *  change, unless J changes much during the move. If J changes much and bodies move more than you
- *  want, list the bodies that must not move in `held`.
+ *  want, list in `held` the bodies that must not move.
  *  @param         workspace    a workspace of the mechanism
  *  @param         t            [s] time
  *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
  *  @param[in,out] v            (nv) velocities. Finite entries do not change. Entries that are NaN
  *                              are computed from the constraints. If the constraints do not
- *                              determine these entries, the function chooses the velocities of
- *                              least norm. Unchanged on failure.
+ *                              determine these entries, the function chooses the velocities with
+ *                              the smallest mass-weighted norm. Unchanged on failure.
  *  @param[in]     held         (held_count) bodies that assembly must not move, in addition to
  *                              those whose definition sets `held`. May be NULL if held_count is 0.
  *  @param         held_count   [-] >= 0
@@ -312,7 +319,7 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
 /** Project a state onto the constraints: change q by the least amount such that Phi = 0, and then v
  *  by the least amount such that J v = nu. The amounts are measured in the norm of the mass matrix
  *  M. For a slender rod, whose axial moment of inertia is very small, this norm uses a larger
- *  moment.
+ *  moment of inertia about the axis.
  *  @param         workspace    a workspace of the mechanism
  *  @param         t            [s] time
  *  @param[in,out] q            (nq) positions that violate the constraints only a little; unchanged

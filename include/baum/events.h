@@ -8,11 +8,11 @@
  *  outputs. If the sign of a function has changed, the run searches for the time of the event. The
  *  search needs states inside the step. The run computes these states in the same way as outputs:
  *  variable-step methods interpolate the step, and fixed-step methods take shorter steps from the
- *  start of the step. A joint coordinate may pass its value and return between two evaluations. The
- *  run usually detects both events, because it also knows the rate of the coordinate. A user
- *  function may also pass zero twice between two evaluations, but then the run detects neither of
- *  these events. To avoid this, reduce max_step for variable-step methods, or the step for
- *  fixed-step methods.
+ *  start of the step. A joint coordinate may pass the value of its event and return between two
+ *  evaluations. The run usually detects both of these events, because it also knows the rate of the
+ *  coordinate. A user function may also pass zero twice between two evaluations, but then the run
+ *  detects neither of these events. To avoid this, reduce max_step for variable-step methods, or
+ *  the step for fixed-step methods.
  *
  *  Breaks: an event function may jump through zero at a declared break time or where a scheduled
  *  input changes (baum/breaks.h). This jump is an event at the time of the break. In a backward
@@ -31,10 +31,10 @@
  *
  *  Impacts: a program may model the impacts of a body on a stop by a terminal event, and reverse
  *  the velocities at each impact. The impacts may follow each other ever faster. In the end, one of
- *  two cases occurs: the event happens again shortly after the last impact, although the reversed
- *  velocities move the event function away from zero; or the method computes velocities with the
- *  wrong sign at the next impact. In both cases the run fails with BAUM_ERR_STEP, because the body
- *  would otherwise fall through the stop. Let such a body rest once it is slow; the page
+ *  two cases occurs: the event happens again shortly after the previous impact, although the
+ *  reversed velocities move the event function away from zero; or the method computes velocities
+ *  with the wrong sign at the next impact. In both cases the run fails with BAUM_ERR_STEP, because
+ *  the body would otherwise fall through the stop. Let such a body rest once it is slow; the page
  *  "docs/cookbook/stop.md" shows how.
  *
  *  Changes by the program: baum_simulation_set_input() and baum_simulation_set_driver() trigger no
@@ -42,7 +42,7 @@
  *  sign.
  *
  *  Events do not alter the motion, with one exception: if a fixed-step run stops at an event, it
- *  begins a new grid of steps there. */
+ *  begins a new grid of steps at the time of the event. */
 #ifndef BAUM_EVENTS_H
 #define BAUM_EVENTS_H
 
@@ -64,14 +64,15 @@ typedef struct baum_event_def {
   /** A joint with a coordinate. Must be set if function is NULL, and only then. Default: none. */
   baum_joint_id joint;
   double value; /**< [rad or m] value of the joint coordinate at the event. Default: 0. */
-  /** [-] which zeros are events. 1: only those where the function rises in time; -1: only those
-   *  where it falls; 0: all zeros. Default: 0. */
+  /** [-] which zeros of the event function are events, or which passes of the joint coordinate
+   *  through `value`. 1: only those where the function or the coordinate rises in time; -1: only
+   *  those where it falls; 0: all of them. Default: 0. */
   int32_t direction;
-  bool terminal; /**< The run stops at the event (BAUM_STOP_EVENT). Default: true. */
+  bool terminal; /**< True if the run stops at the event (BAUM_STOP_EVENT). Default: true. */
   /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
   double tolerance;
   void *user; /**< Passed to `function`. Not owned. Default: NULL. */
-  /** [-] which coordinate of `joint`. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of `joint` that the event observes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_event_def;
 
@@ -88,9 +89,9 @@ static inline baum_event_def baum_event_def_default(void)
 /** Add an event to a run. The run looks for the event from the present state on. When a run stops
  *  at an event, the call that advances the run returns BAUM_STOP_EVENT, and the state of the run is
  *  the state at the event. The next call continues the run. If baum_simulation_sample() returns
- *  BAUM_STOP_EVENT, it has filled the rows of the times before the event. If several events happen
- *  at the same time, the run records all of them before it stops. If an event happens exactly at
- *  the time at which a call ends, that call records it.
+ *  BAUM_STOP_EVENT, it has written the samples of the times before the event. If several events
+ *  happen at the same time, the run records all of them before it stops. If an event happens
+ *  exactly at the time at which a call ends, that call records it.
  *  @param      simulation  unchanged on failure
  *  @param[in]  def         copied
  *  @param[out] index       receives the number of the event; events are numbered 0, 1, ... in the
@@ -105,7 +106,8 @@ typedef struct baum_event_record {
   size_t struct_size; /**< Set by baum_simulation_event(). */
   double t;      /**< [s] time of the event; equal for events that cannot be separated in time. */
   int32_t event; /**< [-] number of the event, from baum_simulation_add_event(). */
-  int32_t direction; /**< [-] 1: the function rises in time; -1: it falls. */
+  /** [-] 1: the event function or the joint coordinate rises in time; -1: it falls. */
+  int32_t direction;
 } baum_event_record;
 
 /** Count the events that have happened since the run was created.

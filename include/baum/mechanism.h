@@ -24,9 +24,9 @@
  *  Angles are in radians. The comments in the headers give SI units in brackets; [-] means a pure
  *  number. The shapes of arrays are in parentheses.
  *
- *  Scales: tolerances are relative to the *scale* of a coordinate. The scale of a length is the
- *  characteristic length of the mechanism, and the scale of an angle is 1. For user coordinates,
- *  the field `scale` gives the scale.
+ *  Scales: the tolerance of a coordinate is relative to the *scale* of this coordinate. The scale
+ *  of a length is the characteristic length of the mechanism, and the scale of an angle is 1. For
+ *  user coordinates, the field `scale` gives the scale.
  *
  *  Order: q and v contain the coordinates in the order in which the bodies were added. Constraint
  *  rows and lambda are in the order in which the joints were added.
@@ -88,7 +88,7 @@ typedef struct baum_mechanism baum_mechanism;
 /** Identifies a body of a mechanism. The id is also valid in copies of this mechanism. An all-zero
  *  id means no body, and functions refuse it. */
 typedef struct baum_body_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_body_id;
 
@@ -96,19 +96,19 @@ typedef struct baum_body_id {
  *  joint, and functions refuse it.
  */
 typedef struct baum_joint_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_joint_id;
 
 /** Identifies a force. An all-zero id means no force, and functions refuse it. */
 typedef struct baum_force_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_force_id;
 
 /** Identifies an input. An all-zero id means no input. */
 typedef struct baum_input_id {
-  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  int32_t index1; /**< Private: number of the element, counted from 1. */
   uint32_t tag;   /**< Private: identifies the mechanism. */
 } baum_input_id;
 
@@ -160,50 +160,50 @@ typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest point of the configuration manifold, for example a quaternion by the
- *  unit quaternion of the same direction. Do not change the sign of a quaternion here. Integrators
- *  that combine the positions of several steps would lose their order of accuracy at the change of
- *  sign. */
+ *  unit quaternion of the same direction. This function must not change the sign of a quaternion.
+ *  Integrators that combine the positions of several steps would lose their order of accuracy at
+ *  the change of sign. */
 typedef void baum_normalize_fn(double *q, void *user);
 
 /** A body with user coordinates. Functions of yours give its mass matrix and its force.
  *
  *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
- *  quaternion, set position_scale and the fields below it; the time derivative of q is then N(q) v.
- *  In this case every function except `rate` and `normalize` receives a normalized q. Derivatives
- *  with respect to q, such as force_q, are then derivatives along the `size` components of a
- *  displacement. This also applies to constraints on these coordinates: their Jacobian is the
- *  product of dPhi/dq and N. The functions rate, move, difference and normalize report a failure by
- *  writing NaN. */
+ *  quaternion, also set the last fields of this struct, from position_scale to position_count; the
+ *  time derivative of q is then N(q) v. In this case every function except `rate` and `normalize`
+ *  receives a normalized q. Derivatives with respect to q, such as force_q, are then derivatives
+ *  along the `size` components of a displacement. This also applies to constraints on these
+ *  coordinates: their Jacobian is the product of dPhi/dq and N. The functions rate, move,
+ *  difference and normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by baum_coordinates_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
   /** (position_count) positions in the design configuration; they must lie on the configuration
-   *  manifold. Copied. Default: NULL, zeros; must be set if `rate` is set. */
+   *  manifold. Copied. Default: NULL, which means zeros; must be set if `rate` is set. */
   const double *q;
   /** (size) initial velocities. Where an entry is NaN, the velocity is free, which means that
    *  assembly determines it. Copied. Default: NULL, all free. */
   const double *v;
-  /** (size) > 0, the scale of each coordinate: the size of a typical change. Tolerances are
-   *  relative to the scale. Copied. Default: NULL, ones. */
+  /** (size) scale of each coordinate, > 0: the amount of a typical change. Tolerances are relative
+   *  to the scale. Copied. Default: NULL, ones. */
   const double *scale;
-  /** The mass matrix: out (size x size), symmetric and positive semidefinite. Default: NULL, must
-   *  be set. */
+  /** Computes the mass matrix, out (size x size), which is symmetric and positive semidefinite.
+   *  Default: NULL, must be set. */
   baum_q_fn *mass;
-  /** The generalized force g, including the velocity terms: out (size). Default: NULL, must be set.
-   */
+  /** Computes the generalized force g, out (size). It includes the velocity terms. Default: NULL,
+   *  must be set. */
   baum_force_fn *force;
-  /** dg/dq: out (size x size). Default: NULL, computed by differences. */
+  /** Computes dg/dq, out (size x size). Default: NULL, computed by differences. */
   baum_force_fn *force_q;
-  /** dg/dv: out (size x size). Default: NULL, computed by differences. */
+  /** Computes dg/dv, out (size x size). Default: NULL, computed by differences. */
   baum_force_fn *force_v;
-  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
+  baum_q_fn *potential;     /**< Computes the potential energy, out (1) [J]. Default: NULL, none. */
   bool constant_mass;       /**< True if mass() always returns the same matrix. Default: false. */
   bool held;                /**< True if assembly must not change q. Default: false. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
-  /** (position_count) > 0, a typical change of each position. Copied. Used if `rate` is set.
-   *  Default: NULL, ones. */
+  /** (position_count) amount of a typical change of each position, > 0. Copied. Used only if
+   *  `rate` is set. Default: NULL, ones. */
   const double *position_scale;
   baum_rate_fn *rate; /**< Computes q' = N(q) v. Default: NULL, q' = v. */
   /** Moves q by a displacement. Default: NULL; must be set if `rate` is set. */
@@ -277,7 +277,7 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
  *  those of a wheel that does not slip. For such constraints, `jacobian` is required and `phi` must
- *  be NULL. With Baumgarte's gain alpha (stabilization.h), their accelerations satisfy
+ *  be NULL. With Baumgarte's gain alpha (stabilization.h), the accelerations a satisfy
  *  J a = gamma - alpha (J v - nu).
  *
  *  The functions must be valid everywhere, not only where Phi = 0. Derivatives that you do not give
@@ -291,17 +291,20 @@ typedef struct baum_user_constraint_def {
   const baum_body_id *bodies;
   int32_t body_count; /**< [-] number of bodies, > 0. Default: 0, must be set. */
   int32_t row_count;  /**< [-] number of rows, > 0. Default: 0, must be set. */
-  /** Phi(q, t): out (row_count). Default: NULL, must be set unless velocity_level is true. */
+  /** Computes Phi(q, t), out (row_count). Default: NULL, must be set unless velocity_level is true.
+   */
   baum_q_fn *phi;
-  /** J: out (row_count x nv). Default: NULL, computed by differences of `phi`. */
+  /** Computes J, out (row_count x nv). Default: NULL, computed by differences of `phi`. */
   baum_q_fn *jacobian;
-  /** nu = -dPhi/dt: out (row_count). Default: NULL, computed by differences of `phi` in t. */
+  /** Computes nu = -dPhi/dt, out (row_count). Default: NULL, computed by differences of `phi` in t.
+   */
   baum_q_fn *nu;
-  /** gamma in J a = gamma: out (row_count). Default: NULL, computed by differences of `phi`. */
+  /** Computes gamma in J a = gamma, out (row_count). Default: NULL, computed by differences of
+   *  `phi`. */
   baum_qv_fn *gamma;
   void *user; /**< Passed to the functions. Not owned. Default: NULL. */
-  /** True for constraints J v = nu on velocities, without a Phi. If the function `nu` is NULL,
-   *  these constraints have nu = 0. Default: false. */
+  /** True for constraints J v = nu on velocities. In this case, `jacobian` must be set and `phi`
+   *  must be NULL. If the function `nu` is NULL, these constraints have nu = 0. Default: false. */
   bool velocity_level;
 } baum_user_constraint_def;
 
@@ -329,8 +332,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint. Drivers, couplings, joint springs, channels and events name one of
- *  these coordinates. The joints have the following ones:
+/** A coordinate of a joint. Drivers, couplings, joint springs, output channels and events each
+ *  refer to one coordinate. The joints have the following ones:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT
@@ -419,7 +422,7 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  Angles of spatial joints are known only up to whole revolutions. Without a law, the row
  *  therefore remains satisfied if such an angle changes by whole revolutions. If both coordinates
  *  are angles of spatial joints, this is true only if ratio is a fraction with a denominator of at
- *  most 1000. With any other ratio, the row counts the revolutions.
+ *  most 1000. With any other ratio, the value of the row depends on the number of revolutions.
  *
  *  The reaction of a coupling is the generalized force -J^T lambda of its row, with one number for
  *  each velocity of the bodies of joint_a, followed by the bodies of joint_b. A body of both joints
@@ -477,15 +480,16 @@ typedef struct baum_user_force_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
   /** (body_count) bodies on which the element acts. Copied. Default: NULL, must be set. */
   const baum_body_id *bodies;
-  int32_t body_count;   /**< [-] number of bodies, > 0. Default: 0, must be set. */
-  baum_force_fn *force; /**< The generalized force: out (nv). Default: NULL, must be set. */
-  /** Derivatives of the force with respect to displacements of the bodies: out (nv x nv).
-   *  Default: NULL, computed by differences. */
+  int32_t body_count; /**< [-] number of bodies, > 0. Default: 0, must be set. */
+  /** Computes the generalized force, out (nv). Default: NULL, must be set. */
+  baum_force_fn *force;
+  /** Computes the derivatives of the force with respect to displacements of the bodies,
+   *  out (nv x nv). Default: NULL, computed by differences. */
   baum_force_fn *force_q;
-  /** Derivatives of the force with respect to v: out (nv x nv). Default: NULL, computed by
-   *  differences. */
+  /** Computes the derivatives of the force with respect to v, out (nv x nv). Default: NULL,
+   *  computed by differences. */
   baum_force_fn *force_v;
-  baum_q_fn *potential;     /**< The potential energy: out (1) [J]. Default: NULL, none. */
+  baum_q_fn *potential;     /**< Computes the potential energy, out (1) [J]. Default: NULL, none. */
   void *user;               /**< Passed to the functions. Not owned. Default: NULL. */
   bool depends_on_velocity; /**< True if force() reads v. RATTLE requires false. Default: true. */
 } baum_user_force_def;
@@ -540,7 +544,7 @@ typedef struct baum_joint_spring_def {
   size_t struct_size;  /**< Set by baum_joint_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
-  /** [-] coordinate of the joint on which the spring acts. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] the coordinate on which the spring acts. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
   double stiffness; /**< [N m/rad or N/m] >= 0. Default: 0. */
   double damping;   /**< [N m s/rad or N s/m] >= 0. Default: 0. */
@@ -585,7 +589,8 @@ BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, 
  *  begin with the initial value and keep it until baum_simulation_set_input() or
  *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure
- *  @param[in]  name       label in messages. Copied. NULL stands for "input<k>".
+ *  @param[in]  name       label in messages. Copied. NULL stands for "input<k>" with the number k
+ *                         of the input, counted from 1.
  *  @param      initial    the initial value; finite, in a unit of your choice
  *  @param[out] id         receives the id of the input; not written on failure. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
@@ -747,7 +752,7 @@ typedef struct baum_mobility {
   baum_joint_id worst_joint; /**< The joint whose row has the violation worst_phi. */
   char text[1024];           /**< The results in words, with the names of elements. */
   int32_t velocity_rows;     /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] degrees of freedom of position: nv minus the rank of J without rows of velocity level.
+  /** [-] degrees of freedom of position: nv minus the rank of J without its rows of velocity level.
    *  degrees_of_freedom counts the degrees of freedom of velocity instead, which are fewer if there
    *  are rows of velocity level. */
   int32_t position_degrees_of_freedom;
@@ -773,24 +778,30 @@ typedef struct baum_report {
   int32_t forces;     /**< [-] number of forces, not counting gravity. */
   int32_t velocities; /**< [-] number of velocities, nv. */
   int32_t rows;       /**< [-] number of constraint rows, nc. */
-  /** [-] nv minus the rank of J; -1 if it is not known, see baum_mechanism_mobility(). */
+  /** [-] nv minus the rank of J; -1 if the mechanism cannot be assembled. */
   int32_t degrees_of_freedom;
-  int32_t redundant_rows; /**< [-] rows omitted from every solution. */
+  int32_t redundant_rows; /**< [-] redundant rows, which the solver always omits. */
   int32_t constant_rows;  /**< [-] rows that do not depend explicitly on time. */
-  /** [-] groups of bodies that joints connect with each other. Fixed bodies do not count. */
+  /** [-] groups of bodies connected with each other by joints. Fixed bodies do not count. */
   int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */
   int32_t fixed_bodies;
   bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
   bool constant_force; /**< True if all forces are constant. */
-  bool blocks;         /**< True if the block solver solves the equations, false if KLU does. */
-  /** [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism has
-   *  spatial bodies but no user coordinates; otherwise it is a pair of rows. */
+  /** True if the block solver solves the equations, false if KLU does, a sparse LU factorization
+   *  of the whole system. */
+  bool blocks;
+  /** [-] nodes of the block solver; 0 if KLU solves the equations. A node is a whole joint if the
+   *  mechanism has spatial bodies but no user coordinates; otherwise it is a pair of rows. */
   int32_t nodes;
-  int32_t couplings; /**< [-] pairs of nodes that are coupled during elimination; 0 for KLU. */
-  int32_t fill; /**< [-] pairs of nodes that become coupled only by the elimination; 0 for KLU. */
-  /** [-] largest number of couplings that a node has when it is eliminated; 0 for KLU. */
+  /** [-] pairs of nodes that are coupled during elimination; 0 if KLU solves the equations. */
+  int32_t couplings;
+  /** [-] pairs of nodes that become coupled only by the elimination; 0 if KLU solves the equations.
+   */
+  int32_t fill;
+  /** [-] largest number of couplings that a node has when it is eliminated; 0 if KLU solves the
+   *  equations. */
   int32_t most_couplings;
   int32_t most_joints; /**< [-] number of joints of the body most_joined. */
   /** The body with the most joints, among bodies that are not fixed; none if there are no joints.
@@ -799,7 +810,8 @@ typedef struct baum_report {
   /** The results in words, with the names of elements and with reasons. */
   char text[2048];
   int32_t velocity_rows; /**< [-] rows of velocity level (non-holonomic constraints). */
-  /** [-] nv minus the rank of J without rows of velocity level; -1 if it is not known. */
+  /** [-] degrees of freedom of position: nv minus the rank of J without its rows of velocity level;
+   *  -1 if the mechanism cannot be assembled. */
   int32_t position_degrees_of_freedom;
 } baum_report;
 
@@ -812,7 +824,7 @@ typedef struct baum_report {
 BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                            size_t caller_size);
 
-/** Compare the derivatives that user functions return with finite differences. These derivatives
+/** Compare finite differences with the derivatives that user functions return. These derivatives
  *  are `jacobian`, `nu`, `gamma`, `force_q`, `force_v`, and the derivatives of laws and curves. By
  *  default, baum_simulation_create() makes this check, too.
  *

@@ -3,16 +3,16 @@
  *  Planar bodies, joints and forces. More joints are in planar_joints.h.
  *
  *  Coordinates: a planar body has three coordinates (x, y, angle), and a particle has two (x, y).
- *  The velocities are the time derivatives of these coordinates. x and y are the position of the
- *  centre of mass in ground axes. Angles are positive counter-clockwise; they grow continuously
- *  over several revolutions.
+ *  The velocities are the time derivatives of these coordinates. The coordinates x and y are the
+ *  position of the centre of mass in ground axes. Angles are positive counter-clockwise; they grow
+ *  continuously over several revolutions.
  *
  *  Points: give a joint or a spring either `point`, or both `point_a` and `point_b`. NaN means that
  *  a point is not given. `point` is a single point in ground axes, which both bodies share in the
  *  design configuration. `point_a` is a point of body_a in the axes of body_a, and `point_b` a
  *  point of body_b in the axes of body_b. Points of ground are in ground axes. The point of a
- *  particle is the particle itself. Springs and distance joints require point_a and point_b,
- *  because with `point` their length would be 0.
+ *  particle is the particle itself. Distance joints and springs between two points require point_a
+ *  and point_b, because with `point` their length would be 0.
  *
  *  Design configuration: the positions and angles that the definitions of the bodies give. Assembly
  *  starts from it.
@@ -42,8 +42,9 @@ typedef struct baum_planar_body_def {
   double angle; /**< [rad] angle of the body axes in the design configuration. Default: 0. */
   /** [m/s] velocity of the centre of mass at the start. Default: NaN, assembly determines it. */
   double velocity[2];
-  double angular_velocity; /**< [rad/s] value at the start. Default: NaN, assembly determines it. */
-  bool held;               /**< True if assembly must not move the body. Default: false. */
+  /** [rad/s] angular velocity at the start. Default: NaN, assembly determines it. */
+  double angular_velocity;
+  bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_planar_body_def;
 
 /** @copydoc baum_coordinates_def_init() */
@@ -155,8 +156,8 @@ typedef struct baum_planar_translational_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
   /** [rad] constant value of angle_b - angle_a. Default: NaN, the value in the design
    *  configuration. */

@@ -28,8 +28,8 @@ typedef struct baum_planar_pin_in_slot_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
 } baum_planar_pin_in_slot_def;
 
@@ -80,14 +80,14 @@ typedef struct baum_planar_rack_and_pinion_def {
   double point[2];
   double point_a[2]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[2]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (1, 0). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (1, 0). */
   double axis[2];
   /** [m] radius of the pitch circle, not 0. Positive if the rack is to the left of the pinion, seen
    *  in the direction of the axis, and negative if it is to the right. Default: 0, must be set. */
   double radius;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_rack_and_pinion_def;
 
@@ -126,7 +126,8 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  ratio of the radii, so you may give numbers of teeth instead of radii. Other joints, such as
  *  pins, must keep the wheels on the carrier. A planetary gear consists of two of these joints, one
  *  between sun and planet and one between planet and ring. The carrier of both joints is the arm of
- *  the planets. If the ring does not move, it is BAUM_GROUND. All bodies must have an angle.
+ *  the planets. If the ring does not move, give BAUM_GROUND as the ring. All bodies must have an
+ *  angle.
  *
  *  The reaction of a gear pair is the generalized force -J^T lambda of its row, with one number for
  *  each velocity of body_a, body_b and the carrier; ground is omitted. It contains only torques:
@@ -144,8 +145,8 @@ typedef struct baum_planar_gear_def {
   /** [m] radius of the pitch circle, not 0; negative for internal teeth. Default: 0, must be
    *  set. */
   double radius_b;
-  /** [m] the offset in the row of the joint. Default: NaN, the value in the design
-   *  configuration. */
+  /** [m] the offset in the row of the joint. Default: NaN, the value that satisfies the row in the
+   *  design configuration. */
   double offset;
 } baum_planar_gear_def;
 
@@ -172,10 +173,10 @@ BAUM_API baum_status baum_mechanism_set_planar_gear(baum_mechanism *mechanism, b
 
 /* ---- point on a curve (cam) ------------------------------------------------------------------ */
 
-/** The function of a curve F(x, y) = 0: computes F and its derivatives. The derivatives must be
- *  exact on the curve and near it. Scale F so that |grad F| is about 1 on the curve.
- *  Near the curve, F is then approximately the distance from the curve, so that the tolerances of a
- *  run bound this distance.
+/** A function that describes a curve F(x, y) = 0: it computes F and the derivatives of F. The
+ *  derivatives must be exact on the curve and near it. Scale F so that |grad F| is about 1 on the
+ *  curve. Near the curve, F is then approximately the distance from the curve, so that the
+ *  tolerances of a run bound this distance.
  *  @param[in]  xy    (2) [m] x and y of a point, in the axes of body_a, with body_a's point as
  *                    origin
  *  @param[out] out   (6) F [m], its first derivatives F_x, F_y [-] and its second derivatives F_xx,
@@ -192,8 +193,8 @@ typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
  *
  *  The coordinates x and y in F are relative to body_a's point and in the axes of body_a. body_a
  *  must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares the
- *  derivatives of F with differences. Integrators that need third derivatives compute them by
- *  differences of the second derivatives. */
+ *  derivatives of F with finite differences. Integrators that need third derivatives compute them
+ *  by differences of the second derivatives. */
 typedef struct baum_planar_curve_def {
   size_t struct_size;  /**< Set by baum_planar_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -234,9 +235,9 @@ BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, 
 /** A blade that is fixed in body_a slides on body_b, but not sideways. Examples are a skate, and a
  *  wheel seen from above. The blade touches body_b at one point, which moves relative to body_b
  *  only in the direction of the blade. The joint has one row of velocity level [m/s], the velocity
- *  of this point across the blade, positive to the left of `axis`. This row does not restrict
- *  positions. A mechanism with such a row therefore has more degrees of freedom of position than of
- *  velocity (see baum_mobility).
+ *  of this point relative to body_b across the blade, positive to the left of `axis`. This row does
+ *  not restrict positions. A mechanism with such a row therefore has more degrees of freedom of
+ *  position than of velocity (see baum_mobility).
  *
  *  Both bodies must have an angle. The reaction of the joint is the force and the moment on body_b
  *  at the point where the blade touches it. */
@@ -244,7 +245,8 @@ typedef struct baum_planar_knife_edge_def {
   size_t struct_size;  /**< Set by baum_planar_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
-  baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
+  /** The body on which the blade slides; must differ from body_a. Default: BAUM_GROUND. */
+  baum_body_id body_b;
   /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
    *  given. */
   double point[2];

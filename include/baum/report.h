@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Reports of a study, which compares integration methods on one mechanism (study.h). A report
- *  lists the entries of the study (its settings and their results), its Pareto front, its
- *  recommendations and the quality of its reference. It also describes the machine that ran the
- *  study.
+ *  lists the entries of the study (each is a setting with its results), the Pareto front, the
+ *  recommendations and the quality of the reference motion. It also describes the machine that ran
+ *  the study.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
@@ -44,7 +44,7 @@ typedef enum baum_report_form {
  *  writes to them directly, so they may be incomplete after a failure.
  *  @param     study  the study
  *  @param     form   form of the report
- *  @param[in] title  title of the report; CSV has none. NULL: "Study".
+ *  @param[in] title  title of the report; CSV has none. NULL means "Study".
  *  @param[in] path   path of the file
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_FILE (the message gives the reason),
  *           BAUM_ERR_MEMORY */
@@ -54,7 +54,7 @@ BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form 
 /** Write a report into memory.
  *  @param      study     the study
  *  @param      form      form of the report
- *  @param[in]  title     title of the report; CSV has none. NULL: "Study".
+ *  @param[in]  title     title of the report; CSV has none. NULL means "Study".
  *  @param[out] text      (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
  *  @param      capacity  [byte]
  *  @param[out] size      [byte] length of the whole report without the final zero. May be NULL.

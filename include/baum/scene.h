@@ -41,8 +41,8 @@ typedef struct baum_hook {
  *  @param[in]  hooks       (hook_count) names of functions and `user` pointers; NULL if there are
  *                          none
  *  @param      hook_count  [-] >= 0
- *  @param[out] text        (capacity) zero-terminated, truncated if too long. NULL if capacity is
- *                          0.
+ *  @param[out] text        (capacity) the scene, zero-terminated, truncated if too long. May be
+ *                          NULL if capacity is 0.
  *  @param      capacity    [byte]
  *  @param[out] size        [byte] length of the whole scene without the final zero. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if a function has no hook), BAUM_ERR_MEMORY */

@@ -3,7 +3,7 @@
  *  Runs: simulations of the motion of frozen mechanisms. This header declares baum_simulation (one
  *  run), the integrators, the options of a run, the functions that advance it, and its results.
  *
- *  Integrators: the comment of each integrator lists the formulations that it offers. The first
+ *  Integrators: the description of each integrator lists the formulations that it offers. The first
  *  formulation of the list is the default. The words in parentheses after BAUMGARTE name the rule
  *  that chooses the gains by default (stabilization.h). baum_kinematics() has no formulations.
  *
@@ -51,22 +51,22 @@ BAUM_API const baum_integrator *baum_rk3(void);
 BAUM_API const baum_integrator *baum_rk4(void);
 /** A good choice for loose tolerances.
  *  @return  the embedded Runge-Kutta pair of Dormand and Prince, orders 5 and 4, explicit, with
- *           rtol or with a fixed step. Six evaluations per step. Formulations: PROJECTION,
- *           BAUMGARTE (auto), UNSTABILIZED */
+ *           rtol or with a fixed step. Six evaluations of the accelerations per step. Formulations:
+ *           PROJECTION, BAUMGARTE (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_dp5(void);
 /** The first choice if the forces are not stiff and rtol is 1e-5 or less.
  *  @return  DOP853 (Hairer, Norsett, Wanner 1993), a Runge-Kutta method of order 8 with error
  *           estimates of orders 5 and 3, explicit, with rtol or with a fixed step. Twelve
- *           evaluations per step, and three more if the step is interpolated. Formulations: as for
- *           baum_dp5() */
+ *           evaluations of the accelerations per step, and three more if the step is interpolated.
+ *           Formulations: as for baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
 /** A method that uses past steps. As long as it does not have enough past steps, it takes steps
  *  with a Runge-Kutta method instead. This happens at the start, after baum_simulation_set_state(),
  *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
  *  in time, and after a requested time that is not on the grid of steps.
- *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation per step.
- *           Formulations: BAUMGARTE (best damping), UNSTABILIZED. The method does not offer
- *           PROJECTION, because past steps cannot be projected */
+ *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation of the
+ *           accelerations per step. Formulations: BAUMGARTE (best damping), UNSTABILIZED. The
+ *           method does not offer PROJECTION, because past steps cannot be projected */
 BAUM_API const baum_integrator *baum_ab2(void);
 /** @return three-step Adams-Bashforth method, order 3. Otherwise it is like baum_ab2() */
 BAUM_API const baum_integrator *baum_ab3(void);
@@ -98,8 +98,8 @@ BAUM_API const baum_integrator *baum_cvode_adams(void);
  *  @return  the BDF method of SUNDIALS CVODE, with rtol. Formulations: PROJECTION, BAUMGARTE
  *           (auto), UNSTABILIZED */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** A method for stiff forces, and for comparisons. Use INDEX3 only to compare formulations: with
- *  INDEX3, errors are far above the tolerance.
+/** A method for stiff forces, and for comparisons of formulations. Use INDEX3 only for such
+ *  comparisons: with INDEX3, errors are far above the tolerance.
  *  @return  SUNDIALS IDA, BDF of variable order for the unknowns y = (q, v, lambda), with rtol.
  *           Formulations: GGL, BAUMGARTE (auto), UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
@@ -112,8 +112,8 @@ BAUM_API const baum_integrator *baum_ida(void);
  *  @return  kinematics, without integration */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
-/** List all integrators, for bindings and tables. A program that calls this function is linked with
- *  all integrators, including SUNDIALS.
+/** Get an integrator by its number, for bindings and tables that list all integrators. A program
+ *  that calls this function is linked with all integrators, including SUNDIALS.
  *  @param k  0, 1, ...
  *  @return  the integrator; NULL if there are at most k integrators */
 BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
@@ -182,9 +182,10 @@ typedef enum baum_start {
   BAUM_START_AS_GIVEN = 2
 } baum_start;
 
-/** Solver of the linear equations of motion, which are equation (7) of the page "docs/notation.md".
- *  baum_simulation_explain() states which solver a run uses, and why. This option affects neither
- *  assembly nor the multipliers of redundant rows: both are always computed with KLU and QR. */
+/** Solver of the linear system for the accelerations and the multipliers, which is equation (7) of
+ *  the page "docs/notation.md". baum_simulation_explain() states which solver a run uses, and why.
+ *  The option `solver` affects neither assembly nor the multipliers of redundant rows: both are
+ *  always computed with KLU and QR. */
 typedef enum baum_solver {
   /** Use BLOCK if it is suitable for the mechanism. Use KLU or QR for other mechanisms, and in
    *  configurations where BLOCK is not accurate. */
@@ -203,7 +204,7 @@ typedef enum baum_solver {
   BAUM_SOLVER_BLOCK = 3
 } baum_solver;
 
-/** A progress function. While a call advances a run, it calls this function repeatedly, at
+/** A progress function. While a call advances a run, the run calls this function repeatedly, at
  *  intervals given by the option progress_interval. The first interval begins when the call begins.
  *  The function may read the run, also with baum_simulation_get(). Inside the function, calls that
  *  change, advance or save the run fail with BAUM_ERR_STATE, and baum_simulation_destroy() does
@@ -226,37 +227,39 @@ typedef struct baum_simulation_options {
   baum_formulation formulation;
   baum_gains gains;    /**< Gain rule for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Accept gains that are known to be unstable. Default: false. */
-  double step;         /**< [s] > 0, for fixed-step integrators. Default: NaN, not given. */
+  double step;         /**< [s] > 0, length of a fixed step. Default: NaN, not given. */
   /** [-] > 0, < 1, tolerance of the local error, relative to the scales of q and v (mechanism.h).
    *  cvode_bdf divides rtol and atol by 6.9, and ida divides them by 3, so that all methods are
-   *  about equally accurate at the same rtol. Both methods divide by less if the divided rtol would
-   *  otherwise be below 1e-13. Default: NaN, not given. */
+   *  about equally accurate at the same rtol. Both methods use a smaller divisor if division by 6.9
+   *  or 3 would give an rtol below 1e-13. Default: NaN, not given. */
   double rtol;
   /** [unit of the coordinate] >= 0, absolute tolerance of the local error. It is added to rtol
-   *  times the scale. Default: NaN, none. */
+   *  times the scale of the coordinate. Default: NaN, none. */
   double atol;
   /** [s] > 0, longest step of a variable-step integrator. If an event function passes zero twice
    *  within a quarter of a step, the run may miss both events; a smaller max_step prevents this.
    *  Default: NaN, none. */
   double max_step;
-  double start_time;  /**< [s] time at which the run starts. Default: 0. */
-  baum_start start;   /**< How the run begins. Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver; /**< Solver of the linear equations. Default: BAUM_SOLVER_AUTO. */
+  double start_time; /**< [s] time at which the run starts. Default: 0. */
+  baum_start start;  /**< How the run begins. Default: BAUM_START_ASSEMBLE. */
+  /** Solver of the linear system for the accelerations and the multipliers.
+   *  Default: BAUM_SOLVER_AUTO. */
+  baum_solver solver;
   /** Check the derivatives of user functions. When the run is created,
-   *  baum_mechanism_check_derivatives() checks them. During the run they are checked again after
-   *  32, 96, 224, 480, ... steps. They are also checked at the end of a call that advances the run,
-   *  unless the last check during the run is too recent: the number of steps since this check must
-   *  exceed half of the number of steps before it by at least 16. The checks during the run call
-   *  the functions at states near those of the run. If a derivative is wrong there, the run warns
-   *  with BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the last
-   *  good state, even without this option. If one of them is wrong, the message names it.
-   *  Default: true. */
+   *  baum_mechanism_check_derivatives() checks them. During the run they are checked again: if the
+   *  last check was after n steps of the run, the next one is after 2 n + 32 steps. A run that is
+   *  advanced in a single call is thus checked after 32, 96, 224, 480, ... steps. The end of a call
+   *  that advances the run adds a check if the run has taken at least 1.5 n + 16 steps, or has made
+   *  no check yet. The checks during the run call the functions at states near those of the run. If
+   *  a derivative is wrong there, the run warns with BAUM_WARNING_WRONG_DERIVATIVE. If a step
+   *  fails, the derivatives are checked at the last good state, even without this option. If one of
+   *  them is wrong, the message names it. Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
   int64_t max_steps;
   baum_progress_fn *progress; /**< The run calls this function repeatedly. Default: NULL, none. */
-  /** [s] of wall time, >= 0, between two calls of progress. Default: 0.05. */
+  /** [s] of wall time, >= 0, between two calls of the progress function. Default: 0.05. */
   double progress_interval;
   void *user; /**< Passed to the function `progress`, not owned. Default: NULL. */
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for positions. Refused with a
@@ -266,32 +269,35 @@ typedef struct baum_simulation_options {
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for velocities. Refused with a
    *  fixed step. Default: 1. */
   double tolerance_v;
-  /** [-] > 0; rtol is multiplied by this factor for multipliers. This factor may be finite only for
-   *  IDA with BAUMGARTE or UNSTABILIZED. The tolerance of the multiplier of row i is
-   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of J, with each column j
-   *  multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the largest
-   *  present |lambda_k| n_k, and the largest M_jj s_j^2 r^2, where r [1/s] is the rate of the
-   *  motion at the start. This rate is the largest of |v_j| / s_j and sqrt(|a_j| / s_j) over all
-   *  coordinates j, where v are the velocities and a the accelerations. In an equilibrium at rest,
-   *  r is sqrt(g/L) instead, where g is the acceleration of gravity and L the characteristic
-   *  length. In an equilibrium at rest without gravity, r is 1 per second.
-   *  baum_simulation_explain() states r with the tolerances.
+  /** [-] > 0; rtol is multiplied by this factor for multipliers. Only IDA with the formulation
+   *  BAUMGARTE or UNSTABILIZED accepts a finite factor. The tolerance of the multiplier of row i is
+   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of the Jacobian J, with each
+   *  column j multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the
+   *  largest present value of |lambda_k| n_k, and the largest value of M_jj s_j^2 r^2, where M is
+   *  the mass matrix and r [1/s] is the rate of the motion at the start. This rate is the largest
+   *  of |v_j| / s_j and sqrt(|a_j| / s_j) over all coordinates j, where v are the velocities and a
+   *  the accelerations. In an equilibrium at rest, r is sqrt(g/L) instead, where g is the
+   *  acceleration of gravity and L the characteristic length. In an equilibrium at rest without
+   *  gravity, r is 1 per second. baum_simulation_explain() reports r together with the tolerances.
    *  Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
-  /** Compute the energy account that baum_simulation_energy_account() returns. Kinematics refuses
-   *  this option. Default: false. */
+  /** Compute the energy account that baum_simulation_energy_account() returns. The integrator
+   *  baum_kinematics() refuses this option. Default: false. */
   bool energy_account;
-  /** [-] array of row_gain_count factors f_i > 0. The gains of row i are then alpha f_i
-   *  and beta f_i. Copied. Default: NULL, all 1. */
+  /** [-] array of row_gain_count factors f_i > 0. The gains of constraint row i are alpha f_i and
+   *  beta f_i. Copied. Default: NULL, all 1. */
   const double *row_gains;
-  int32_t row_gain_count; /**< [-] nc of the mechanism if row_gains is given. Default: 0. */
-  /** Estimate the error of the motion by a second integration, from the start on, and warn if the
-   *  error is large; see counters.error_estimate. If the run has a fixed step, the second
-   *  integration is rk8 at rtol 1e-8. If it has variable steps, the second integration uses the
-   *  same method at 0.03 rtol, which requires rtol >= 2e-14. The cost of the run at least doubles.
-   *  If the second integration fails, or takes more than ten times as many evaluations as the run,
-   *  it ends, and the run warns (BAUM_WARNING_ERROR_UNKNOWN). Kinematics refuses this option,
-   *  because it does not integrate.
+  /** [-] number of elements of row_gains; must be the number of constraint rows of the mechanism
+   *  (nc) if row_gains is given. Default: 0. */
+  int32_t row_gain_count;
+  /** During the whole run, estimate the error of the motion by a second integration, and warn if
+   *  the error is large; see error_estimate in baum_counters. If the run has a fixed step, the
+   *  second integration uses rk8 with rtol = 1e-8. If the run has variable steps, the second
+   *  integration uses the method of the run with 0.03 times its rtol, and the rtol of the run must
+   *  be at least 2e-14. The cost of the run at least doubles. If the second integration fails, or
+   *  takes more than ten times as many evaluations as the run, it ends, and the run warns
+   *  (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this option, because it
+   *  does not integrate.
    *
    *  Without this option, a fixed-step run starts a second integration only if the sum of its local
    *  errors becomes large enough to matter. Default: false. */
@@ -369,9 +375,9 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_progress_interval(baum_simulation *simulation,
                                                            double interval);
 
-/** Limit the wall time of calls that advance the run. A call that takes longer finishes its present
- *  step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call continues the
- *  run. Such stops change neither the motion nor the warnings of the run.
+/** Limit the wall time of each call that advances the run. A call that takes longer finishes its
+ *  present step and returns BAUM_STOP_TIME. Every call takes at least one step. The next call
+ *  continues the run. Such stops change neither the motion nor the warnings of the run.
  *  @param simulation  the run
  *  @param limit       [s] of wall time, > 0; INFINITY means no limit, which is the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (called by a callback other than the
@@ -381,11 +387,11 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
 /** Replace the time and the state of a run. Multistep methods restart. If all velocities are given,
  *  and the new state violates the constraints by no more than the run has violated them so far
  *  (counters.max_phi and counters.max_phi_rate), the new state is used as it is. Otherwise the
- *  option `start` decides whether the new state is assembled, refused or used as it is. q
- *  determines angles of spatial joints only up to whole revolutions. Each such angle takes the
- *  possible value that is nearest to its last value. There is one exception: if a driver prescribes
- *  the angle, and t differs from the time of the run, the angle takes the possible value that is
- *  nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
+ *  option `start` decides whether the new state is assembled, refused or used as it is. The
+ *  positions q determine angles of spatial joints only up to whole revolutions. Each such angle
+ *  takes the possible value that is nearest to its last value. There is one exception: if a driver
+ *  prescribes the angle, and t differs from the time of the run, the angle takes the possible value
+ *  that is nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -411,10 +417,10 @@ BAUM_API baum_status baum_simulation_set_angle(baum_simulation *simulation, baum
                                                baum_joint_coordinate coordinate, double angle);
 
 /** Continue with the motion of another run. The present run takes over the time, state, inputs and
- *  laws of drivers of the other run. The options, counters and warnings of the present run do not
- *  change. A run with another integrator, formulation, tolerance or solver can thus continue where
- *  the other run has failed. q and v are changed only as much as is necessary to satisfy the
- *  constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
+ *  laws of drivers of the other run. The present run keeps its own options, counters and warnings.
+ *  A run with another integrator, formulation, tolerance or solver can thus continue where the
+ *  other run has failed. The positions and velocities are changed only as much as is necessary to
+ *  satisfy the constraints. They are not changed if the option `start` is BAUM_START_AS_GIVEN.
  *  @param simulation  unchanged on failure
  *  @param from        the other run. Its mechanism must be the same, or another one with the same
  *                     elements and the same numbers in their definitions
@@ -462,7 +468,7 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *    nearby.
  *
  *  To avoid a jump of the position, let s be the present coordinate. To avoid a jump of the
- *  velocity, too, let ds be its present velocity, and change only dds.
+ *  velocity, too, let ds be the present velocity of this coordinate, and change only dds.
  *  @param simulation  unchanged on failure
  *  @param driver      a driver of the mechanism
  *  @param s           [rad or m] finite, value at the present time t0
@@ -491,7 +497,7 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  mechanism and of the options. A library with another format version refuses the buffer.
  *  @param      simulation  the run
  *  @param[out] buffer      (capacity) of any alignment. If it is NULL, the function writes only
- *                          size, and does not change the run.
+ *                          `size`, and does not change the run.
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that every scheduled change of an input
  *                          adds 32 bytes.
@@ -506,15 +512,15 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  same mechanism and options, which may be in another process. With the same library on the same
  *  kind of processor, the restored run continues bit for bit as the saved run does.
  *
- *  The library checks that both mechanisms have the same elements in the same order, with equal
- *  masses, points, stiffnesses and so on. It also checks that both runs have the same events, and
- *  the same options integrator, formulation, gains, row_gains, step, tolerances, max_step, solver
- *  and energy_account. Events must therefore be added before the run is restored. The library
- *  cannot check user functions. They must be the same, and if they keep a state of their own, this
- *  state is not saved. If a rule chooses the gains, their values come from the saved run, as does
- *  the choice of redundant rows. Restoring allocates memory in three cases only: drivers were set
- *  in the saved run, the saved run has longer schedules than this run, or the two runs omit
- *  different redundant rows.
+ *  The library checks that the mechanism of the saved run and the mechanism of this run have the
+ *  same elements in the same order, with equal masses, points, stiffnesses and so on. It also
+ *  checks that the two runs have the same events, and the same options integrator, formulation,
+ *  gains, row_gains, step, tolerances, max_step, solver, energy_account and error_check. Events
+ *  must therefore be added before the run is restored. The library cannot check user functions.
+ *  They must be the same, and if they keep a state of their own, this state is not saved. The
+ *  choice of redundant rows comes from the saved run, and so do the gains if a rule chooses them.
+ *  Restoring allocates memory in three cases only: drivers were set in the saved run, the saved run
+ *  has longer schedules than this run, or the two runs omit different redundant rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
@@ -538,9 +544,10 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- results --------------------------------------------------------------------------------- */
 
-/** A quantity that a channel records. The number of its columns is in parentheses. Units are m,
- *  rad, N, N m and s. The units of user coordinates and user constraints are your choice. The unit
- *  of a multiplier is J per unit of its row.
+/** A quantity that a channel records. The number of columns of each quantity is in parentheses. The
+ *  point, body and joint of a channel are fields of baum_channel. Units are m, rad, N, N m and s.
+ *  The units of user coordinates and user constraints are your choice. The unit of a multiplier is
+ *  joule per unit of its row.
  *
  *  Accelerations, multipliers, reactions and efforts come from one solution of equation (5) of the
  *  page "docs/notation.md" at the present state. This equation contains no stabilization terms. The
@@ -549,21 +556,23 @@ typedef enum baum_quantity {
   BAUM_Q = 1,        /**< Positions (nq). */
   BAUM_V = 2,        /**< Velocities (nv). */
   BAUM_A = 3,        /**< Accelerations (nv). */
-  BAUM_LAMBDA = 4,   /**< Multipliers of `joint`, or of all joints (nc). */
-  BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all joints (nc). */
-  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of `joint`, or of all joints (nc). */
+  BAUM_LAMBDA = 4,   /**< Multipliers of the channel's joint, or of all joints (nc). */
+  BAUM_PHI = 5,      /**< Constraint violation of the channel's joint, or of all joints (nc). */
+  BAUM_PHI_RATE = 6, /**< Phi' = J v - nu of the channel's joint, or of all joints (nc). */
   BAUM_ENERGY = 7,   /**< Kinetic and potential energy [J] (2). */
-  /** Planar body: x and y of `point`, and the angle (3). Spatial body: x, y and z of `point`, and
-   *  the quaternion (7). Other bodies: their part of q. */
+  /** Planar body: x and y of the channel's point, and the angle of the body (3). Spatial body: x, y
+   *  and z of the channel's point, and the quaternion of the body (7). Particles and user
+   *  coordinates: their part of q. */
   BAUM_BODY_POSE = 8,
-  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of `point` and angular
-   *  velocity, both in ground axes (6). */
+  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of the channel's point
+   *  and angular velocity, both in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
   /** Force and moment on body_b (3 for planar joints, 6 for spatial joints), see planar.h and
    *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda of
    *  their rows, with one number for each velocity of their bodies. */
   BAUM_JOINT_REACTION = 10,
-  /** A coordinate of the joint, and its time derivative, the joint velocity (2). */
+  /** The coordinate of the joint that the channel's field `coordinate` selects, and the time
+   *  derivative of this coordinate, the joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,
   BAUM_BODY_ACCELERATION = 12, /**< The time derivatives of BAUM_BODY_VELOCITY. */
   /** Force [N] or torque [N m] that a driver exerts on the coordinate it prescribes (1). The field
@@ -583,8 +592,9 @@ typedef struct baum_channel {
   size_t struct_size;     /**< Set by the default function. Do not write. */
   baum_quantity quantity; /**< What the channel records. Default: 0, must be set. */
   baum_body_id body;      /**< The body, for the quantities BAUM_BODY_*. Default: none. */
-  /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT; optional for BAUM_LAMBDA,
-   *  BAUM_PHI and BAUM_PHI_RATE. Default: none. */
+  /** The joint, for the quantities BAUM_JOINT_* and BAUM_DRIVE_EFFORT. For BAUM_LAMBDA, BAUM_PHI
+   *  and BAUM_PHI_RATE the joint is optional: without it, the channel records the rows of all
+   *  joints. Default: none. */
   baum_joint_id joint;
   /** [m] the point in body axes, for the quantities BAUM_BODY_*; z must be 0 for planar bodies.
    *  Default: (0, 0, 0), the centre of mass.
@@ -708,20 +718,23 @@ typedef struct baum_counters {
    *  is not on its grid of steps. */
   int64_t short_steps;
   /** [-] evaluations of the equations of motion. Most methods solve equation (7) of the page
-   *  "docs/notation.md" in each evaluation, and implicit methods compute a residual. */
+   *  "docs/notation.md" in each evaluation. IDA and generalized-alpha compute the residual of their
+   *  equations instead. */
   int64_t evaluations;
   /** [-] factorizations of the matrix in equation (7) and of the matrices of IDA and CVODE. */
   int64_t factorizations;
   /** [-] factorizations that chose new pivots, which may allocate memory. */
   int64_t full_factorizations;
-  /** [-] iterations of kinematics and of the implicit methods: CVODE, IDA, RATTLE and
+  /** [-] iterations of baum_kinematics() and of the implicit methods: CVODE, IDA, RATTLE and
    *  generalized-alpha. */
   int64_t nonlinear_iterations;
   int64_t restarts; /**< [-] restarts of multistep and variable-step methods. */
-  /** [-] evaluations in which the matrix in equation (7) was almost singular. */
+  /** [-] evaluations in which the matrix of the equations of motion was almost singular. */
   int64_t near_singular;
-  int64_t warnings;                 /**< [-] number of kinds of warnings that occurred. */
-  double wall;                      /**< [s] wall time inside advance_to, step and sample. */
+  int64_t warnings; /**< [-] number of kinds of warnings that occurred. */
+  /** [s] wall time inside the functions that advance the run: baum_simulation_advance_to(),
+   *  baum_simulation_step() and baum_simulation_sample(). */
+  double wall;
   double max_phi;                   /**< [m or rad] largest violation |Phi| over all steps. */
   double max_phi_rate;              /**< [m/s or rad/s] largest rate |Phi'| over all steps. */
   baum_joint_id max_phi_joint;      /**< The joint with the violation max_phi. */
@@ -751,7 +764,8 @@ typedef struct baum_counters {
   double damping;
   /** [-] number of intervals in which the run was near a singular configuration. */
   int64_t near_singular_intervals;
-  /** [-] near-singular intervals after which the motion is, or may be, on another branch. */
+  /** [-] number of near-singular intervals after which the motion is, or may be, on another branch
+   *  than before. */
   int64_t branch_warnings;
   /** [-] steps of rk8 and dp5 across a singular configuration. They are accepted although their
    *  error estimate is above the tolerance. */
@@ -764,10 +778,10 @@ typedef struct baum_counters {
    *  are relative to the characteristic length, and errors of angles are in radians. NaN means that
    *  the error is unknown, for example because the estimate failed or would cost too much. Without
    *  the option error_check, the estimate shows only whether the error is large: values up to 0.01
-   *  may be errors of the estimate itself. Without the option, a run with a fixed step has the
-   *  estimate 0 as long as its local errors are negligible, and NaN if inputs change every few
-   *  steps; a run with variable steps has the estimate NaN, except after a singularity crossing at
-   *  a loose tolerance. */
+   *  may be errors of the estimate itself. Without the option error_check, the estimate of a run
+   *  with a fixed step is 0 as long as the local errors of the run are negligible, and NaN if
+   *  inputs change every few steps. Without the option, the estimate of a run with variable steps
+   *  is NaN, except after a singularity crossing at a loose tolerance. */
   double error_estimate;
 } baum_counters;
 
@@ -786,21 +800,22 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  The residual is the part of the energy that no work explains; it is the energy error of the
  *  method. With a fixed step h, the residual is proportional to h^p for small h, where p is the
  *  order of the method. With variable steps, the residual decreases with the tolerance. If an
- *  evaluation for the account fails, the account ends with a warning. Its work terms and the
+ *  evaluation for the account fails, the account ends with a warning. The work terms and the
  *  residual are then NaN. The account does not change the motion.
  *
  *  The account costs additional evaluations of the equations of motion in each step. With a fixed
- *  step, most methods need 3 evaluations. dp5 needs 18 and rk8 needs 48, because they subdivide the
- *  step for the account. With variable steps, most methods need 4; rk8 needs 7, including the
- *  evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations are needed. */
+ *  step, most methods need 3 additional evaluations per step. dp5 needs 18 and rk8 needs 48,
+ *  because they subdivide the step for the account. With variable steps, most methods need 4; rk8
+ *  needs 7, including the evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations
+ *  are needed. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */
-  /** [J] present potential energy of gravity, linear springs, constant loads and user
-   *  potentials. */
+  /** [J] present potential energy of gravity, linear springs, user potentials, and loads that are
+   *  only a constant force in ground axes. */
   double potential;
   double start; /**< [J] kinetic plus potential energy at the start. */
-  /** [J] work of the loads that have an input or a torque, or that follow their body. */
+  /** [J] work of the loads that have an input, a torque or a moment, or that follow their body. */
   double loads;
   double springs; /**< [J] work of springs with a user law. */
   double dampers; /**< [J] work of the dampers of linear springs. */
@@ -811,12 +826,13 @@ typedef struct baum_energy_account {
    *  the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel.
    */
   double bodies;
-  /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda. */
+  /** [J] work of drivers and of other rows that depend on time: the integral of -nu^T lambda, where
+   *  nu is the right-hand side of J v = nu. */
   double drivers;
   double violation;  /**< [J] work of violated constraints: the integral of -Phi'^T lambda. */
   double projection; /**< [J] change of kinetic and potential energy by projections. */
-  /** [J] work of the gains. It is already contained in the fields `drivers` and `violation`, so do
-   *  not add it to these fields. */
+  /** [J] work of Baumgarte's gains. It is already contained in the fields `drivers` and
+   *  `violation`, so do not add it to these fields. */
   double gains;
   /** [J] kinetic + potential - start, minus the sum of all work terms except gains. */
   double residual;
@@ -855,24 +871,26 @@ typedef enum baum_branch {
  *  only a constraint violation has kept p above 1e-3, the run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] end of a step; the interval does not begin before this time. */
-  /** [s] end of a step; the interval ends before this time. However, if the motion stays close to
-   *  singular configurations, the run may list the interval before the motion has left it. The
+  double begin;       /**< [s] time of the last state of the run before the interval. */
+  /** [s] time of the first state of the run after the interval. However, if the motion stays close
+   *  to singular configurations, the run may list the interval before the motion has left it. The
    *  interval then continues after this time. */
   double end;
-  double t; /**< [s] time of the smallest pivot, which may be inside a step. */
-  /** [-] the smallest p in the interval. At each state, p is the smallest pivot, divided by the
-   *  largest value that the smallest pivot has had at any state of the run so far. */
+  double t; /**< [s] time at which p is smallest (see pivot); it may be inside a step. */
+  /** [-] the smallest p in the interval. At each state, p is the smallest pivot of the equations of
+   *  motion, divided by the largest value that the smallest pivot has had at any state of the run
+   *  so far. The page "docs/theory/singular.md" defines the smallest pivot. */
   double pivot;
-  /** [-] by how much the velocity after the interval differs from a smooth continuation of the
-   *  motion before the interval, relative to the size of the velocity. NaN: unknown. */
+  /** [-] difference between the velocity after the interval and a smooth continuation of the motion
+   *  before the interval, relative to the size of the velocity. NaN: unknown. */
   double jump;
-  double jump_error;   /**< [-] estimated error of jump; NaN: unknown. */
-  baum_branch branch;  /**< How the motion continues. */
+  double jump_error;   /**< [-] estimated error of the field `jump`; NaN: unknown. */
+  baum_branch branch;  /**< How the motion continues after the interval. */
   baum_joint_id joint; /**< Joint whose rows have the smallest pivot; none if unknown. */
 } baum_near_singular;
 
-/** Read a near-singular interval. Runs with baum_kinematics() have no such intervals.
+/** Read a near-singular interval: an interval of time in which the run was near a singular
+ *  configuration. Runs with baum_kinematics() have no such intervals.
  *  @param      simulation   the run
  *  @param      k            number of the interval, 0 to counters.near_singular_intervals - 1; a
  *                           run keeps the first 64
@@ -883,12 +901,13 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
                                                    baum_near_singular *out, size_t caller_size);
 
 /** Kinds of warnings. A warning with a code of 100 or more puts the motion in doubt: the result may
- *  be wrong by far more than its tolerance. Warnings with smaller codes are notes on a correct
- *  result. */
+ *  be wrong by far more than its tolerance. Warnings with smaller codes are notes, which do not put
+ *  the motion in doubt. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2,          /**< With these gains, violations may grow, or may not decay. */
-  /** rtol is smaller than the error of derivatives that are computed by differences. */
+  BAUM_WARNING_GAINS = 2, /**< With the gains of the run, violations may grow, or may not decay. */
+  /** The option rtol is smaller than the error of derivatives that are computed by finite
+   *  differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,
   /** IDA runs with INDEX3, which is meant only for comparisons. */
   BAUM_WARNING_INDEX3 = 4,
@@ -902,10 +921,11 @@ typedef enum baum_warning_code {
   /** The error of the motion is unknown, because the second integration that estimates it failed or
    *  became too expensive. */
   BAUM_WARNING_ERROR_UNKNOWN = 9,
-  BAUM_WARNING_BRANCH = 100,        /**< The motion may have left its branch at a singularity. */
-  BAUM_WARNING_VIOLATION = 101,     /**< The constraint violation is too large. */
-  BAUM_WARNING_CONTRADICTION = 102, /**< Omitted rows no longer follow from the other rows. */
-  BAUM_WARNING_ACCURACY = 103,      /**< The estimated error of the motion is large. */
+  BAUM_WARNING_BRANCH = 100,    /**< The motion may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101, /**< The constraint violation is too large. */
+  /** Omitted redundant rows no longer follow from the other rows. */
+  BAUM_WARNING_CONTRADICTION = 102,
+  BAUM_WARNING_ACCURACY = 103, /**< The estimated error of the motion is large. */
   /** Several motions may start from the initial configuration. */
   BAUM_WARNING_SINGULAR_START = 104,
   /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion
@@ -926,10 +946,11 @@ typedef struct baum_warning {
   size_t struct_size;     /**< Set by baum_simulation_warning(). */
   baum_warning_code code; /**< Kind of the warnings. */
   bool doubts_motion;     /**< True if the result may be wrong: code >= 100. */
-  baum_joint_id joint;    /**< Joint that the first warning names; all-zero if it names none. */
-  double first;           /**< [s] time of the first warning. */
-  double last;            /**< [s] time of the last warning. */
-  int64_t count;          /**< [-] number of warnings of this kind. */
+  /** Joint that the first warning names; all-zero if this warning names no joint. */
+  baum_joint_id joint;
+  double first;  /**< [s] time of the first warning. */
+  double last;   /**< [s] time of the last warning. */
+  int64_t count; /**< [-] number of warnings of this kind. */
   /** Message of the first warning, followed by the number of warnings. The text ends with the code
    *  and the name, such as "[warning 104 singular_start]". On the page "docs/cookbook/warnings.md",
    *  the section with the same code and name explains the warning and says what to do. */

@@ -49,7 +49,7 @@ typedef struct baum_spatial_body_def {
   /** [m/s] velocity of the centre of mass at the start, in ground axes. Default: NaN, assembly
    *  determines it. */
   double velocity[3];
-  /** [rad/s] value at the start, in body axes. Default: NaN, assembly determines it. */
+  /** [rad/s] angular velocity at the start, in body axes. Default: NaN, assembly determines it. */
   double angular_velocity[3];
   bool held; /**< True if assembly must not move the body. Default: false. */
 } baum_spatial_body_def;
@@ -161,7 +161,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
 
 /* ---- cable ----------------------------------------------------------------------------------- */
 
-/** A cable, rope or tendon without mass and friction. It runs along straight lines through points
+/** A cable, rope or tendon without mass or friction. It runs along straight lines through points
  *  that are fixed in bodies, and slides freely through all of them except the first and the last.
  *  Its length is the sum of the distances between consecutive points. The cable only pulls. With
  *  the stretch s = length - free_length, the tension of the cable is
@@ -175,8 +175,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_spring(baum_mechanism *mechanism
  *
  *  Consecutive points may belong to the same body, and points of ground are allowed. Between two
  *  points that coincide the cable has no direction: it exerts no force there, and pulls only along
- *  its other parts. If a point passes through its neighbour, the force jumps. The bodies may also
- *  be planar bodies and planar particles, which stay in the plane z = 0. */
+ *  its other parts. If two consecutive points pass through each other, the force jumps. The bodies
+ *  of the points may also be planar bodies and planar particles, which stay in the plane z = 0. */
 typedef struct baum_spatial_cable_def {
   size_t struct_size; /**< Set by baum_spatial_cable_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -192,9 +192,9 @@ typedef struct baum_spatial_cable_def {
   /** [m] >= 0, length up to which the cable is slack. Default: NaN, the value in the design
    *  configuration. */
   double free_length;
-  /** A law for the tension [N], which replaces stiffness, damping, free_length and transition. They
-   *  must then have their defaults, and the cable has no potential energy. The law must return 0
-   *  where the cable is slack. Default: NULL. */
+  /** A law that computes the tension [N]. It replaces stiffness, damping, free_length and
+   *  transition, which must then have their defaults. A cable with a law has no potential energy.
+   *  The law must return 0 where the cable is slack. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads its argument `rate`, the time derivative of the length. RATTLE requires
@@ -228,19 +228,19 @@ BAUM_API baum_status baum_mechanism_set_spatial_cable(baum_mechanism *mechanism,
 
 /* ---- torsion spring -------------------------------------------------------------------------- */
 
-/** A torsion spring and damper in parallel between two bodies, about an axis, or a law of your own.
- *  The restoring torque is stiffness (angle - free_angle) + damping (d/dt angle). If it is
- *  positive, it acts on body_b in the direction in which the angle decreases.
+/** A torsion spring and damper in parallel, which act between two bodies about an axis. A law of
+ *  your own may replace both. The restoring torque is stiffness (angle - free_angle) + damping
+ *  (d/dt angle). A positive torque acts on body_b in the direction in which the angle decreases.
  *
  *  The angle is the twist of body_b relative to body_a about the axis, as in the swing-twist
  *  decomposition. It is defined as follows: apply to body_b the smallest rotation that makes axis_b
  *  parallel to axis. Then only a rotation about the axis remains between the bodies, and the angle
- *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. A run
- *  counts the revolutions of this angle. The bodies need not be connected by a joint. If the spring
- *  should act on a coordinate of a joint, use a joint spring instead. If axis and axis_b point in
- *  opposite directions, the angle is undefined and the torque is zero. Near this position, a small
- *  rotation changes the angle by up to 2 pi. If the steps of a run are too long to follow this
- *  change of the angle, the run warns with BAUM_WARNING_BUSHING. */
+ *  of the spring is the angle of this rotation. The angle is 0 in the design configuration. During
+ *  a run, the angle is continuous over several revolutions. The bodies need not be connected by a
+ *  joint. If the spring should act on a coordinate of a joint, use a joint spring instead. If axis
+ *  and axis_b point in opposite directions, the angle is undefined and the torque is zero. Close to
+ *  this configuration, a small rotation may change the angle by up to 2 pi. If the steps of a run
+ *  are too long to follow this change of the angle, the run warns with BAUM_WARNING_BUSHING. */
 typedef struct baum_spatial_torsion_spring_def {
   size_t struct_size;  /**< Set by baum_spatial_torsion_spring_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -262,8 +262,8 @@ typedef struct baum_spatial_torsion_spring_def {
   double damping;   /**< [N m s/rad] >= 0. Default: 0. */
   /** [rad] angle at which the spring exerts no torque. Default: NaN, which means 0. */
   double free_angle;
-  /** A law for the torque [N m] that replaces stiffness, damping and free_angle, which must then
-   *  have their defaults. Default: NULL. */
+  /** A law that computes the torque [N m]. It replaces stiffness, damping and free_angle, which
+   *  must then have their defaults. Default: NULL. */
   baum_spring_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
   /** True if law reads its argument `rate`, the time derivative of the angle. RATTLE requires
@@ -296,8 +296,8 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
 /* ---- bushing --------------------------------------------------------------------------------- */
 
 /** An elastic connection of two bodies with stiffness and damping in all six directions. The force
- *  depends on the six numbers x = (d, theta) and on x'. Both x and x' are given in the axes of the
- *  bushing on body_a:
+ *  and the moment depend on the six numbers x = (d, theta) and on x'. Both x and x' are given in
+ *  the axes of the bushing on body_a:
  *
  *  - d is the vector from body_a's point to body_b's point [m];
  *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
@@ -369,7 +369,9 @@ typedef struct baum_spatial_load_def {
   /** [N] the force in ground axes, or in body axes if `follows_body` is true. Default: (0, 0, 0).
    */
   double force[3];
-  double moment[3]; /**< [N m]; must be zero on a particle. Default: (0, 0, 0). */
+  /** [N m] the moment in ground axes, or in body axes if `follows_body` is true; must be zero on a
+   *  particle. Default: (0, 0, 0). */
+  double moment[3];
   /** An input whose value multiplies force and moment. Default: none. */
   baum_input_id input;
   /** True if force and moment are in body axes and rotate with the body, false if they are in

@@ -81,11 +81,11 @@ typedef struct baum_spatial_revolute_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, the direction of `axis` in the design configuration. */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_revolute_def;
 
@@ -131,11 +131,11 @@ typedef struct baum_spatial_universal_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, must be set. */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, must be set. */
   double axis_b[3];
 } baum_spatial_universal_def;
 
@@ -179,11 +179,11 @@ typedef struct baum_spatial_cylindrical_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, the direction of `axis` in the design configuration. */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_cylindrical_def;
 
@@ -227,11 +227,11 @@ typedef struct baum_spatial_prismatic_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, the direction of `axis` in the design configuration. */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
 } baum_spatial_prismatic_def;
 
@@ -276,15 +276,16 @@ typedef struct baum_spatial_planar_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_b.
-   *  Default: NaN, the direction of `axis` in the design configuration. */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_b. Default: NaN, the direction of `axis` in the design configuration. */
   double axis_b[3];
   /** [-] direction of the coordinate x, projected onto the plane; in ground axes if `point` is
    *  given, otherwise in the axes of body_a. Default: NaN, the direction of the ground x axis in
-   *  the design configuration, or of the ground y axis if the normal is along x. */
+   *  the design configuration, or that of the ground y axis if the normal is along the ground x
+   *  axis. */
   double x_axis[3];
 } baum_spatial_planar_def;
 
@@ -420,11 +421,12 @@ typedef struct baum_spatial_constant_velocity_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] axis of the first shaft, body_a, with any length except 0; in ground axes if `point` is
-   *  given, otherwise in the axes of body_a. Default: (0, 0, 1). */
+  /** [-] axis of the first shaft, which is fixed in body_a. The vector may have any length except
+   *  0. It is in ground axes if `point` is given, otherwise in the axes of body_a.
+   *  Default: (0, 0, 1). */
   double axis[3];
-  /** [-] axis of the second shaft, body_b; in ground axes if `point` is given, otherwise in the
-   *  axes of body_b. Default: NaN, equal to axis in the design configuration. */
+  /** [-] axis of the second shaft, which is fixed in body_b; in ground axes if `point` is given,
+   *  otherwise in the axes of body_b. Default: NaN, equal to axis in the design configuration. */
   double axis_b[3];
 } baum_spatial_constant_velocity_def;
 

@@ -66,8 +66,8 @@ typedef struct baum_spatial_point_on_line_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_line_def;
 
@@ -107,8 +107,8 @@ typedef struct baum_spatial_point_on_plane_def {
   double point[3];
   double point_a[3]; /**< [m] point of body_a, in the axes of body_a. Default: NaN, not given. */
   double point_b[3]; /**< [m] point of body_b, in the axes of body_b. Default: NaN, not given. */
-  /** [-] not zero; in ground axes if `point` is given, otherwise in the axes of body_a.
-   *  Default: (0, 0, 1). */
+  /** [-] direction, not zero; in ground axes if `point` is given, otherwise in the axes of
+   *  body_a. Default: (0, 0, 1). */
   double axis[3];
 } baum_spatial_point_on_plane_def;
 
@@ -136,10 +136,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
 
 /* ---- point on a curve ------------------------------------------------------------------------ */
 
-/** The function of a curve in space, where the surfaces F(x, y, z) = 0 and G(x, y, z) = 0 meet:
- *  computes F, G and their derivatives. The derivatives must be exact on the curve and near it.
- *  Scale F and G so that their gradients have lengths of about 1 on the curve. The gradients must
- *  not be parallel there.
+/** A user function that describes a curve in space, the intersection of the surfaces F(x, y, z) = 0
+ *  and G(x, y, z) = 0. The function computes F, G and their derivatives. The derivatives must be
+ *  exact on the curve and near it. Scale F and G so that their gradients have lengths of about 1 on
+ *  the curve. On the curve, the gradients must not be parallel.
  *  @param[in]  xyz   (3) [m] x, y and z of a point, in the axes of body_a, with body_a's point as
  *                    origin
  *  @param[out] out   (20) F [m]; F_x, F_y, F_z [-]; F_xx, F_xy, F_xz, F_yy, F_yz, F_zz [1/m]; and
@@ -156,8 +156,8 @@ typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *use
  *
  *  The coordinates x, y and z in F and G are relative to body_a's point and in the axes of body_a.
  *  body_a must have an orientation; body_b may be a particle. baum_mechanism_check_derivatives()
- *  compares the derivatives of F and G with differences. Integrators that need third derivatives
- *  compute them by differences of the second derivatives. */
+ *  compares the derivatives of F and G with finite differences. Integrators that need third
+ *  derivatives compute them by finite differences of the second derivatives. */
 typedef struct baum_spatial_curve_def {
   size_t struct_size;  /**< Set by baum_spatial_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -215,13 +215,14 @@ typedef struct baum_spatial_rolling_disc_def {
   baum_body_id
     body_a; /**< The body with the plane; must differ from body_b. Default: BAUM_GROUND. */
   baum_body_id body_b; /**< The body with the disc. Default: none, must be set. */
-  double point_a[3];   /**< [m] point of the plane, in axes of body_a. Default: (0, 0, 0). */
+  double point_a[3];   /**< [m] a point in the plane, in axes of body_a. Default: (0, 0, 0). */
   /** [-] normal of the plane towards the disc, in axes of body_a. Default: (0, 1, 0). */
   double normal[3];
   double centre[3]; /**< [m] centre of the disc, in axes of body_b. Default: (0, 0, 0). */
   double axis_b[3]; /**< [-] axis of the disc, in axes of body_b. Default: (0, 0, 1). */
   double radius;    /**< [m] > 0, largest radius of the disc. Default: 0, must be set. */
-  /** [m] radius of the cross-section of the rim, from 0 to radius. Default: 0. */
+  /** [m] radius of the circular cross-section of the rim: 0 for a thin disc, equal to `radius` for
+   *  a sphere, or a value between them. Default: 0. */
   double rim_radius;
 } baum_spatial_rolling_disc_def;
 
@@ -264,7 +265,8 @@ typedef struct baum_spatial_knife_edge_def {
   size_t struct_size;  /**< Set by baum_spatial_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< The body with the blade. Default: none, must be set. */
-  baum_body_id body_b; /**< The surface; must differ from body_a. Default: BAUM_GROUND. */
+  /** The body on which the blade slides; must differ from body_a. Default: BAUM_GROUND. */
+  baum_body_id body_b;
   /** [m] point of the blade in the design configuration, in ground axes. Default: NaN, not
    *  given. */
   double point[3];

@@ -26,10 +26,10 @@ typedef struct baum_spline_driver_def {
    *  be set. */
   const double *values;
   int32_t count; /**< [-] >= 3, number of times. Default: 0, must be set. */
-  /** True: the spline repeats; the first and the last value must then be equal. Default: false, a
-   *  natural spline. */
+  /** True for a periodic spline, which repeats; the first and the last value must then be equal.
+   *  Default: false, a natural spline. */
   bool periodic;
-  /** [-] which coordinate of the joint. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] coordinate of the joint that the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_spline_driver_def;
 

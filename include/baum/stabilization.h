@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Baumgarte's gains, and their stability with each integrator. The equations are those of
- *  Baumgarte (1972) and Flores et al. (2008, numbers 6 to 19).
+ *  Baumgarte (1972) and Flores et al. (2008). Numbers of equations are those of Flores et al.
  *
  *  With the gains alpha and beta, the constraint violation Phi follows the equation Phi'' + 2 alpha
  *  Phi' + beta^2 Phi = 0 (6). The integrator solves this equation together with the motion. A
@@ -15,10 +15,10 @@
  *
  *  Rules: a gain rule chooses the gains. The comments of baum_gains_fixed() and of the other rules
  *  state for which steps the gains are stable, how large a violation they leave, and what they do
- *  to accuracy and cost. There, gamma is the right-hand side of the acceleration constraints
- *  J a = gamma. The measured numbers are those of a pendulum of length 1 m, which is released from
- *  the horizontal and simulated for 1 s with h = 0.0025 s. The page "docs/theory/gain_rules.md" has
- *  more measurements.
+ *  to accuracy and cost. In these comments, gamma is the right-hand side of the acceleration
+ *  constraints J a = gamma. The measured values in the comments are those of a pendulum of length 1
+ *  m, which is released from the horizontal and simulated for 1 s with h = 0.0025 s. The page
+ *  "docs/theory/gain_rules.md" has more measurements.
  *
  *  Two kinds of integrators have no region of stability: those that always choose their step
  *  themselves (CVODE and IDA), and those that need no gains. Below, "no region" means that an
@@ -46,12 +46,14 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_DEFAULT = 0,
   BAUM_GAINS_FIXED = 1,  /**< alpha and beta are given [1/s]. */
   BAUM_GAINS_SCALED = 2, /**< alpha h and beta^2 h^2 are given [-]; fixed step only. */
-  /** alpha = 1/h, beta = sqrt(2)/h (equations 10 and 11); fixed step only. */
+  /** alpha = 1/h, beta = sqrt(2)/h (equations 10 and 11 of Flores et al.); fixed step only. */
   BAUM_GAINS_TAYLOR = 3,
   /** beta = 2 pi f and alpha = zeta beta, where the natural frequency f [Hz] and the damping ratio
    *  zeta are given. */
   BAUM_GAINS_FREQUENCY = 4,
-  BAUM_GAINS_DEADBEAT = 5, /**< Gains for which both roots z are zero; fixed step only. */
+  /** Dead-beat gains, for which both roots z of the characteristic equation of the integrator are
+   *  zero; fixed step only. */
+  BAUM_GAINS_DEADBEAT = 5,
   /** alpha = beta, proportional to the angular velocity of the motion, but not above a limit. */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
@@ -60,18 +62,21 @@ typedef enum baum_gain_rule {
 /** A gain rule and its numbers. baum_gains_fixed() and the functions of the other rules return such
  *  structs. If all bytes are zero, the rule is BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
-  int32_t rule;    /**< A baum_gain_rule. */
-  double value[2]; /**< [1/s, Hz or -] the numbers of the rule. */
+  int32_t rule; /**< A baum_gain_rule. */
+  /** [1/s, Hz or -] the arguments of the function of the rule, such as alpha and beta of
+   *  baum_gains_fixed(). */
+  double value[2];
 } baum_gains;
 
 /** Gains that you choose. With a fixed-step method they are stable if the point (alpha h, beta^2
  *  h^2) lies in the region of stability of the method. With CVODE BDF and IDA they are stable if
- *  alpha >= 0.618 beta, and with the other variable-step methods always.
+ *  alpha >= 0.618 beta. With the other variable-step methods they are always stable.
  *
  *  With alpha = beta, a violation decays approximately as exp(-alpha t). Each step adds a new
  *  violation, so that a steady violation remains. With the Euler methods, the steady |Phi'| is
- *  about h |gamma| / 2, and the steady |Phi| is about h |gamma| alpha / beta^2. With other methods,
- *  a steady violation is approximately proportional to h^p, where p is the order of the method.
+ *  about h |gamma| / 2, and the steady |Phi| is about h |gamma| alpha / beta^2, where gamma is the
+ *  right-hand side of J a = gamma. With other methods, a steady violation is approximately
+ *  proportional to h^p, where p is the order of the method.
  *
  *  The motion keeps the order of the method, because the gains do not grow when h is reduced. Up to
  *  alpha h = 0.3 the gains cause no additional cost. Above this value, the cost of an explicit
@@ -83,36 +88,37 @@ BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
 /** Gains given by the products alpha h and (beta h)^2. They are stable if the point (alpha h, (beta
  *  h)^2) lies in the region of stability of the method. With the two Euler methods, the steady
- *  violations are |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|.
- *  Runge-Kutta methods lose order, because the gains grow when the step is reduced. The comment of
- *  baum_gains_deadbeat() gives the orders.
+ *  violations are |Phi'| = h |gamma| / 2 and |Phi| = (alpha h / (beta h)^2) h^2 |gamma|, where
+ *  gamma is the right-hand side of J a = gamma. Runge-Kutta methods lose order, because the gains
+ *  grow when the step is reduced. The comment of baum_gains_deadbeat() gives the orders.
  *  @param alpha_h   [-] alpha h >= 0
  *  @param beta2_h2  [-] (beta h)^2 >= 0
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 
-/** Gains that follow from a Taylor expansion, equations (10) and (11): alpha = 1/h, beta =
- *  sqrt(2)/h. With explicit Euler the spectral radius is 1, so violations do not decay. With
- *  semi-implicit Euler and AB2 to AB4 it is greater than 1, so the gains are unstable and refused.
- *  With RK2 these gains are dead-beat. With RK3 the spectral radius is 0.47, and with RK4 0.37. The
- *  accuracy is the same as with baum_gains_deadbeat().
+/** Gains that follow from a Taylor expansion, equations (10) and (11) of Flores et al.: alpha =
+ *  1/h, beta = sqrt(2)/h. With explicit Euler the spectral radius is 1, so violations do not decay.
+ *  With semi-implicit Euler and AB2 to AB4 the spectral radius is greater than 1, so the gains are
+ *  unstable and refused. With RK2 these gains are dead-beat. With RK3 the spectral radius is 0.47,
+ *  and with RK4 0.37. The accuracy is the same as with baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
-/** Gains given by the natural frequency and the damping ratio of equation (6). Stability, accuracy
- *  and cost are those of baum_gains_fixed(). With a damping ratio below 0.618, violations may grow
- *  with CVODE BDF and IDA.
+/** Gains given by the natural frequency and the damping ratio of the equation Phi'' + 2 alpha Phi'
+ *  + beta^2 Phi = 0. Stability, accuracy and cost are those of baum_gains_fixed(). With a damping
+ *  ratio below 0.618, violations may grow with CVODE BDF and IDA.
  *  @param hertz          [Hz] > 0, natural frequency
  *  @param damping_ratio  [-] > 0; 1 is critical damping
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Dead-beat gains, for which both roots z are zero. No other gains make violations decay faster: a
- *  violation vanishes after at most two steps. For explicit Euler these gains are alpha = beta =
- *  1/h, for semi-implicit Euler alpha = 1/(2h) and beta = 1/h, and for RK2 alpha = 1/h and beta =
- *  sqrt(2)/h. For other Runge-Kutta methods they follow from a zero of the stability polynomial.
- *  With explicit Euler, the steady violations are |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma|.
- *  With semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
+/** Dead-beat gains, for which both roots z of the characteristic equation of the integrator are
+ *  zero. No other gains make violations decay faster: a violation vanishes after at most two steps.
+ *  For explicit Euler these gains are alpha = beta = 1/h, for semi-implicit Euler alpha = 1/(2h)
+ *  and beta = 1/h, and for RK2 alpha = 1/h and beta = sqrt(2)/h. For other Runge-Kutta methods they
+ *  follow from a zero of the stability polynomial. With explicit Euler, the steady violations are
+ *  |Phi'| = h |gamma| / 2 and |Phi| = h^2 |gamma|, where gamma is the right-hand side of J a =
+ *  gamma. With semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
  *
  *  With these gains Runge-Kutta methods lose order, because the gains grow when the step is
  *  reduced: the orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2. Errors are larger than without gains, by
@@ -130,16 +136,17 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *
  *  - With a fixed step, the factor is 0.35 for Runge-Kutta methods and 0.2 for Euler and
  *    Adams-Bashforth methods. For RK2 it is only 0.05, because RK2 would otherwise lose order. If
- *    drivers prescribe the whole motion, it is 0.6 for all of these methods.
+ *    drivers prescribe the whole motion, the factor is 0.6 for all of these methods.
  *
  *  - With CVODE and IDA the factor is 0.25, and 40 if drivers prescribe the whole motion. The
  *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
  *  - With explicit methods at variable steps the factor is 0.1, because variable steps are usually
- *    longer than fixed steps. If drivers prescribe the whole motion, it is 2.
+ *    longer than fixed steps. If drivers prescribe the whole motion, the factor is 2.
  *
- *  The gains are limited: alpha h is at most 0.3, and at most half of the stability limit of the
- *  method. The gains are therefore always stable. The steady violation is approximately as large as
+ *  With a fixed step, the gains are limited: alpha h is at most 0.3, and at most half of the
+ *  stability limit of the method. With this limit, the gains are always stable. With variable
+ *  steps, equal gains need no limit to be stable. The steady violation is approximately as large as
  *  the local error of a step, and violations decay over some radians of the motion. The method
  *  keeps its order, and the run costs as much as a run without gains.
  *
@@ -148,14 +155,14 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  the part of the pilot run before the failure. If the mechanism has degrees of freedom, or if it
  *  is at rest in equilibrium, the angular velocity is at least sqrt(g/L), where g is the magnitude
  *  of gravity; this is the angular frequency of a pendulum of length L. For a mechanism at rest in
- *  equilibrium without gravity, alpha is 0.01/h with a fixed step. With variable steps, alpha is
- *  then 1 per second, which only suits machines with time scales of seconds.
- *  The page "docs/theory/gain_rules.md" compares other factors.
+ *  equilibrium without gravity, alpha is 0.01/h with a fixed step. For such a mechanism, alpha is 1
+ *  per second with variable steps, which only suits machines with time scales of seconds. The page
+ *  "docs/theory/gain_rules.md" compares other factors.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_auto(void);
 
-/** Gains of least spectral radius. If a method has a dead-beat point, these are the dead-beat
- *  gains. AB2 to AB4 have no such point, and for them this rule is the default. For AB2 the gains
+/** Gains of least spectral radius. If a method has dead-beat gains, this rule chooses them. AB2 to
+ *  AB4 have no dead-beat gains, and for these methods this rule is the default. For AB2 the gains
  *  are alpha = beta = 2/(3h) with the spectral radius 0.58. For AB3 the least spectral radius is
  *  0.69, and for AB4 it is 0.81. Violations are 10 to 100 times smaller than with
  *  baum_gains_auto(). AB2 to AB4 keep their order, because they evaluate accelerations only at the
@@ -171,30 +178,30 @@ typedef enum baum_stability {
   /** Some violations neither decay nor grow exponentially: spectral radius = 1. */
   BAUM_MARGINAL = 1,
   BAUM_UNSTABLE = 2, /**< Some violations grow exponentially: spectral radius > 1. */
-  /** The method has no region, because it always chooses its step itself. See
+  /** The method has no region of stability, because it always chooses its step itself. See
    *  baum_stability_statement(). */
   BAUM_VARIABLE_STEP = 3,
-  /** The method has no region, because it keeps the constraints without gains. */
+  /** The method has no region of stability, because it keeps the constraints without gains. */
   BAUM_WITHOUT_GAINS = 4
 } baum_stability;
 
 /** The result of baum_stability_at() and baum_stability_velocity_at(): how one step changes
  *  constraint violations. */
 typedef struct baum_amplification {
-  size_t struct_size;       /**< Set by baum_stability_at(). */
+  size_t struct_size;       /**< Set by the function that fills the struct. */
   baum_stability stability; /**< Whether violations decay. */
-  double spectral_radius;   /**< [-] largest |z|; NaN without a region. */
+  double spectral_radius;   /**< [-] largest |z|; NaN if the method has no region of stability. */
   /** [-] the largest root z of each of the two modes, as real and imaginary part. The mode with the
-   *  larger |z| comes first. NaN without a region. */
+   *  larger |z| comes first. NaN if the method has no region of stability. */
   double z[2][2];
   /** [-] 1 - spectral_radius, computed without cancellation. This is the fraction of a violation
    *  that one step removes, for the mode that decays most slowly. Negative if violations grow; NaN
-   *  without a region. */
+   *  if the method has no region of stability. */
   double damping;
 } baum_amplification;
 
-/** Compute the amplification at a point (alpha h, beta^2 h^2), as in the first figure of Flores et
- *  al.
+/** Compute the amplification of constraint violations at a point (alpha h, beta^2 h^2), as in the
+ *  first figure of Flores et al.
  *  @param      integrator   the method
  *  @param      alpha_h      [-] alpha h, finite
  *  @param      beta2_h2     [-] (beta h)^2, finite
@@ -224,7 +231,8 @@ BAUM_API baum_status baum_stability_velocity_at(const baum_integrator *integrato
 BAUM_API baum_status baum_stability_velocity_limit(const baum_integrator *integrator,
                                                    double *alpha_h);
 
-/** Describe in words how gains act with a method. Methods without a region have such a text, too.
+/** Describe in words how gains act with a method. The function also describes methods without a
+ *  region of stability.
  *  @param integrator  may be NULL
  *  @return  static text; NULL if the argument is NULL */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
@@ -242,7 +250,7 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
 
 /** Find all intervals of alpha h in which gains of a given damping ratio alpha / beta are stable.
  *  Most methods have one interval, which begins at 0. The function may miss intervals, and gaps
- *  between intervals, that are narrower than 1 % of their alpha h.
+ *  between intervals, if they are narrower than 1 % of the alpha h at which they lie.
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] size of the arrays; >= 0
@@ -266,10 +274,10 @@ BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
 BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrator,
                                                 double damping_ratio, double *alpha_h);
 
-/** Find the point at which violations decay fastest, among all points with alpha h > 0. This is the
- *  dead-beat point if the method has one. If several points are equally good, the function returns
- *  the one with the smallest gains. The search takes tens of milliseconds for Adams-Bashforth
- *  methods.
+/** Find the point (alpha h, beta^2 h^2) at which violations decay fastest, among all points with
+ *  alpha h > 0. This is the dead-beat point if the method has one. If several points are equally
+ *  good, the function returns the one with the smallest gains. The search takes tens of
+ *  milliseconds for Adams-Bashforth methods.
  *  @param      integrator  the method
  *  @param[out] alpha_h     [-] alpha h of the point
  *  @param[out] beta2_h2    [-] (beta h)^2 of the point
@@ -324,8 +332,8 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  hundredth of the whole region. The call uses 30 kB of stack.
  *  @param      integrator  the method
  *  @param      radius      [-] > 0, finite
- *  @param      capacity    [-] size of the arrays; >= 0. 2000 is enough for every integrator of the
- *                          library.
+ *  @param      capacity    [-] size of the arrays; >= 0. A capacity of 2000 is enough for every
+ *                          integrator of the library.
  *  @param[out] alpha_h     [-] (capacity) alpha h of each point. NULL if capacity is 0.
  *  @param[out] beta2_h2    [-] (capacity) (beta h)^2 of each point. NULL if capacity is 0.
  *  @param[out] count       [-] number of points; 0 if the spectral radius is larger than `radius`

@@ -12,7 +12,8 @@
  *  last good step. The library never prints, exits or aborts. SUNDIALS is an exception: if memory
  *  runs out while a run with CVODE or IDA is created, SUNDIALS may print a line or crash.
  *
- *  Threads: each thread has its own message. All other state is in objects that you create. */
+ *  Threads: each thread has its own message of the last call that did not return 0, see
+ *  baum_message(). All other state is in objects that you create. */
 #ifndef BAUM_STATUS_H
 #define BAUM_STATUS_H
 
@@ -68,8 +69,9 @@ BAUM_API const char *baum_status_text(baum_status status);
  *           thread that returns a status other than 0 */
 BAUM_API const char *baum_message(void);
 
-/** Set the message of this thread. This function is for libraries that are built on this one, and
- *  for user functions that fail: the library appends the message of the user function to its own.
+/** Set the message of this thread. This function is for libraries that use baum, and for user
+ *  functions that fail. If a user function fails, the message of baum ends with the message of
+ *  the user function.
  *  @param     status   returned unchanged
  *  @param[in] message  copied, truncated if very long; NULL: the general meaning of the status
  *  @return  status, so that you can write `return baum_fail(...)` */

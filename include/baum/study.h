@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Studies measure accuracy against cost. A study runs one mechanism over one time span with many
- *  settings, which are integrators with their options. It measures the error and the cost of each
- *  setting, and recommends one of them.
+ *  Studies measure the accuracy and the cost of integration methods. A study runs one mechanism
+ *  over one time span with many settings, which are integrators with their options. It measures the
+ *  error and the cost of each setting, and recommends one of them.
  *
  *    baum_study_create(mechanism, 0.0, 2.0, &study);
  *    baum_study_add_standard(study, NULL);
@@ -18,14 +18,14 @@
  *  "docs/theory/work-precision.md" explains the details.
  *
  *  Threads: only one thread at a time may use a study, except that any thread may call
- *  baum_study_cancel(). baum_study_run() uses as many threads as the options say, and calls the
- *  user functions of the mechanism from each of these threads. The progress function may cancel the
- *  study. If the study uses one thread only, the progress function may also read the study. Inside
- *  the progress function, functions that change the study fail with BAUM_ERR_STATE, and
- *  baum_study_destroy() does nothing.
+ *  baum_study_cancel(). The option `threads` gives the number of threads of baum_study_run(), and
+ *  each of these threads calls the user functions of the mechanism. The progress function (option
+ *  `progress`) may cancel the study. If the study uses one thread only, the progress function may
+ *  also read the study. Inside the progress function, functions that change the study fail with
+ *  BAUM_ERR_STATE, and baum_study_destroy() does nothing.
  *
- *  The study owns all texts that its functions return. They are valid until the next call that
- *  changes the study.
+ *  The study owns all texts that its functions return. These texts are valid until the next call
+ *  that changes the study.
  */
 #ifndef BAUM_STUDY_H
 #define BAUM_STUDY_H
@@ -94,7 +94,8 @@ typedef struct baum_study_options {
   bool energy_account;
   /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
   const char *file;
-  baum_study_progress_fn *progress; /**< The study calls this function. Default: NULL, none. */
+  /** The study calls this function to report its progress. Default: NULL, none. */
+  baum_study_progress_fn *progress;
   void *user; /**< Passed to the function `progress`. Not owned. Default: NULL. */
   /** Validate entries before one is recommended: run them again, over twice the span and from
    *  perturbed starts. The recommendation is then also valid for such runs. Default: true. */
@@ -137,7 +138,8 @@ typedef struct baum_study_grid {
   const baum_integrator *integrator;
   /** Use only this formulation. Default: BAUM_FORMULATION_DEFAULT, all formulations. */
   baum_formulation formulation;
-  int32_t settings; /**< [-] 1 to 64, number of steps or tolerances of each method. Default: 8. */
+  /** [-] 1 to 64, number of step sizes or tolerances of each method. Default: 8. */
+  int32_t settings;
   /** [-] 0 to 4, number of constant gains alpha = beta. The grid contains them in addition to the
    *  integrator's default rule and to automatic gains. The first gain is the rate of the motion
    *  [1/s]. This rate is the larger of two numbers. One is the rate r at the start, which the
@@ -145,9 +147,9 @@ typedef struct baum_study_grid {
    *  over all coordinates j, averaged over a trial run; s_j is the scale of coordinate j
    *  (mechanism.h). Each further gain is ten times the gain before it. Default: 2. */
   int32_t constants;
-  /** [s] > 0, longest step of methods of the orders 3 to 5. The longest steps of methods of the
-   *  orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. Default: NaN, chosen from the time scale
-   *  of the motion. */
+  /** [s] > 0, longest step of integrators of the orders 3 to 5. The longest steps of integrators of
+   *  the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times this step. Default: NaN, chosen from the time
+   *  scale of the motion. */
   double coarsest;
   /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13. If a
    *  user constraint has neither `jacobian` nor `gamma`, NaN means 1e-11, because finite
@@ -155,8 +157,8 @@ typedef struct baum_study_grid {
   double finest;
   /** A smaller grid for a first answer. Its cost is approximately 1/25 of the cost of the default
    *  grid. It contains every integrator with its default gains and its default formulation, or with
-   *  `formulation` if this field is set. Each integrator has at most 5 settings, and `constants` is
-   *  ignored. Default: false. */
+   *  `formulation` if this field is set. Each integrator has at most 5 step sizes and at most 5
+   *  tolerances, and `constants` is ignored. Default: false. */
   bool quick;
 } baum_study_grid;
 
@@ -173,9 +175,10 @@ static inline baum_study_grid baum_study_grid_default(void)
 }
 
 /** Add the standard grid of settings. It contains every integrator of the build with each of its
- *  formulations. BAUMGARTE is included with its default gains, with automatic gains and with some
- *  constant gains. Each of these methods gets steps or tolerances from coarse to fine. The steps
- *  follow from the time scale of the motion, which a trial run determines.
+ *  formulations. The formulation BAUMGARTE occurs with the default gains of the integrator, with
+ *  automatic gains and with some constant gains. Each combination of integrator, formulation and
+ *  gains gets several step sizes or tolerances, from coarse to fine. The step sizes follow from the
+ *  time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
  *  @param[in] grid   NULL: the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build matches the fields
@@ -186,11 +189,11 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
 
 /** Add stress settings, which are extreme on purpose. Steps range from 1e-1 to 1e-9 of a period,
  *  and rtol from 1e-2 to 1e-14. Here, a period is 2 pi divided by the rate of the motion; the
- *  comment on the field `constants` of baum_study_grid defines this rate. For BAUMGARTE there are
- *  also gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, with a step of 1e-3 of a period or with
- *  rtol 1e-7. Every entry should be as accurate as its setting suggests, or have a message or a
- *  warning that says why it is not. The option entry_limit bounds the CPU time of entries with tiny
- *  steps.
+ *  comment on the field `constants` of baum_study_grid defines this rate. The formulation
+ *  BAUMGARTE also runs with gains alpha = beta of 0 and of 1e-6 to 1e12 [1/s]; the step is then
+ *  1e-3 of a period, or rtol is 1e-7. Every entry should be as accurate as its setting
+ *  suggests, or have a message or a warning that says why it is not. The option entry_limit bounds
+ *  the CPU time of entries with tiny steps.
  *  @param study       unchanged on failure
  *  @param integrator  NULL: all integrators of this build that take the option step or rtol
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build does not contain `integrator`),
@@ -217,15 +220,16 @@ BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel 
 
 /** Give a reference as samples. Errors are then measured at the times of these samples, and the
  *  option samples is ignored. Values that are NaN are not compared. Call this function before the
- *  first baum_study_run(). The study counts the revolutions of angles in space from sample to
- *  sample. Where samples are too far apart for this count, the study compares neither energies nor
- *  the channels of baum_study_set_error().
+ *  first baum_study_run(). The study counts the revolutions of angles between bodies in space from
+ *  sample to sample. If two samples are too far apart for this count, then from the second of
+ *  them on the study does not compare energies, and it compares only those channels of
+ *  baum_study_set_error() that contain q, poses or Phi.
  *  @param     study   unchanged on failure
  *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
  *  @param[in] q       (n x nq) positions, copied
- *  @param[in] v       (n x nv) velocities, copied. NULL: unknown.
- *  @param[in] lambda  (n x nc) multipliers, copied. NULL: unknown.
+ *  @param[in] v       (n x nv) velocities, copied. NULL if they are unknown
+ *  @param[in] lambda  (n x nc) multipliers, copied. NULL if they are unknown
  *  @param     digits  [-] > 0, number of digits of the reference that can be trusted. The study
  *                     does not distinguish errors below 10^-digits
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
@@ -256,20 +260,21 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
 /* ---- running --------------------------------------------------------------------------------- */
 
 /** Run a study: compute the reference, and then run the entries that are not done. The study first
- *  determines the errors of all entries, in several threads, beginning with coarse settings. Then
- *  it measures the times of all entries, one by one. Entries that fail, are refused or reach the
- *  entry limit stay in the study. If a setting reaches the entry limit, the finer settings of its
- *  method are skipped. If a study has been stopped, or if you have added entries, another call runs
- *  the entries that are not done.
+ *  determines the errors of all entries, beginning with coarse settings; the option `threads` says
+ *  how many entries run at a time. Then it measures the CPU times of all entries, one by one.
+ *  Finally, if the option `validate` is set, it validates entries. Entries that fail, are refused
+ *  or reach the entry limit stay in the study. If a setting reaches the entry limit, the finer
+ *  settings of its method are skipped. If a study has been stopped, or if you have added entries,
+ *  another call runs the entries that are not done.
  *
- *  If the option file is set, the study appends every result to this file as a line of text as soon
- *  as the result is known. When this function returns, all results are on the disk. Another study
- *  can continue with this file if both studies have the same mechanism, the same initial positions,
- *  velocities and inputs, the same time span, samples, reference and definition of the error, and
- *  the same option energy_account, and if both run with the same version of the library. The other
- *  study then reads the results of its entries from the file; a last line that is cut off does no
- *  harm. The library does not check whether the user functions are the same. Only one process at a
- *  time may use the file.
+ *  If the option `file` is set, the study appends every result to this file as a line of text as
+ *  soon as the result is known. When this function returns, all results are on the disk. Another
+ *  study can continue with this file if both studies have the same mechanism, the same initial
+ *  positions, velocities and inputs, the same time span, samples, reference and definition of the
+ *  error, and the same option energy_account, and if both run with the same version of the library.
+ *  The other study then reads the results of its entries from the file; a last line that is cut off
+ *  does no harm. The library does not check whether the user functions are the same. Only one
+ *  process at a time may use the file.
  *  @param study  with at least one entry
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
  *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
@@ -279,9 +284,9 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *           baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop. It then discards the results of entries that are not finished. A
- *  call that is adding entries at this time stops, too, and adds none. This function may be called
- *  from any thread and from signal handlers.
+/** Ask baum_study_run() to stop. baum_study_run() then discards the results of entries that are
+ *  not finished. If baum_study_add_standard() or baum_study_add_stress() is running, it also stops
+ *  and adds no entries. This function may be called from any thread and from signal handlers.
  *  @param study  may be NULL */
 BAUM_API void baum_study_cancel(baum_study *study);
 
@@ -289,12 +294,12 @@ BAUM_API void baum_study_cancel(baum_study *study);
 
 /** State of an entry. */
 typedef enum baum_study_state {
-  BAUM_STUDY_WAITING = 0, /**< Not run yet, or interrupted. */
-  BAUM_STUDY_DONE = 1,    /**< Reached the end of the span. */
-  BAUM_STUDY_REFUSED = 2, /**< Could not be started. */
-  BAUM_STUDY_FAILED = 3,  /**< Failed during the run. */
-  /** Reached the option entry_limit, or was skipped because a coarser setting of its method reached
-   *  it. */
+  BAUM_STUDY_WAITING = 0, /**< The entry has not run yet, or its run was interrupted. */
+  BAUM_STUDY_DONE = 1,    /**< The run reached the end of the span. */
+  BAUM_STUDY_REFUSED = 2, /**< The run could not be started. */
+  BAUM_STUDY_FAILED = 3,  /**< The run failed before the end of the span. */
+  /** The run reached the limit of CPU time (option entry_limit), or the entry was skipped because a
+   *  coarser setting of its method reached this limit. */
   BAUM_STUDY_TIMED_OUT = 4
 } baum_study_state;
 
@@ -310,9 +315,9 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  fields with `final` in their names contain the error at the last sample, and error_half covers
  *  only the first half of the samples. An error is never smaller than the uncertainty of the
  *  reference. The scale of a length is the characteristic length, and the scale of an angle is 1
- *  rad. Scaled positions and velocities are divided by the scales of their coordinates. Weighted
- *  multipliers are multiplied by a weight: for row i, it is the norm of row i of the Jacobian J,
- *  after each column of J has been multiplied by the scale of its coordinate. */
+ *  rad. Scaled positions and velocities are divided by the scales of their coordinates. The
+ *  weighted multiplier of row i is the multiplier times the norm of row i of the Jacobian J; for
+ *  this norm, each column of J is first multiplied by the scale of its coordinate. */
 #define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
   X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
   X(baum_status, status, ALWAYS, "", "status of the run of the entry")                             \
@@ -339,7 +344,7 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
   X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
   X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account")    \
   X(double, projection_work, DONE, "J", "change of energy by projections")                         \
-  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                   \
+  X(double, gains_work, DONE, "J", "work of Baumgarte's gains, see baum_energy_account")           \
   X(double, work, DONE, "evaluations", "evaluations + factorizations + implicit iterations")       \
   X(double, cpu, DONE, "s", "least CPU time to create a run and advance it, without samples")      \
   X(double, cpu_spread, DONE, "s", "second smallest CPU time minus the smallest")                  \
@@ -359,18 +364,19 @@ BAUM_API const char *baum_study_state_name(baum_study_state state);
  *  those of BAUM_STUDY_ENTRY_LIST, which states their units and meanings. A result of type double
  *  that is not known is NaN. Do not use the counts (such as `steps`) of an entry that is not done.
  *  error_validated is infinite if the setting fails in the validation. It is NaN for entries that
- *  are not validated. The study does not validate an entry if its work is much larger than the work
+ *  are not validated. The study does not validate an entry whose work is much larger than the work
  *  of another entry that is at least as accurate. */
 typedef struct baum_study_entry {
   size_t struct_size; /**< Set by baum_study_entry_at(). */
-  const char *name;   /**< Such as "rk8 projection, rtol 1e-06". */
-  /** Why the entry was refused or failed; otherwise its first warning; "" if there is none. */
+  const char *name;   /**< The name, such as "rk8 projection, rtol 1e-06". */
+  /** The reason why the entry was refused or failed. For other entries: the first warning of the
+   *  run, or "" if the run has no warning. */
   const char *message;
   const baum_integrator *integrator; /**< The integrator. */
   baum_formulation formulation;      /**< The formulation; never BAUM_FORMULATION_DEFAULT. */
   baum_gains gains;                  /**< The gain rule, as given in the options. */
-  double step;                       /**< [s] NaN for entries with rtol. */
-  double rtol;                       /**< [-] NaN for entries with a step. */
+  double step;                       /**< [s] fixed step; NaN if the entry has rtol. */
+  double rtol;                       /**< [-] tolerance; NaN if the entry has a step. */
   /** [-] number of the method to which the entry belongs, see baum_study_method_at(). */
   int32_t method;
 /** Expands a line of the list. */
@@ -472,29 +478,29 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /** A measure of cost. */
 typedef enum baum_study_cost {
-  /** [-] number of evaluations, plus number of factorizations, plus number of iterations of
-   *  implicit methods. It is the same on every machine. */
+  /** [-] number of evaluations of the equations of motion, plus number of factorizations, plus
+   *  number of iterations of implicit methods. This cost is the same on every machine. */
   BAUM_STUDY_WORK = 0,
   BAUM_STUDY_CPU = 1 /**< [s] measured CPU time. */
 } baum_study_cost;
 
-/** A method: the entries with the same integrator, formulation and gains. They differ only in step
- *  or in rtol. */
+/** A method: the entries with the same integrator, formulation and gains. These entries differ only
+ *  in step or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size; /**< Set by baum_study_method_at(). */
-  /** Such as "rk8 projection". If an integrator can use fixed and variable steps, two of its
-   *  methods have the same name; fixed_step tells them apart. */
+  /** The name, such as "rk8 projection". If an integrator can use fixed and variable steps, two of
+   *  its methods have the same name; the field fixed_step distinguishes them. */
   const char *name;
-  const baum_integrator *integrator; /**< Integrator of its entries. */
-  baum_formulation formulation;      /**< Formulation of its entries. */
-  baum_gains gains;                  /**< Gain rule of its entries. */
-  bool fixed_step;                   /**< True if entries differ in step, false if in rtol. */
+  const baum_integrator *integrator; /**< Integrator of the method. */
+  baum_formulation formulation;      /**< Formulation of the method. */
+  baum_gains gains;                  /**< Gain rule of the method. */
+  bool fixed_step;                   /**< True if the entries differ in step, false if in rtol. */
   int32_t entries;                   /**< [-] number of entries. */
-  /** [-] number of entries that are done, whose error is finite and not 0, and whose field `off` is
-   *  false. If `off` is true, the run has followed another motion: error_q is above 0.1, or the run
-   *  has a branch warning. */
+  /** [-] number of entries that are done, whose CPU time is measured, whose error is finite and not
+   *  0, and whose field `off` is false. If `off` is true, the run has followed another motion than
+   *  the reference: error_q is above 0.1, or the run has a branch warning. */
   int32_t usable;
-  double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
+  double least_error; /**< [-] smallest error of the usable entries; NaN if there are none. */
   /** [-] slope of the error curve: d log error / d log step, or d log error / d log rtol if entries
    *  differ in rtol. NaN: unknown. */
   double slope;
@@ -502,8 +508,8 @@ typedef struct baum_study_method {
   double work_per_digit;
   /** [-] factor by which the CPU time grows for one more correct digit; NaN: unknown. */
   double cpu_per_digit;
-  /** [-] geometric mean of error_validated / error over those of its entries for which
-   *  error_validated is finite; NaN if there are none. */
+  /** [-] geometric mean of error_validated / error over the usable entries whose error_validated is
+   *  finite; NaN if there are none. */
   double growth;
 } baum_study_method;
 
@@ -532,10 +538,11 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
-/** Compute what a method costs for a given error. The cost is interpolated between entries,
- *  linearly in the logarithms of error and cost. Before the first entry, the cost is extrapolated
- *  by at most the distance between the first two entries. After the last entry, it is extrapolated
- *  by at most the distance between the last two entries.
+/** Compute what a method costs for a given error. The cost is interpolated between the
+ *  usable entries of the method (see baum_study_method), linearly in the logarithms of error and
+ *  cost. If the error is larger than that of the coarsest entry, the cost is extrapolated by at
+ *  most the distance between the two coarsest entries. If the error is smaller than that of the
+ *  finest entry, the cost is extrapolated by at most the distance between the two finest entries.
  *  @param      study   the study
  *  @param      method  number of the method, 0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
  *  Sweeps: many runs of one mechanism in several threads. Each run uses its own copy of the
- *  mechanism, and a function of the program changes data of this copy, such as masses or lengths.
+ *  mechanism, and a function that you write changes data of this copy, such as masses or lengths.
  */
 #ifndef BAUM_SWEEP_H
 #define BAUM_SWEEP_H
@@ -48,11 +48,11 @@ static inline baum_sweep_def baum_sweep_def_default(void)
   return def;
 }
 
-/** Execute all runs of a sweep. For each run, this function copies the mechanism, calls `change`
- *  for the copy, and samples the channels like baum_simulation_sample(). The results do not depend
- *  on the number of threads. A run that fails does not stop the others; its samples are NaN from
- *  the failure on. User functions, such as force functions of the mechanism and the progress
- *  function of the options, are called from all threads.
+/** Execute all runs of a sweep. For each run, this function copies the mechanism, calls the
+ *  function `change` of the definition for the copy, and samples the channels like
+ *  baum_simulation_sample(). The results do not depend on the number of threads. A run that fails
+ *  does not stop the others; its samples are NaN from the failure on. All threads call the user
+ *  functions, such as force functions of the mechanism and the progress function of the options.
  *  @param      mechanism  frozen; it is not modified
  *  @param[in]  options    options of all runs
  *  @param[in]  def        what the sweep computes

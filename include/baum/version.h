@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  The version of the library and its optional parts.
- */
+ *  The version of the library, and the optional parts that it contains. */
 #ifndef BAUM_VERSION_H
 #define BAUM_VERSION_H
 
@@ -18,7 +17,7 @@ extern "C" {
  */
 #define BAUM_VERSION_MINOR 1
 #define BAUM_VERSION_PATCH 0       /**< Grows with corrections. */
-#define BAUM_VERSION       "0.1.0" /**< The three numbers as text. */
+#define BAUM_VERSION       "0.1.0" /**< Major, minor and patch number as text. */
 
 /** Version of the library that the program has loaded. It may differ from the version of the
  *  headers with which the program was compiled.

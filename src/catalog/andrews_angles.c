@@ -204,7 +204,7 @@ const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .title = "Andrews' squeezing mechanism in 7 angles, given by user functions",
   .source = ANDREWS_SOURCE,
   .provenance = ANDREWS_PROVENANCE,
-  .note = "angular velocities up to 1500 rad/s within 0.03 s",
+  .note = "angular velocities reach 1500 rad/s within 0.03 s",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "uuuuuuu", 1),
   .defaults = (const double[1]){ANDREWS_START},
   .end = 0.03,

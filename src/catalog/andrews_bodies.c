@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Andrews' squeezing mechanism as seven rigid bodies. The geometry below is derived from the
- * equations of the Bari test set, whose seven coordinates are beta, Theta, gamma, Phi, delta, Omega
- * and epsilon. In each line, a is the angle of the body. The fixed points A, B and C, and the
- * lengths, such as rr and d, are those of andrews.h.
+ * equations of this mechanism in the Bari test set of initial value problems. The seven coordinates
+ * of the test set are the angles beta, Theta, gamma, Phi, delta, Omega and epsilon. Each line below
+ * describes one of the bodies K1 to K7: its pivot, its angle a, and its point E, F, G or H.
+ * src/catalog/andrews.h defines the fixed points A, B and C, and the lengths, such as rr and d.
  *
  *   K1 pivots at O = (0, 0), a = beta.                E = rr (cos a, sin a)
  *   K2 pivots at E, a = beta + Theta.                 F = E - d (cos a, sin a)
@@ -14,10 +15,10 @@
  *   K6 pivots at H, a = Omega + epsilon.              F = H + zf (cos a, sin a)
  *
  * The mass matrix of the test set determines the centres of mass: K1 has its centre at the distance
- * ra from O, K2 at the distance da from E towards F, K4 at e - ea from G towards F, and K6 at zf -
- * fa from H towards F. The centres of K3, K5 and K7 are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and
- * sqrt(ua^2 + ub^2) from the pivots. Without gravity, the directions from the pivots to these three
- * centres do not affect the motion.
+ * ra from O, K2 at the distance da from E towards F, K4 at the distance e - ea from G towards F,
+ * and K6 at the distance zf - fa from H towards F. The distances of the centres of K3, K5 and K7
+ * from their pivots are sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2) and sqrt(ua^2 + ub^2). Without
+ * gravity, the directions from the pivots to these three centres do not affect the motion.
  */
 #include "catalog/andrews.h"
 #include "catalog/catalog.h"
@@ -152,7 +153,7 @@ const baum_i_catalog_mechanism baum_i_andrews_bodies = {
   .title = "Andrews' squeezing mechanism as 7 rigid bodies",
   .source = ANDREWS_SOURCE,
   .provenance = ANDREWS_PROVENANCE,
-  .note = "angular velocities up to 1500 rad/s within 0.03 s",
+  .note = "angular velocities reach 1500 rad/s within 0.03 s",
   .defaults = (const double[COUNT]){ANDREWS_START, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
   .end = 0.03,
   BAUM_I_CATALOG_STORED(ANDREWS, 15),

@@ -5,7 +5,7 @@
  *
  *   sin a + sin b + sin a sin b = 0
  *
- * One of the 30 rows is redundant in every configuration.
+ * One of the 30 constraint rows is redundant in every configuration.
  */
 #include <math.h>
 
@@ -89,9 +89,10 @@ const baum_i_catalog_mechanism baum_i_bricard = {
   .source = "IFToMM and A Coruna library of benchmarks, A04",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 17.1 digits; "
-    "a second, independent model in double precision agrees to 9 digits; baum raises the axial "
-    "inertia of the rods from 0 to 1e-10 of the transverse inertia",
-  .note = "one redundant row",
+    "a second, independent model in double precision agrees to 9 digits; the library raises the "
+    "axial inertia of the rods from 0 to 1e-10 of the transverse inertia, which changes positions "
+    "by 7e-11 m",
+  .note = "one redundant constraint row",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", RODS),
   .defaults = (const double[COUNT]){1.0, 1.0, 0.0, 9.81, 0.0, 0.0},
   .end = 5.0,

@@ -124,7 +124,7 @@ static void build(baum_i_parts *parts, const double *p)
 const baum_i_catalog_mechanism baum_i_car_axis = {
   .name = "car_axis",
   .title = "car axis on a moving bump, given by user functions that depend on time",
-  .source = "S. Schneider; Bari test set, caraxis (copy in cran/deTestSet)",
+  .source = "S. Schneider; Bari test set, caraxis (copy in the GitHub repository cran/deTestSet)",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 19 digits; "
     "the published values at 3 s agree to 12 to 14 digits",

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Chaplygin's sleigh: a body on a plane with a blade. The blade is parallel to the x axis of the
- * body, at the distance D behind the centre of mass. m is the mass of the body, and I its moment of
- * inertia about the centre of mass. u is the velocity of the blade in its own direction, and w is
- * the angular velocity of the body. The equations of motion are
+ * body, at the distance D behind the centre of mass. The mass of the body is m, and its moment of
+ * inertia about the centre of mass is I. The velocity of the blade in its own direction is u, and
+ * the angular velocity of the body is w. The equations of motion are
  *
  *   m u' = m D w^2,   (I + m D^2) w' = -m D u w
  *
- * m u^2 + (I + m D^2) w^2 is constant. With constants U, W, k and e, and with s = k t + e, the
- * motion is therefore
+ * The kinetic energy, and thus m u^2 + (I + m D^2) w^2, is constant. With constants U, W, k and e,
+ * and with s = k t + e, the motion is therefore
  *
  *   u = U tanh s,  w = W / cosh s,  k = m D U / (I + m D^2),  U k = D W^2,  angle' = w
  *
@@ -119,7 +119,7 @@ const baum_i_catalog_mechanism baum_i_chaplygin_sleigh = {
   .title = "Chaplygin's sleigh, whose blade does not slip sideways",
   .source = "S. A. Chaplygin (1911)",
   .provenance = "closed form of angle and velocities; quadrature for the path of the blade",
-  .note = "one row of velocity level",
+  .note = "one constraint row of velocity level (non-holonomic)",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, NULL, "mmr", 1),
   .defaults = (const double[COUNT]){2.0, 0.15, 0.3, 0.5, 1.3},
   .end = 5.0,

@@ -10,7 +10,8 @@
  *   A s'' = T + L1 + L2 - 2 c s',   B d'' = L1 - L2 - 2 c d'
  *   A = I_carrier + m e^2 + I_spider / 2 + 2 I_wheel,   B = 2 I_wheel + r^2 I_spider
  *
- * m is the mass of the spider, and e its distance from the x axis.
+ * In these formulas, m is the mass of the spider, and e is its distance from the x axis. The spider
+ * is a thin disc.
  */
 #include <float.h>
 #include <math.h>

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A right front wheel on two wishbones, with steering and a road. x points backwards, y to the
- * right and z up. The wishbones rotate about skew axes on the car, which is the ground. The upright
- * connects their ball joints. A tie rod of constant length connects the upright to a rack, which a
- * driver moves along y. A plate, which a driver moves along z, carries the centre of the wheel.
+/* A right front wheel on two wishbones, with steering and a road. The x axis points backwards, the
+ * y axis to the right and the z axis up. The wishbones rotate about skew axes on the car, which is
+ * the ground. The upright connects the ball joints of the two wishbones. A tie rod of constant
+ * length connects the upright to a rack. The rack moves along y, and its motion is prescribed. A
+ * plate, whose motion along z is prescribed, carries the centre of the wheel.
  *
  * Closed formulas give the poses of all bodies from the angle of the lower wishbone and the
  * position of the rack. In each step of these formulas a part rotates about a known axis until one
- * of its points has a given distance from a known point. The upper wishbone rotates until its ball
- * joint has the right distance from the ball joint of the lower wishbone. The upright rotates about
- * the line through both ball joints until the distance of its steering arm from the rack is the
- * length of the tie rod. Newton's method finds the angle of the lower wishbone at which the wheel
- * has the height of the plate.
+ * of its points has a given distance from a known point. The upper wishbone rotates until the
+ * distance between the ball joints of both wishbones is that of the ball joints on the upright. The
+ * upright rotates about the line through both ball joints until the distance of its steering arm
+ * from the rack is the length of the tie rod. Newton's method finds the angle of the lower wishbone
+ * at which the wheel has the height of the plate.
  */
 #include <float.h>
 #include <math.h>

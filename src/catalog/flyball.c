@@ -108,7 +108,7 @@ const baum_i_catalog_mechanism baum_i_flyball = {
   .name = "flyball",
   .title = "flyball governor with soft springs",
   .source = "IFToMM and A Coruna library of benchmarks, A05, with the stiffness, damping and speed "
-            "of the example of EXUDYN",
+            "of the flyball example of the program EXUDYN",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.2 digits; "
     "a second, independent model in double precision agrees to 12.5 digits",

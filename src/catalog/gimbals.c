@@ -4,8 +4,8 @@
  * ring, and the rotor by the angle c about the y axis of the inner ring. A weight of mass m on the
  * inner ring is at the distance l from the centre, on the axis of the rotor. A and C are the
  * moments of inertia of the rotor across and along its axis. J is the moment of inertia of the
- * inner ring about the normal of its plane, which is its z axis. About x and y, the moment of
- * inertia of the inner ring is J / 2. The component n = c' + a' sin b of the angular velocity of
+ * inner ring about its z axis, which is normal to the plane of the ring. About x and y, the moment
+ * of inertia of the inner ring is J / 2. The component n = c' + a' sin b of the angular velocity of
  * the rotor along its axis is constant. Lagrange's equation for b shows that b is constant if
  *
  *   C n a' = m g l + (A + J / 2 + m l^2) a'^2 sin b

@@ -3,7 +3,7 @@
  * angles give the orientation of the top: the precession a about z, the elevation b of the axis
  * above the horizontal, and the spin c about the axis. A and C are the moments of inertia about the
  * fixed point: A across the axis, and C along it. The component of the angular velocity along the
- * axis is n. m is the mass, and l the distance of the centre of mass from the fixed point. Then
+ * axis is n. The mass is m, and the distance of the centre of mass from the fixed point is l. Then
  *
  *   A a' cos(b)^2 + C n sin b = const,  C n = C (c' + a' sin b) = const
  *   A b'' = -A a'^2 sin b cos b + C n a' cos b - m g l cos b
@@ -49,8 +49,9 @@ const baum_i_catalog_mechanism baum_i_heavy_top = {
   .name = "heavy_top",
   .title = "heavy top, released with its axis level",
   .source = "O. Bruels, A. Cardona, M. Arnold, Mechanism and Machine Theory 48 (2012) 121",
-  .provenance = "Taylor series of the equations for three angles in 30 digits; results with two "
-                "tolerances agree to 18.8 digits",
+  .provenance =
+    "Taylor series, in 30-digit arithmetic, of the equations for the three angles; results "
+    "with two tolerances agree to 18.8 digits",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 1),
   .defaults = (const double[COUNT]){15.0, 1.0, 0.25, 9.81, 150.0, -4.61538},
   .end = 1.0,

@@ -122,9 +122,9 @@ static void build_on_circle(baum_i_parts *parts, const double *p)
 
 /* ---- entries ---- */
 
-#define BY_SERIES                                                                    \
-  "Taylor series of the pendulum equation, for any parameters; agrees to 13 digits " \
-  "with extrapolation in 160-bit arithmetic"
+#define BY_SERIES                                                                               \
+  "Taylor series of the pendulum equation, available for all values of the parameters; agrees " \
+  "to 13 digits with extrapolation in 160-bit arithmetic"
 
 #define ON_ROD(SAMPLES)                                               \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_on_rod, rod_state, "mm", 1), \
@@ -152,8 +152,8 @@ const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
 const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {
   .name = "pendulum_mebdf",
   .title = "simple pendulum of 1 m, given by user functions: test problem of the MEBDF codes",
-  .source = "J. Cash, MEBDFDAE, pendul3.f (copy in fons/JavaOdeInt)",
-  .provenance = BY_SERIES ". The published values at 1 s have 10 digits",
+  .source = "J. Cash, MEBDFDAE, pendul3.f (copy in the GitHub repository fons/JavaOdeInt)",
+  .provenance = BY_SERIES ". All 10 digits of the published values at 1 s agree",
   .parameter_count = COUNT_ON_CIRCLE,
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT_ON_CIRCLE]){1.0, LEVEL, 1.0, 1.0},

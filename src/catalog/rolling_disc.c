@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A thin disc that rolls on a plane in steady motion. Its centre moves on a circle. The axis of the
  * disc is the y axis of the body. Three angles give the orientation of the disc: the heading a
- * about z, the constant elevation b of the axis above the plane, and the spin c about the axis. m
- * and R are mass and radius; A and C are the moments of inertia across and along the axis. n = c' +
- * a' sin b is the component of the angular velocity along the axis. The centre has the velocity R
- * n, so the circle has the radius R n / a'. The balance of moments about the centre gives
+ * about z, the constant elevation b of the axis above the plane, and the spin c about the axis. The
+ * mass is m and the radius is R; the moments of inertia are A across the axis and C along it. The
+ * component of the angular velocity along the axis is n = c' + a' sin b. The centre has the
+ * velocity R n, so the circle has the radius R n / a'. The balance of moments about the centre
+ * gives
  *
  *   n a' cos b (C + m R^2) = A a'^2 sin b cos b - m g R sin b
  */
@@ -89,7 +90,7 @@ const baum_i_catalog_mechanism baum_i_rolling_disc = {
   .title = "thin disc that rolls steadily on a circle",
   .source = "chosen for this catalogue",
   .provenance = "closed form",
-  .note = "two rows of velocity level",
+  .note = "two constraint rows of velocity level (non-holonomic)",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmmqqqq", 1),
   .defaults = (const double[COUNT]){1.2, 0.5, 0.08, 0.15, 9.81, 0.3, 1.3},
   .end = 10.0,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A slider-crank. Crank 1 rotates about the origin, slider 3 moves on the line y = e, and rod 2
  * connects them. The centres of mass of crank and rod are at half their lengths. With the lengths
- * l1 and l2 and the angles a1 and a2 of crank and rod, and the position x3 of the slider:
+ * l1 and l2 and the angles a1 and a2 of crank and rod, and the position x3 of the slider, the
+ * constraints are
  *
  *   l1 sin a1 + l2 sin a2 = e,  x3 = l1 cos a1 + l2 cos a2
  *
@@ -126,7 +127,7 @@ static void build_driven(baum_i_parts *parts, const double *p)
 
 #define FLORES                                                                               \
   "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, table 1 (copy " \
-  "in siconos/siconos); this model has no clearance"
+  "in the GitHub repository siconos/siconos); this model has no clearance"
 
 #define FREE \
   BAUM_I_CATALOG_MODEL(PARAMETERS, build_free, baum_i_slider_crank_state, "mmr", 3), .end = 0.2

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spatial slider-crank. The crank rotates about an axis parallel to x, which is beside and above
- * the line on which the slider moves. Let a be the angle of the crank, (0, y, z) the position of
- * its tip, and (x, 0, 0) the position of the slider. With the lengths l1 of the crank and l2 of the
- * rod:
+/* A spatial slider-crank. The slider moves on the x axis. The crank rotates about the line y =
+ * `beside`, z = `above`, which is parallel to the x axis. Let a be the angle of the crank, (0, y,
+ * z) the position of its tip, and (x, 0, 0) the position of the slider. With the lengths l1 of the
+ * crank and l2 of the rod, the constraints give
  *
  *   y = beside - l1 sin a,  z = above + l1 cos a,  x = sqrt(l2^2 - y^2 - z^2)
  *
- * The universal joint keeps one axis of the rod perpendicular to the slider's line.
+ * The universal joint between rod and slider keeps one axis of the rod perpendicular to the
+ * slider's line.
  */
 #include <math.h>
 
@@ -107,8 +108,8 @@ const baum_i_catalog_mechanism baum_i_spatial_slider_crank = {
   .name = "spatial_slider_crank",
   .title = "spatial slider-crank, the crank released at 6 rad/s",
   .source = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems (1989), "
-            "12.2; IFToMM library of benchmarks; the inertia of the slider, which does not "
-            "rotate, was chosen here",
+            "section 12.2; IFToMM library of benchmarks; the inertia of the slider, which does not "
+            "rotate, was chosen for this catalogue",
   .provenance =
     "extrapolation in 160-bit arithmetic; results with two tolerances agree to 16.3 digits; "
     "a second, independent model in double precision agrees to 13.3 digits",

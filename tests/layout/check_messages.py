@@ -32,12 +32,16 @@ PLACEHOLDERS = {"call": "CALL", "label": "ELEMENT", "r->label": "SOURCE", "p->la
 SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
 
-This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` makes it from the
-sources. `#` stands for a number, and words in capital letters for texts. For example, `CALL` is the name of the function that was
-called, `ELEMENT` and `JOINT` are the kind, number and name of an element, such as `joint 2 "B"`, `ENTRY` names one number in the
-result of a user function, such as `joint 2 "B": gamma()[0]`, and `SOURCE` is the path of the file that is read, or the word
-`scene`. `{A / B}` stands for one of the texts A and B, and `...` for any other text. *As failed* means that the text is added to
-the message of an earlier failure, whose status does not change. Each warning links to its section of the page
+This page lists every message and warning of the library. `python3 tests/layout/check_messages.py --write .` generates this page
+from the sources. In the tables, `#` stands for a number, and words in capital letters stand for texts:
+
+- `CALL` is the name of the function that was called.
+- `ELEMENT` and `JOINT` are the kind, number and name of an element, such as `joint 2 "B"`.
+- `ENTRY` names one number in the result of a user function, such as `joint 2 "B": gamma()[0]`.
+- `SOURCE` is the path of the file that is read, or the word `scene`.
+
+`{A / B}` stands for one of the texts A and B, and `...` for any other text. In the first column, *as failed* means that the text
+is added to the message of an earlier failure, whose status does not change. Each warning links to its section of the page
 "[cookbook/warnings.md](cookbook/warnings.md)". The page "[theory/errors.md](theory/errors.md)" describes the warnings that put a
 result in doubt, and the header [status.h](../include/baum/status.h) describes the statuses. `sh tests/run.sh coverage` lists the
 messages that no test triggers.

@@ -311,8 +311,8 @@ class Closing(Strict):
         """Free the memory and the files of the object now. Otherwise Python frees them when it
         collects the object.
 
-        Arrays and runs that the object has returned remain valid. Any other use of a closed object
-        raises baum.Error.
+        Arrays and runs that the object has returned remain valid. The other methods of a closed
+        object raise baum.Error.
         """
         self._owner.close()
 

@@ -31,7 +31,7 @@ class Mobility(NamedTuple):
     text: The results in words, with the names of elements.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
     position_degrees_of_freedom: [-] degrees of freedom of position: nv minus the rank of J
-        without rows of velocity level. degrees_of_freedom counts the degrees of freedom of
+        without its rows of velocity level. degrees_of_freedom counts the degrees of freedom of
         velocity instead, which are fewer if there are rows of velocity level.
     """
 
@@ -56,29 +56,33 @@ class Report(NamedTuple):
     forces: [-] number of forces, not counting gravity.
     velocities: [-] number of velocities, nv.
     rows: [-] number of constraint rows, nc.
-    degrees_of_freedom: [-] nv minus the rank of J; -1 if it is not known, see mobility().
-    redundant_rows: [-] rows omitted from every solution.
+    degrees_of_freedom: [-] nv minus the rank of J; -1 if the mechanism cannot be assembled.
+    redundant_rows: [-] redundant rows, which the solver always omits.
     constant_rows: [-] rows that do not depend explicitly on time.
-    islands: [-] groups of bodies that joints connect with each other. Fixed bodies do not
+    islands: [-] groups of bodies connected with each other by joints. Fixed bodies do not
         count.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
     constant_mass: True if the mass matrix is constant; it is then inverted only once.
     constant_force: True if all forces are constant.
-    blocks: True if the block solver solves the equations, false if KLU does.
-    nodes: [-] nodes of the block solver; 0 for KLU. A node is a whole joint if the mechanism
-        has spatial bodies but no user coordinates; otherwise it is a pair of rows.
-    couplings: [-] pairs of nodes that are coupled during elimination; 0 for KLU.
-    fill: [-] pairs of nodes that become coupled only by the elimination; 0 for KLU.
-    most_couplings: [-] largest number of couplings that a node has when it is eliminated; 0 for
-        KLU.
+    blocks: True if the block solver solves the equations, false if KLU does, a sparse LU
+        factorization of the whole system.
+    nodes: [-] nodes of the block solver; 0 if KLU solves the equations. A node is a whole joint
+        if the mechanism has spatial bodies but no user coordinates; otherwise it is a pair of
+        rows.
+    couplings: [-] pairs of nodes that are coupled during elimination; 0 if KLU solves the
+        equations.
+    fill: [-] pairs of nodes that become coupled only by the elimination; 0 if KLU solves the
+        equations.
+    most_couplings: [-] largest number of couplings that a node has when it is eliminated; 0 if
+        KLU solves the equations.
     most_joints: [-] number of joints of the body most_joined.
     most_joined: The body with the most joints, among bodies that are not fixed; none if there
         are no joints.
     text: The results in words, with the names of elements and with reasons.
     velocity_rows: [-] rows of velocity level (non-holonomic constraints).
-    position_degrees_of_freedom: [-] nv minus the rank of J without rows of velocity level; -1
-        if it is not known.
+    position_degrees_of_freedom: [-] degrees of freedom of position: nv minus the rank of J
+        without its rows of velocity level; -1 if the mechanism cannot be assembled.
     """
 
     bodies: int
@@ -106,25 +110,28 @@ class Report(NamedTuple):
 
 
 class Counters(NamedTuple):
-    """What a run has cost since it was created, and how well it has kept the constraints. Joints
-    are handles or None, and names after unpickling. Phi are the values of the constraints, and Phi'
-    is their time derivative.
+    """What a run has cost since it was created, and how well it has kept the constraints. A joint
+    is a handle or None; after unpickling it is the name of the joint. Phi are the values of the
+    constraints, and Phi' is their time derivative.
 
     steps: [-] accepted steps.
     rejected: [-] steps that were repeated, because an error test or an iteration failed.
     short_steps: [-] shorter steps that a fixed-step method took to reach a requested time or a
         break time that is not on its grid of steps.
     evaluations: [-] evaluations of the equations of motion. Most methods solve equation (7) of
-        the page "docs/notation.md" in each evaluation, and implicit methods compute a residual.
+        the page "docs/notation.md" in each evaluation. IDA and generalized-alpha compute the
+        residual of their equations instead.
     factorizations: [-] factorizations of the matrix in equation (7) and of the matrices of IDA
         and CVODE.
     full_factorizations: [-] factorizations that chose new pivots, which may allocate memory.
-    nonlinear_iterations: [-] iterations of kinematics and of the implicit methods: CVODE, IDA,
-        RATTLE and generalized-alpha.
+    nonlinear_iterations: [-] iterations of "kinematics" and of the implicit methods: CVODE,
+        IDA, RATTLE and generalized-alpha.
     restarts: [-] restarts of multistep and variable-step methods.
-    near_singular: [-] evaluations in which the matrix in equation (7) was almost singular.
+    near_singular: [-] evaluations in which the matrix of the equations of motion was almost
+        singular.
     warnings: [-] number of kinds of warnings that occurred.
-    wall: [s] wall time inside advance_to, step and sample.
+    wall: [s] wall time inside the functions that advance the run: advance_to(), step() and
+        sample().
     max_phi: [m or rad] largest violation |Phi| over all steps.
     max_phi_rate: [m/s or rad/s] largest rate |Phi'| over all steps.
     max_phi_joint: The joint with the violation max_phi.
@@ -151,8 +158,8 @@ class Counters(NamedTuple):
         violations grow. NaN if spectral_radius is NaN.
     near_singular_intervals: [-] number of intervals in which the run was near a singular
         configuration.
-    branch_warnings: [-] near-singular intervals after which the motion is, or may be, on
-        another branch.
+    branch_warnings: [-] number of near-singular intervals after which the motion is, or may be,
+        on another branch than before.
     forced_steps: [-] steps of rk8 and dp5 across a singular configuration. They are accepted
         although their error estimate is above the tolerance.
     energy_residual: [J] energy that errors of the method have added so far, according to the
@@ -163,9 +170,10 @@ class Counters(NamedTuple):
         radians. NaN means that the error is unknown, for example because the estimate failed or
         would cost too much. Without the option error_check, the estimate shows only whether the
         error is large: values up to 0.01 may be errors of the estimate itself. Without the
-        option, a run with a fixed step has the estimate 0 as long as its local errors are
-        negligible, and NaN if inputs change every few steps; a run with variable steps has the
-        estimate NaN, except after a singularity crossing at a loose tolerance.
+        option error_check, the estimate of a run with a fixed step is 0 as long as the local
+        errors of the run are negligible, and NaN if inputs change every few steps. Without the
+        option, the estimate of a run with variable steps is NaN, except after a singularity
+        crossing at a loose tolerance.
     """
 
     steps: int
@@ -203,10 +211,11 @@ class EnergyAccount(NamedTuple):
     """Where the energy of a run has come from. The page docs/notation.md explains the symbols.
 
     kinetic: [J] present kinetic energy v^T M v / 2.
-    potential: [J] present potential energy of gravity, linear springs, constant loads and user
-        potentials.
+    potential: [J] present potential energy of gravity, linear springs, user potentials, and
+        loads that are only a constant force in ground axes.
     start: [J] kinetic plus potential energy at the start.
-    loads: [J] work of the loads that have an input or a torque, or that follow their body.
+    loads: [J] work of the loads that have an input, a torque or a moment, or that follow their
+        body.
     springs: [J] work of springs with a user law.
     dampers: [J] work of the dampers of linear springs.
     user_forces: [J] work of user forces plus the change of their potential energy: the work
@@ -215,10 +224,10 @@ class EnergyAccount(NamedTuple):
         energy, plus the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's
         equations cancel.
     drivers: [J] work of drivers and of other rows that depend on time: the integral of -nu^T
-        lambda.
+        lambda, where nu is the right-hand side of J v = nu.
     violation: [J] work of violated constraints: the integral of -Phi'^T lambda.
     projection: [J] change of kinetic and potential energy by projections.
-    gains: [J] work of the gains. It is already contained in the fields `drivers` and
+    gains: [J] work of Baumgarte's gains. It is already contained in the fields `drivers` and
         `violation`, so do not add it to these fields.
     residual: [J] kinetic + potential - start, minus the sum of all work terms except gains.
     evaluations: [-] evaluations of the equations (5) and (7) (page "docs/notation.md") for the
@@ -243,19 +252,20 @@ class EnergyAccount(NamedTuple):
 
 class NearSingular(NamedTuple):
     """An interval in which a run was near a singular configuration. branch is "continued", "left"
-    or "unknown". The joint is a handle or None, and a name after unpickling.
+    or "unknown". The joint is a handle or None; after unpickling it is the name of the joint.
 
-    begin: [s] end of a step; the interval does not begin before this time.
-    end: [s] end of a step; the interval ends before this time. However, if the motion stays
+    begin: [s] time of the last state of the run before the interval.
+    end: [s] time of the first state of the run after the interval. However, if the motion stays
         close to singular configurations, the run may list the interval before the motion has
         left it. The interval then continues after this time.
-    t: [s] time of the smallest pivot, which may be inside a step.
-    pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot, divided
-        by the largest value that the smallest pivot has had at any state of the run so far.
-    jump: [-] by how much the velocity after the interval differs from a smooth continuation of
+    t: [s] time at which p is smallest (see pivot); it may be inside a step.
+    pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot of the
+        equations of motion, divided by the largest value that the smallest pivot has had at any
+        state of the run so far. The page "docs/theory/singular.md" defines the smallest pivot.
+    jump: [-] difference between the velocity after the interval and a smooth continuation of
         the motion before the interval, relative to the size of the velocity. NaN: unknown.
-    jump_error: [-] estimated error of jump; NaN: unknown.
-    branch: How the motion continues.
+    jump_error: [-] estimated error of the field `jump`; NaN: unknown.
+    branch: How the motion continues after the interval.
     joint: Joint whose rows have the smallest pivot; none if unknown.
     """
 
@@ -270,19 +280,19 @@ class NearSingular(NamedTuple):
 
 
 class StudyEntry(NamedTuple):
-    """What a setting costs and how accurate it is; NaN: not known. The scale of a length is the
-    characteristic length, and the scale of an angle is 1 rad. For error_lambda, the multiplier of
-    row i is multiplied by the norm of row i of the Jacobian, with each column of the Jacobian
-    multiplied by the scale of its coordinate.
+    """What a setting costs and how accurate it is. Unknown values are NaN. The scale of a length is
+    the characteristic length, and the scale of an angle is 1 rad. For error_lambda, the multiplier
+    of row i is multiplied by the norm of row i of the Jacobian. For this norm, each column of the
+    Jacobian is first multiplied by the scale of its coordinate.
 
-    name: Such as "rk8 projection, rtol 1e-06".
-    message: Why the entry was refused or failed; otherwise its first warning; "" if there is
-        none.
+    name: The name, such as "rk8 projection, rtol 1e-06".
+    message: The reason why the entry was refused or failed. For other entries: the first
+        warning of the run, or "" if the run has no warning.
     integrator: The integrator.
     formulation: The formulation; never "default".
     gains: The gain rule, as given in the options.
-    step: [s] NaN for entries with rtol.
-    rtol: [-] NaN for entries with a step.
+    step: [s] fixed step; NaN if the entry has rtol.
+    rtol: [-] tolerance; NaN if the entry has a step.
     method: [-] number of the method to which the entry belongs, see methods.
     state: done, refused, failed, timed_out or waiting
     status: status of the run of the entry
@@ -309,7 +319,7 @@ class StudyEntry(NamedTuple):
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
     violation_work: [J] work of violated constraints, see energy_account
     projection_work: [J] change of energy by projections
-    gains_work: [J] work of the gains, see energy_account
+    gains_work: [J] work of Baumgarte's gains, see energy_account
     work: [evaluations] evaluations + factorizations + implicit iterations
     cpu: [s] least CPU time to create a run and advance it, without samples
     cpu_spread: [s] second smallest CPU time minus the smallest
@@ -379,23 +389,24 @@ class StudyEntry(NamedTuple):
 class StudyMethod(NamedTuple):
     """Entries of a study with the same integrator, formulation and gains.
 
-    name: Such as "rk8 projection". If an integrator can use fixed and variable steps, two of
-        its methods have the same name; fixed_step tells them apart.
-    integrator: Integrator of its entries.
-    formulation: Formulation of its entries.
-    gains: Gain rule of its entries.
-    fixed_step: True if entries differ in step, false if in rtol.
+    name: The name, such as "rk8 projection". If an integrator can use fixed and variable steps,
+        two of its methods have the same name; the field fixed_step distinguishes them.
+    integrator: Integrator of the method.
+    formulation: Formulation of the method.
+    gains: Gain rule of the method.
+    fixed_step: True if the entries differ in step, false if in rtol.
     entries: [-] number of entries.
-    usable: [-] number of entries that are done, whose error is finite and not 0, and whose
-        field `off` is false. If `off` is true, the run has followed another motion: error_q is
-        above 0.1, or the run has a branch warning.
-    least_error: [-] the smallest error of its entries; NaN if none is usable.
+    usable: [-] number of entries that are done, whose CPU time is measured, whose error is
+        finite and not 0, and whose field `off` is false. If `off` is true, the run has followed
+        another motion than the reference: error_q is above 0.1, or the run has a branch
+        warning.
+    least_error: [-] smallest error of the usable entries; NaN if there are none.
     slope: [-] slope of the error curve: d log error / d log step, or d log error / d log rtol
         if entries differ in rtol. NaN: unknown.
     work_per_digit: [-] factor by which the work grows for one more correct digit; NaN: unknown.
     cpu_per_digit: [-] factor by which the CPU time grows for one more correct digit; NaN:
         unknown.
-    growth: [-] geometric mean of error_validated / error over those of its entries for which
+    growth: [-] geometric mean of error_validated / error over the usable entries whose
         error_validated is finite; NaN if there are none.
     """
 
@@ -447,8 +458,8 @@ class StudyReference(NamedTuple):
 class CatalogParameter(NamedTuple):
     """A number that a mechanism of the catalogue depends on.
 
-    name: Such as "eccentricity".
-    unit: Such as "kg m^2"; "-" for a pure number.
+    name: Name of the parameter, such as "eccentricity".
+    unit: Unit of `value`, such as "kg m^2"; "-" for a pure number.
     meaning: What the parameter describes.
     value: [unit] default value of the parameter.
     positive: True if the value must be > 0.
@@ -466,7 +477,7 @@ class CatalogParameter(NamedTuple):
 class CatalogEntry(NamedTuple):
     """A mechanism of the catalogue.
 
-    name: Such as "slider_crank".
+    name: Name of the mechanism, such as "slider_crank".
     title: Description in a few words.
     source: Where the data of the mechanism come from.
     provenance: How the reference was computed and checked; "" if the mechanism has no
@@ -477,9 +488,9 @@ class CatalogEntry(NamedTuple):
     start_time: [s] start of the motion and of its reference.
     end_time: [s] end of the motion and of its reference.
     digits_q: [-] number of correct digits of the reference positions: the error of a position q
-        is at most 10^-digits_q max(1, |q|). NaN if there is no reference.
+        is at most 10^(-digits_q) max(1, |q|). NaN if there is no reference.
     digits_v: [-] number of correct digits of the reference velocities: the error of a velocity
-        v is at most 10^-digits_v max(1, |v|). NaN if there is no reference.
+        v is at most 10^(-digits_v) max(1, |v|). NaN if there is no reference.
     exact: True if the reference consists of formulas.
     smooth: True if the motion with default parameters passes through no singular configuration.
     parameters: Its parameters by name.

@@ -82,9 +82,9 @@ class Adding:
             if the body cannot rotate; otherwise always give it.
         position: x and y of the centre of mass in the design configuration [m].
         angle: angle of the body in the design configuration [rad].
-        velocity: velocity of the centre of mass at the start [m/s]. None or NaN: assembly
+        velocity: velocity of the centre of mass at the start [m/s]. With None or NaN, assembly
             determines it.
-        angular_velocity: angular velocity at the start [rad/s]. None or NaN: assembly
+        angular_velocity: angular velocity at the start [rad/s]. With None or NaN, assembly
             determines it.
         held: True if assembly must not move the body.
         outline: how the body is drawn, see Body.outline.
@@ -105,7 +105,7 @@ class Adding:
 
         mass: [kg], positive.
         position: x and y in the design configuration [m].
-        velocity: velocity at the start [m/s]. None or NaN: assembly determines it.
+        velocity: velocity at the start [m/s]. With None or NaN, assembly determines it.
         held: True if assembly must not move the particle.
         outline: how the particle is drawn, see Body.outline.
         """
@@ -142,7 +142,7 @@ class Adding:
         mass(t, q): the mass matrix M (size x size).
         force(t, q, v): the force vector g (size).
         force_q, force_v: derivatives of the force with respect to q and v (size x size). By default
-            the library computes them by differences.
+            the library computes them by finite differences.
         potential(t, q): potential energy of the force [J].
         q: (size) positions in the design configuration, by default 0.
         v: (size) velocities at the start. By default assembly determines them.
@@ -156,9 +156,9 @@ class Adding:
 
         If the positions do not form a vector, for example if they are a unit quaternion, also give
         the arguments below. The positions q and their displacements (small changes of position)
-        then have different numbers of entries: q has position_count, and a displacement has size,
-        like v. Derivatives with respect to q, such as force_q, are then derivatives along
-        displacements, so they have size columns.
+        then have different numbers of entries: q has `position_count` entries, and a displacement
+        has `size` entries, like v. Derivatives with respect to q, such as force_q, are then
+        derivatives along displacements, so they have `size` columns.
 
         position_count: number of positions, which is then the length of q.
         rate(q, v): the time derivative of q, N(q) v.
@@ -231,11 +231,11 @@ class Adding:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points. The joint has one row [m].
+        """Add a massless rod between two points. The joint has one row, with the unit m.
 
         point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
-        length: length of the rod [m], positive; by default the distance in the design
-            configuration.
+        length: length of the rod [m], positive; by default the distance between the two points in
+            the design configuration.
         """
         return self._add(Joint, "planar_distance", locals())
 
@@ -375,7 +375,7 @@ class Adding:
         point_a: ArrayLike | None = None,
         body_b: BodyLike | None = None,
     ) -> Joint:
-        """Let a point of body_a move only in the direction of a blade that is fixed in body_a.
+        """Allow a point of body_a to move only in the direction of a blade that is fixed in body_a.
         Examples are a skate, and a wheel seen from above.
 
         The joint has one row at velocity level [m/s]: the velocity of the point across the blade is
@@ -385,7 +385,7 @@ class Adding:
             axes of body_a.
         point: the point of the blade in the design configuration, in ground axes [m].
         point_a: the point of the blade in the axes of body_a [m].
-        body_b: the surface on which the blade slides, by default ground.
+        body_b: the body on which the blade slides, by default ground.
         """
         return self._add(Joint, "planar_knife_edge", locals())
 
@@ -432,18 +432,18 @@ class Adding:
         """Prescribe a coordinate of a joint as a function of time.
 
         The driver has one row: the coordinate [rad] or [m] equals value + rate t + acceleration t^2
-        / 2, or law(t).
+        / 2, or the value that law(t) returns.
 
-        value: value at t = 0 [rad] or [m]. If the design configuration has another value, assembly
-            moves the bodies. To keep a crank at the angle of the design configuration, give this
-            angle.
-        rate: first derivative at t = 0 [rad/s] or [m/s].
-        acceleration: second derivative, constant [rad/s^2] or [m/s^2].
-        law(t): the value, its first and its second derivative at the time t [s]. The law replaces
-            value, rate and acceleration, which must then be 0.
+        value: value of the coordinate at t = 0 [rad] or [m]. If the design configuration has
+            another value, assembly moves the bodies. To start a crank at its angle in the design
+            configuration, let `value` be this angle.
+        rate: first derivative of the coordinate at t = 0 [rad/s] or [m/s].
+        acceleration: second derivative of the coordinate, constant [rad/s^2] or [m/s^2].
+        law(t): the value of the coordinate, its first and its second derivative at the time t [s].
+            The law replaces value, rate and acceleration, which must then be 0.
         user: passed to a compiled function as its last argument.
-        coordinate: which coordinate of the joint. The list below gives the names for each type of
-            joint, and "first" stands for the first of these names.
+        coordinate: the coordinate of the joint that the driver prescribes. The list below gives the
+            names for each type of joint, and "first" stands for the first of these names.
 
         - Revolute joints have "angle".
         - Translational joints, pins in a slot, prismatic joints and points on a line have
@@ -548,10 +548,12 @@ class Adding:
         point_a, point_b: the points in the axes of body_a and body_b [m].
         stiffness: [N/m].
         damping: [N s/m].
-        free_length: length without force [m], by default the distance in the design configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping and free_length, which must then have their defaults.
-            The spring then has no potential energy.
+        free_length: length at which the spring exerts no force [m], by default the distance between
+            the two points in the design configuration.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate,
+            where rate is the time derivative of the length. The law replaces stiffness, damping and
+            free_length, which must then have their defaults. A spring with a law has no potential
+            energy.
         depends_on_velocity: False if the law does not read rate. The integrator "rattle" requires
             False.
         user: passed to a compiled function as its last argument.
@@ -571,15 +573,17 @@ class Adding:
         depends_on_velocity: bool = True,
         user: Any = None,
     ) -> Force:
-        """Add a torsion spring and damper on the angle angle_b - angle_a. The angle is
-        continuous over several revolutions.
+        """Add a torsion spring and a damper on the angle of body_b relative to body_a, angle_b -
+        angle_a. This angle is continuous over several revolutions.
 
         stiffness: [N m/rad].
         damping: [N m s/rad].
-        free_angle: angle without torque [rad], by default the angle in the design configuration.
+        free_angle: angle at which the spring exerts no torque [rad], by default the angle in the
+            design configuration.
         law(angle, rate): the restoring torque [N m] and its derivatives with respect to angle and
-            rate. The law replaces stiffness, damping and free_angle, which must then have their
-            defaults. The spring then has no potential energy.
+            rate, where rate is the time derivative of the angle. The law replaces stiffness,
+            damping and free_angle, which must then have their defaults. A spring with a law has no
+            potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "planar_torsion_spring", locals())
@@ -603,11 +607,12 @@ class Adding:
             continuous over several revolutions.
         stiffness: [N m/rad] or [N/m].
         damping: [N m s/rad] or [N s/m].
-        free_value: value without force [rad] or [m], by default the value in the design
-            configuration.
+        free_value: value of the coordinate at which the spring exerts no force or torque [rad] or
+            [m], by default the value in the design configuration.
         law(coordinate, rate): the restoring torque [N m] or force [N] and its derivatives with
-            respect to both arguments. The law replaces stiffness, damping and free_value, which
-            must then have their defaults. The spring then has no potential energy.
+            respect to both arguments; rate is the time derivative of the coordinate. The law
+            replaces stiffness, damping and free_value, which must then have their defaults. A
+            spring with a law has no potential energy.
         depends_on_velocity, user: as in spring().
         """
         return self._add(Force, "joint_spring", locals())
@@ -630,7 +635,7 @@ class Adding:
         torque: [N m].
         follows_body: True if the force rotates with the body, False if it keeps its direction in
             ground axes.
-        input: an input whose value multiplies force and torque.
+        input: an input of the mechanism, see input(). Its value multiplies force and torque.
         """
         return self._add(Force, "planar_load", locals())
 
@@ -656,10 +661,10 @@ class Adding:
             [N] and a moment [N m]. For a spatial body it consists of a force x, y, z in ground axes
             and a moment x, y, z in body axes. The force acts at the centre of mass.
         force_q, force_v: derivatives of the force with respect to q and v (nv x nv). By default the
-            library computes them by differences.
+            library computes them by finite differences.
         potential(t, q): potential energy of the force [J].
-        inputs: inputs whose values the functions receive as further arguments after v. With
-            inputs=["torque"] the library calls force(t, q, v, torque).
+        inputs: inputs of the mechanism, see input(). The functions receive their values as further
+            arguments after v. With inputs=["torque"] the library calls force(t, q, v, torque).
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
             False.
         user: passed to compiled functions as the last argument.
@@ -672,8 +677,9 @@ class Adding:
         """Add an input: a number that your program sets during a run, such as the torque of a
         motor.
 
-        Loads and force functions refer to inputs. Every run and every workspace starts with the
-        value `initial`, and keeps it until you call its method set_input().
+        To use an input, name it in the argument `input` of a load, or in the argument `inputs` of a
+        force function. Every run and every workspace starts with the value `initial` of the input,
+        and keeps this value until you call set_input() of the run or the workspace.
         """
         name = self._new_name(name, "input")
         initial = number(initial, f'input "{name}": initial')

@@ -62,10 +62,10 @@ class AddingInSpace:
         orientation: orientation in the design configuration: a unit quaternion w, x, y, z, a 3 x 3
             rotation matrix whose columns are the body axes, or a Rotation of
             scipy.spatial.transform.
-        velocity: velocity of the centre of mass at the start, in ground axes [m/s]. None or NaN:
+        velocity: velocity of the centre of mass at the start, in ground axes [m/s]. With None or
+            NaN, assembly determines it.
+        angular_velocity: angular velocity at the start, in body axes [rad/s]. With None or NaN,
             assembly determines it.
-        angular_velocity: angular velocity at the start, in body axes [rad/s]. None or NaN: assembly
-            determines it.
         held: True if assembly must not move the body.
         outline: how the body is drawn, see Body.outline.
         """
@@ -85,7 +85,7 @@ class AddingInSpace:
 
         mass: [kg], positive.
         position: x, y, z in the design configuration [m].
-        velocity: velocity at the start [m/s]. None or NaN: assembly determines it.
+        velocity: velocity at the start [m/s]. With None or NaN, assembly determines it.
         held: True if assembly must not move the particle.
         outline: how the particle is drawn, see Body.outline.
         """
@@ -252,7 +252,7 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
     ) -> Joint:
         """Add a weld in space: two bodies do not move relative to each other. They keep the
-        relative orientation of the design configuration.
+        relative orientation that they have in the design configuration.
 
         The joint has six rows: three for the points [m] and three for the orientation [-].
 
@@ -270,11 +270,11 @@ class AddingInSpace:
         point_b: ArrayLike | None = None,
         length: Scalar | None = None,
     ) -> Joint:
-        """Add a massless rod between two points in space. The joint has one row [m].
+        """Add a massless rod between two points in space. The joint has one row, with the unit m.
 
         point_a, point_b: the ends of the rod in the axes of body_a and body_b [m].
-        length: length of the rod [m], positive; by default the distance in the design
-            configuration.
+        length: length of the rod [m], positive; by default the distance between the two points in
+            the design configuration.
         """
         return self._add(Joint, "spatial_distance", locals())
 
@@ -339,7 +339,7 @@ class AddingInSpace:
         the curve. For a helix with the radius r and the rise c per radian, F = x - r cos(z / c) and
         G = y - r sin(z / c). Give either `point`, or both point_a and point_b.
 
-        curve(xyz): 20 numbers at the point xyz [m]: F [m] and its partial derivatives F_x, F_y,
+        curve(xyz): 20 numbers for the point xyz [m]: F [m] and its partial derivatives F_x, F_y,
             F_z, F_xx, F_xy, F_xz, F_yy, F_yz, F_zz, and then the same ten numbers of G. The
             coordinates xyz are in the axes of body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
@@ -364,18 +364,18 @@ class AddingInSpace:
     ) -> Joint:
         """Let a disc, wheel or sphere of body_b roll without slipping on a plane of body_a.
 
-        The joint has three rows: the height of the disc over the plane [m], and the velocities of
-        the contact point in two directions of the plane, which are rows at velocity level [m/s].
-        The reaction of the joint is the force and the moment on body_b at the contact point.
+        The joint has three rows: one keeps the lowest point of the disc in the plane [m], and two
+        at velocity level make the velocity of the contact point zero in two directions of the plane
+        [m/s]. The reaction of the joint is the force and the moment on body_b at the contact point.
 
         radius: largest radius of the disc [m], positive.
-        body_a: the body of the plane, by default ground.
+        body_a: the body in which the plane is fixed, by default ground.
         point_a: a point of the plane in the axes of body_a [m].
         normal: normal of the plane in the axes of body_a. It points towards the disc.
         centre: centre of the disc in the axes of body_b [m].
         axis_b: direction of the disc's axis, in the axes of body_b.
-        rim_radius: radius of the circular cross-section of the rim [m], from 0 to `radius`. With 0
-            the disc is thin, and with `radius` it is a sphere.
+        rim_radius: radius of the circular cross-section of the rim [m], from 0 to `radius`. If
+            rim_radius is 0, the disc is thin; if it equals `radius`, the disc is a sphere.
         """
         return self._add(Joint, "spatial_rolling_disc", locals())
 
@@ -423,7 +423,7 @@ class AddingInSpace:
         [-] and three for lengths [m].
 
         pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
-        offset: displacement at which the angle is 0 [m]; by default the value in the design
+        offset: displacement at which the angle is 0 [m]; by default the displacement in the design
             configuration.
 
         All other arguments are as in cylindrical(), and so are the coordinates "displacement" and
@@ -471,8 +471,8 @@ class AddingInSpace:
         """Add a spring and a damper between two points in space. Their force is linear, or a law
         computes it.
 
-        The points are x, y, z in body axes [m]. All other arguments are as in spring(). The force
-        is zero when the points coincide.
+        point_a and point_b are the points x, y, z in the axes of body_a and body_b [m]. All other
+        arguments are as in spring(). The force is zero when the points coincide.
         """
         return self._add(Force, "spatial_spring", locals())
 
@@ -490,8 +490,9 @@ class AddingInSpace:
         user: Any = None,
         transition: Scalar | None = None,
     ) -> Force:
-        """Add a cable, rope or tendon. It runs in straight lines from one point to the next, slides
-        over these points without friction, and can only pull. The points are fixed in bodies.
+        """Add a cable, rope or tendon, which can only pull. It runs in straight lines through
+        points that are fixed in bodies. It is attached to the first and the last point, and slides
+        over the other points without friction.
 
         With the stretch s = length - free_length, the tension is stiffness s + damping w(s /
         transition) (d/dt length) if s and this sum are positive, otherwise 0. The function w(x) =
@@ -506,10 +507,10 @@ class AddingInSpace:
         damping: [N s/m].
         free_length: length up to which the cable is slack [m], by default the length in the design
             configuration.
-        law(length, rate): the tension [N] and its derivatives with respect to length and rate. The
-            law replaces stiffness, damping, free_length and transition, which must then have their
-            defaults. The law must return zeros where the cable is slack. The cable then has no
-            potential energy.
+        law(length, rate): the tension [N] and its derivatives with respect to length and rate,
+            where rate is the time derivative of the length. The law replaces stiffness, damping,
+            free_length and transition, which must then have their defaults. The law must return
+            zeros where the cable is slack. A cable with a law has no potential energy.
         depends_on_velocity, user: as in spring().
         transition: stretch at which the damper reaches its full strength [m], by default 1e-4 times
             free_length.
@@ -564,8 +565,8 @@ class AddingInSpace:
         """Add an elastic connection of two bodies in space, with stiffness and damping in all six
         directions.
 
-        Points and axes are given as for joints. axis is the z axis of the bushing, and x_axis is
-        its x axis, given as in spatial_planar().
+        Points and axes are given as for joints. `axis` is the z axis of the bushing, and `x_axis`
+        is its x axis, given as in spatial_planar().
 
         stiffness, damping: symmetric 6 x 6 matrices, or the six numbers of their diagonals. The
             first three rows belong to the vector between the points [m], in the axes of the bushing
@@ -592,6 +593,7 @@ class AddingInSpace:
         moment: [N m].
         follows_body: True if force and moment rotate with the body, False if they keep their
             directions in ground axes.
-        input: an input whose value multiplies force and moment.
+        input: an input of the mechanism, see Mechanism.input(). Its value multiplies force and
+            moment.
         """
         return self._add(Force, "spatial_load", locals())

@@ -13,7 +13,8 @@
 Keyword arguments set the parameters of a mechanism; the other parameters have their defaults. Data,
 times and states are in SI units. A reference is the known motion of a mechanism. Some references
 exist only for the default parameters. baum.Error is raised if you ask for such a reference with
-other parameters, and for unknown names and parameters. docs/mechanisms.md lists all mechanisms.
+other parameters, or if a name or a parameter is unknown. The page docs/mechanisms.md lists all
+mechanisms.
 """
 
 from __future__ import annotations
@@ -56,12 +57,12 @@ def _read(struct: Any, function: Any, *arguments: Any) -> list[Any]:
 
 def entry(name: str) -> Entry:
     """Return the entry of that name: a named tuple. Its fields name, title, source and note are
-    texts, and provenance is a text about how the reference was computed and checked. parameters has
-    the name, the unit, the meaning and the default value of each parameter. The reference has
-    sample_count samples from start_time to end_time [s]. digits_q and digits_v are the numbers of
-    correct digits of its positions and velocities. exact is True if the reference consists of
-    formulas. smooth is True if the motion with the default parameters passes through no singular
-    configuration."""
+    texts, and provenance is a text about how the reference was computed and checked. The field
+    parameters is a dict from the name of each parameter to its unit, meaning and default value. The
+    reference has sample_count samples from start_time to end_time [s]. digits_q and digits_v are
+    the numbers of correct digits of the positions and velocities of the reference. The field exact
+    is True if the reference consists of formulas. The field smooth is True if the motion with the
+    default parameters passes through no singular configuration."""
     values = _read(_abi.baum_catalog_entry(), _library.baum_catalog_find, str(name).encode())
     found = Entry._make([*values, {}])
     for k in range(found.parameter_count):
@@ -112,8 +113,8 @@ def times(name: str) -> Array:
 
 
 def reference(name: str, t: ArrayLike | None = None, **parameters: Scalar) -> Reference:
-    """Return the known motion at the times t (n) [s], by default at the times of all its samples.
-    Other times are allowed only if the reference is exact."""
+    """Return the known motion at the times t (n) [s], by default at the times that times() returns.
+    Times that times() does not return are allowed only if the reference consists of formulas."""
     at = times(name) if t is None else vector(np.atleast_1d(t), None, "t")
     nq, nv, _ = build(name, **parameters).sizes
     choice = ctypes.byref(_choice(name, parameters))

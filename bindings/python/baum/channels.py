@@ -44,8 +44,8 @@ class Channel:
     def of_bytes(cls, key: str, struct: bytes, tag: int) -> Channel:
         """Make a channel from the bytes of its struct in C.
 
-        tag: a number that identifies the mechanism. The ids of bodies and joints in the channel get
-            this number.
+        tag: a number that identifies the mechanism. This number becomes part of the ids of bodies
+            and joints in the channel.
         """
         made = cls(key, 0)
         made.struct = _abi.baum_channel.from_buffer_copy(struct)

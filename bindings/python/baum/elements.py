@@ -133,7 +133,7 @@ class Body(Element):
 
     @property
     def pose(self) -> Channel:
-        """Channel: the position of the body.
+        """Channel of the position of the body.
 
         - Planar body: x, y of the centre of mass [m] and the angle [rad].
         - Spatial body: x, y, z of the centre of mass [m] and the quaternion w, x, y, z [-].
@@ -174,8 +174,8 @@ class Body(Element):
         """The outlines of the body, as a list. Drawings show the outlines as the shape of the body.
         The list is empty if the library chooses the shape.
 
-        You can set this property for ground and for every body except user coordinates. Its value
-        is a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2) of a
+        You can set this property for ground and for every body except user coordinates. Set it to
+        a shape (baum.Polygon, Circle, Box, Cylinder, Sphere or Mesh), the corners (n, 2) of a
         polygon, an SVG path as a string (with y upward), a list of these, or None. The mechanism
         may be frozen or not. Do not set the outline while another thread draws the mechanism.
         """

@@ -123,7 +123,7 @@ class GainsWarning(Warning):
 
 
 class NoisyDerivativesWarning(Warning):
-    """rtol is below the error of derivatives that are computed by differences."""
+    """The option rtol is below the error of derivatives that are computed by finite differences."""
 
     code = 3
 
@@ -141,8 +141,8 @@ class LooseVelocitiesWarning(Warning):
 
 
 class EnergyAccountWarning(Warning):
-    """An evaluation for the energy account has failed. The run continues, but the works in the
-    account are NaN from then on."""
+    """An evaluation for the energy account has failed. The run continues, but the work terms and
+    the residual of the account are NaN from then on."""
 
     code = 6
 
@@ -210,8 +210,8 @@ class WrongDerivativeWarning(DoubtWarning):
 
 
 class UncertainSensitivityWarning(Warning):
-    """sensitivities() found different derivatives with two sizes of its difference step. This
-    warning does not belong to a run."""
+    """baum.sensitivities() has computed a derivative with two difference steps, and the two values
+    differ too much. This warning does not belong to a run."""
 
 
 KINDS = {

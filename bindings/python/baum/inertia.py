@@ -6,8 +6,9 @@
     plate = inertia.box(2.0, 0.3, 0.2, 0.01)
     shaft = inertia.cylinder(0.5, radius=0.02, length=0.4, axis="x")
 
-The density of a solid is uniform. Its tensor is about the centre of mass, in axes along the edges
-or along the axis of the solid.
+The density of each solid is uniform. The tensor of a solid is about its centre of mass. The axes of
+the tensor are along the edges of a box. For a cylinder or a rod, the argument `axis` says which
+axis of the tensor is the axis of the solid.
 
 To compute the tensor of a body that consists of several parts, add the tensors of the parts. Before
 that, use rotate() to rotate the tensor of each part into the axes of the body, and shift() to move
@@ -82,7 +83,7 @@ def rod(mass: Scalar, length: Scalar, axis: Axis = "z") -> Array:
 
 
 def shift(inertia: ArrayLike, mass: Scalar, offset: ArrayLike) -> Array:
-    """Return the tensor about another point than the centre of mass (parallel axis theorem).
+    """Return the tensor about a point other than the centre of mass (parallel axis theorem).
 
     inertia: tensor about the centre of mass, in any form that spatial_body() accepts.
     mass: [kg].

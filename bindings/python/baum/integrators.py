@@ -33,12 +33,12 @@ STABILITIES = {value: name for name, value in names(_abi.baum_stability, "BAUM_"
 class Integrator:
     """An integration method.
 
-    name: its name for the argument `integrator`.
+    name: the name of the method, which you can pass as the argument `integrator`.
     order: order of accuracy; 0 if it varies.
-    fixed_step: whether the method takes `step`.
-    variable_step: whether the method takes `rtol`. If it takes both, give a run either `step` or
-        `rtol`. "kinematics" takes neither.
-    formulations: names of the formulations that it offers. The first one is the default.
+    fixed_step: whether the method takes the option `step`.
+    variable_step: whether the method takes the option `rtol`. If it takes both options, give a run
+        either `step` or `rtol`. "kinematics" takes neither of them.
+    formulations: names of the formulations that the method offers. The first one is the default.
     """
 
     def __init__(self, address: int) -> None:
@@ -90,9 +90,10 @@ class Amplification(NamedTuple):
     """How one step changes a constraint violation: the violation is a sum of modes, and the step
     multiplies each mode by a root z.
 
-    stability: "stable", "marginal", "unstable", "variable_step" or "without_gains".
+    stability: "stable", "marginal" or "unstable"; for methods without a region of stability,
+        "variable_step" or "without_gains".
     spectral_radius: the largest |z| [-]. Violations decay if it is below 1.
-    roots: the largest root z of each of the two modes.
+    roots: for each of the two modes, the root z with the largest |z|.
     damping: 1 - spectral_radius, computed without cancellation. This is the fraction of a violation
         that one step removes, for the mode that decays most slowly.
 
@@ -108,7 +109,8 @@ class Amplification(NamedTuple):
 def stability(
     integrator: str | Integrator, alpha_h: Scalar, beta2_h2: Scalar | None = None
 ) -> Amplification:
-    """Compute the amplification of a violation with the gains alpha h [-] and (beta h)^2 [-].
+    """Compute the amplification of a constraint violation in one step h with the gains alpha h [-]
+    and (beta h)^2 [-].
 
     Without beta2_h2 the result applies to rows at velocity level, which have no beta. A violation
     of such a row has only one mode, so the second root is NaN.
@@ -157,8 +159,8 @@ def stability_best_on_ray(integrator: str | Integrator, damping_ratio: Scalar = 
 
 
 def stability_deadbeat(integrator: str | Integrator) -> tuple[float, float]:
-    """Return the point (alpha h, (beta h)^2) [-] where all roots are zero. Only one-step methods
-    have such a point."""
+    """Return the point (alpha h, (beta h)^2) [-] where all roots z are zero, so that a violation
+    vanishes after at most two steps. Only one-step methods have such a point."""
     return _point(lib.baum_stability_deadbeat, integrator)
 
 
@@ -183,7 +185,8 @@ def stability_grid(
 ) -> Array:
     """Compute spectral radii on a rectangular grid of alpha h and (beta h)^2.
 
-    alpha_h, beta2_h2: first and last value of each [-].
+    alpha_h: first and last value of alpha h [-].
+    beta2_h2: first and last value of (beta h)^2 [-].
     shape: number of rows and number of columns. Each row belongs to a value of `beta2_h2`, and each
         column to a value of `alpha_h`.
     """

@@ -181,10 +181,10 @@ class Live:
 
 
 class View:
-    """A page that follows a run. Simulation.view() makes it.
+    """A view of a run in the browser. Simulation.view() makes it.
 
-    url: the address of the page. It contains a secret, and only programs on this computer can reach
-        it.
+    url: the address of the page that shows the run. The address contains a secret, and only
+        programs on this computer can open the page.
 
     A view ends with close(), at the end of a `with` block, or when the simulation ends.
     """
@@ -214,8 +214,8 @@ class View:
         return self._server.ended.is_set()
 
     def close(self) -> None:
-        """End the view. Its pages continue to show the last frame. If the run is paused and has no
-        other view, the run continues."""
+        """End the view. Open pages of the view continue to show the last frame. If the run is
+        paused and has no other view, the run continues."""
         self._server.end()
         self._server.thread.join(5)
 

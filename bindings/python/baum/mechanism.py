@@ -99,18 +99,19 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
     shared between threads.
 
     gravity: (x, y) or (x, y, z) [m/s^2].
-    up: "x", "y" or "z", instead of gravity. Gravity is then 9.81 m/s^2 in the direction opposite to
-        this axis.
+    up: the axis that points upward, "x", "y" or "z"; give it instead of gravity. Gravity is then
+        9.81 m/s^2 in the direction opposite to this axis.
     characteristic_length: the length [m] to which tolerances are relative, by default the size of
-        the design configuration.
+        the mechanism in the design configuration, which is given by the positions in the
+        definitions of the bodies.
 
     You may use any consistent set of units. Angles are in radians.
 
     The place of a joint is given by `point` in ground axes, in the design configuration, or by
     `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
-    `axis_b`. m["A"] is the handle of the element with the name "A". Your functions receive the time
-    t and the positions q of the bodies on which their element acts. Some functions also receive the
-    velocities v of these bodies. All of them return their result.
+    `axis_b`. m["A"] is the handle of the element with the name "A". Functions that you give for an
+    element receive arguments such as (t, q) or (t, q, v), and return their result: t is the time,
+    and q and v are the positions and velocities of the bodies on which the element acts.
     """
 
     handle: int
@@ -200,7 +201,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         return name in self._entries
 
     def __iter__(self) -> Iterator[Any]:
-        """Return the handles of all added elements, in the order of adding."""
+        """Return the handles of all added elements, in the order in which they were added."""
         return (self[name] for name, entry in self._entries.items() if entry is not GROUND)
 
     @property
@@ -294,7 +295,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @property
     def inputs(self) -> list[Input]:
-        """All inputs, in the order of adding."""
+        """All inputs, in the order in which they were added."""
         return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
     # ---- properties of the whole mechanism -------------------------------------------------------
@@ -365,10 +366,10 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         If you change the position, angle or orientation of a body, the copy has another design
         configuration, but is otherwise the same mechanism. Joints and forces keep their points and
         axes on the bodies. They also keep the lengths, angles and offsets that they took from the
-        first design configuration. The definitions of the copy contain all these values as numbers.
-        In the new design configuration the joints may be open. Assembly then closes them, and may
-        move the body that you changed. To avoid this, give a position and an angle at which the
-        joints are closed, or held=True.
+        design configuration of this mechanism. The definitions of the copy contain all these values
+        as numbers. In the new design configuration the joints may be open. Assembly then closes
+        them, and may move the body that you changed. To avoid this, give a position and an angle at
+        which the joints are closed, or held=True.
 
         If you also change the `point`, `point_a` or `point_b` of a joint or a force, this element
         is placed in the new design configuration. Angles of spatial joints are 0 in the new design
@@ -425,7 +426,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     @property
     def sizes(self) -> Sizes:
-        """The numbers nq, nv and nc of a frozen mechanism."""
+        """The numbers of positions (nq), velocities (nv) and constraint rows (nc) of a frozen
+        mechanism."""
         if self._sizes is None:
             counts = [ctypes.c_int32() for _ in range(3)]
             _calls.make(lib.baum_mechanism_sizes, self.handle, *map(ctypes.byref, counts))
@@ -486,8 +488,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
             _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
     def channel(self, value: ChannelLike) -> Channel:
-        """Return the channel for a channel or its name, such as "energy" or "B.phi". Raises
-        KeyError if there is none."""
+        """Return the channel with a name, such as "energy" or "B.phi". Raises KeyError if there is
+        no such channel. If the value is a Channel already, return it unchanged."""
         if isinstance(value, Channel):
             return value
         if not isinstance(value, str):
@@ -528,8 +530,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         q: None for the design configuration, "assembled" for the assembled
             configuration at t = 0, or positions q (nq) of a frozen mechanism [m], [rad].
 
-        A notebook shows the returned picture. Its method save("x.svg") writes it to a file. The
-        suffixes .pdf and .png need Matplotlib.
+        A notebook shows the returned picture. The method save("x.svg") of the picture writes it to
+        a file. The suffixes .pdf and .png need Matplotlib.
 
         Red lines show where the constraints of a joint are violated. A red line connects two points
         that should coincide, a point with the line, plane or curve on which it should be, or the
@@ -549,16 +551,16 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         plots: Mapping[str, ArrayLike] = types.MappingProxyType({}),
         marks: Sequence[tuple[Scalar, str]] = (),
     ) -> Page:
-        """Make a page that shows any motion of a frozen mechanism, for example a motion that was
-        computed elsewhere, or several runs joined together. To show one run, use Run.page().
+        """Make an HTML page that shows any motion of a frozen mechanism, for example a motion that
+        was computed elsewhere, or several runs joined together. To show one run, use Run.page().
 
         t: times (n) [s], rising or falling.
         q: positions (n x nq). The page shows them unchanged, including their constraint violations.
         path: file to write. None writes no file; the returned page has a method save().
         traces: paths to draw, as in Run.page().
-        plots: curves (n) by label, such as {"height [m]": q[:, 1]}. Consecutive curves with the
-            same unit are drawn in the same plot.
-        marks: pairs of a time [s] and a text, which become marks on the time axis.
+        plots: curves, as a dict from a label to n values, such as {"height [m]": q[:, 1]}.
+            Consecutive curves whose labels end with the same unit are drawn in the same plot.
+        marks: marks on the time axis, each as a pair (time [s], text).
         """
         motion = _motion.of_arrays(self, t, q, title, traces, plots, marks)
         made = drawings.page(motion)
@@ -585,7 +587,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         **options: Unpack[SimulationOptions],
     ) -> Run:
         """Run through times (n) [s]. Return a Run with q, v and the channels in `record` at each
-        time.
+        time. A channel is a quantity such as "energy" or "slider.velocity".
 
         The run starts at the time that the option start_time gives. baum.Simulation describes the
         options and the errors. Exceptions that this method raises have the attribute `run` with the
@@ -604,15 +606,16 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         parameters: str | Sequence[str] = (),
         **options: Unpack[SimulationOptions],
     ) -> None:
-        """Write the mechanism as an FMU for co-simulation by FMI 3.0. No compiler is needed.
+        """Write the mechanism as an FMU for co-simulation according to FMI 3.0. No compiler is
+        needed.
 
         outputs: one channel or several channels, such as "slider.pose"; each of their columns is an
             output of the FMU.
-        inputs: inputs of the mechanism that are inputs of the FMU, by default all.
+        inputs: inputs of the mechanism that become inputs of the FMU, by default all.
         parameters: numbers that users of the FMU can change, written as "element.field", such as
             "rod.mass". They may also be positions and velocities of bodies at the start.
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
-            start_time. Choose a fixed step for control loops.
+            start_time. If the FMU is part of a control loop, choose a fixed step.
 
         Raises ValueError if the mechanism contains functions, because an FMU cannot contain Python
         functions.

@@ -64,7 +64,7 @@ class Event(_Event):
 
     t: its time [s].
     event: its number, which Simulation.event() has returned.
-    direction: 1 if the function rises in time, -1 if it falls.
+    direction: 1 if the event function or the coordinate rises in time, -1 if it falls.
     name: the name that Simulation.event() was given, by default "event 0", "event 1", ...
     """
 
@@ -114,19 +114,23 @@ class Run(Strict):
     t: times (n) [s].
     q: positions (n x nq).
     v: velocities (n x nv).
-    status: Status.OK or WARNED; STOP_CANCELLED or STOP_EVENT if the samples end early.
+    status: Status.OK, or Status.WARNED if there are warnings; Status.STOP_CANCELLED or
+        Status.STOP_EVENT if the samples end early; for a failed run, the status of the error.
     failure: the message of the error if the run has failed, otherwise None. The baum.Error that a
         failed run raises has this Run as its attribute `run`.
-    counters: what the run has cost.
-    explain: the methods of the run in words.
+    counters: numbers of steps and evaluations, the wall time, and the largest constraint violations
+        of the run.
+    explain: a text that explains the methods of the run.
     warnings: a list with one baum.Warning for each kind of warning.
-    near_singular, events: the near-singular intervals and the events, as lists. Both lists cover
-        the whole simulation up to the last sample.
-    energy_account: the energy account at the last sample; None without the option energy_account.
+    near_singular, events: lists of the intervals in which the run was near a singular
+        configuration, and of the events. Both lists cover the whole simulation up to the last
+        sample.
+    energy_account: the energies and the work of all forces up to the last sample; None without the
+        option energy_account.
 
-    run["B.phi"] or `run[m["B"].phi]` is a recorded channel (n x columns). Poses and velocities of
-    bodies need not be recorded, because they follow from q and v: run["slider.pose"] is always
-    available.
+    To read a recorded channel (n x columns), write run["B.phi"] or `run[m["B"].phi]`, where "B" is
+    the name of an element of the mechanism m. Poses and velocities of bodies need not be recorded,
+    because they follow from q and v: run["slider.pose"] is always available.
     """
 
     t: Array
@@ -190,7 +194,8 @@ class Run(Strict):
 
     @property
     def mechanism(self) -> Mechanism | None:
-        """The mechanism. It is None if the run was pickled with a mechanism that has functions."""
+        """The mechanism. It is None in an unpickled run whose mechanism has functions, because
+        functions are not pickled."""
         if self._mechanism is None and self._pickled and not self._pickled.has_functions:
             self._mechanism = scenes.parse(self._pickled.scene).freeze()
             first = next(one for one in self._mechanism if one.family == "body")
@@ -291,8 +296,8 @@ class Run(Strict):
 
     @property
     def columns(self) -> dict[str, str]:
-        """The unit of each column of to_dict(), by the name of the column. The unit is "-" for pure
-        numbers, and "" if it depends on your functions."""
+        """A dict from the name of each column of to_dict() to the unit of this column. The unit is
+        "-" for pure numbers, and "" if the unit depends on your functions."""
         named = {"t": "s"}
         for key in self:
             named.update(zip(self._names(key), self._units_of(key)))
@@ -313,17 +318,18 @@ class Run(Strict):
         return self._units[key]
 
     def to_dict(self) -> dict[str, Array]:
-        """Return all columns (n) by name. The names are "t" and the names of the recorded channels.
-        If a channel has several columns, the name ends with the index of the column, such as
-        "energy[1]"."""
+        """Return a dict from names to columns (n). The names are "t" and the names of the recorded
+        channels. If a channel has several columns, the name of each column ends with its index,
+        such as "energy[1]"."""
         named = {"t": self.t}
         for key in self:
             named.update(zip(self._names(key), self[key].T))
         return named
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """Return all columns as a pandas.DataFrame with the time [s] as its index. Its
-        attrs["units"] contains the unit of each column. Raises ImportError without pandas."""
+        """Return all columns as a pandas.DataFrame with the time [s] as its index. The attribute
+        attrs["units"] of the DataFrame contains the unit of each column. Raises ImportError without
+        pandas."""
         try:
             import pandas
         except ImportError as error:
@@ -440,8 +446,8 @@ class Run(Strict):
         Between two samples, positions are interpolated by cubic polynomials that have the recorded
         velocities at both samples, and reactions are interpolated linearly. The frame of the
         picture is large enough for the whole motion, so that pictures at several times have the
-        same scale; m.draw(run.q[k]) fits the frame to one configuration. Raises ValueError for a
-        time outside of the run, and if the attribute `mechanism` is None.
+        same scale; run.mechanism.draw(run.q[k]) instead fits the frame to one configuration. Raises
+        ValueError for a time outside of the run, and if the attribute `mechanism` is None.
         """
         motion = _motion.of_run(self, self._recorded(), traces, forces)
         time = number(t, "t")
@@ -465,15 +471,16 @@ class Run(Strict):
         """Write a movie of the run. The program ffmpeg writes .mp4 files, and Pillow writes .gif
         files.
 
-        fps: frames per second of the movie. In a GIF the time between frames is rounded to 1/100 s.
+        fps: frames per second of the movie. In a GIF the time between frames is rounded to a
+            multiple of 1/100 s.
         speed: seconds of the run per second of the movie.
         size: width and height [px].
         traces, forces: as in figure(), which also describes the interpolation between samples.
-        progress: True shows a bar in a terminal or a notebook. A function progress(t) is called
-            after each frame.
+        progress: True shows a bar in a terminal or a notebook. If you give a function, progress(t)
+            is called after each frame, with the time t [s] of the frame.
 
-        Raises ImportError without Matplotlib, RuntimeError without ffmpeg, and ValueError for other
-        suffixes and if the attribute `mechanism` is None.
+        Raises ImportError without Matplotlib, RuntimeError for .mp4 without ffmpeg, ValueError for
+        suffixes other than .mp4 and .gif, and ValueError if the attribute `mechanism` is None.
         """
         motion = _motion.of_run(self, self._recorded(), traces, forces)
         movies.write(self, motion, path, fps, speed, size, progress)

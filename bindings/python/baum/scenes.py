@@ -125,8 +125,10 @@ class Scenes:
     def scene(self: Any, functions: Functions | None = None, units: str | None = None) -> str:
         """Return the mechanism as a JSON text, which baum.parse() can read.
 
-        functions: names for functions and objects, such as {"drag": drag}. If a function is not
-            listed, the scene contains its own name, or "element.field" if it has none.
+        functions: a dict from names to functions and `user` objects of the mechanism, such as
+            {"drag": drag}. The text contains these names. For a function that is not in the dict,
+            the text contains the name of the function in Python, or "element.field" if the function
+            has no name or if another function has the same name.
         units: a note on the units, such as "mm, t, s". baum ignores this note and does not keep it
             when it reads the scene.
         """
@@ -146,12 +148,13 @@ class Scenes:
         functions: Functions | None = None,
         units: str | None = None,
     ) -> None:
-        """Write the scene into a file, which baum.load() can read. The other arguments are those
-        of scene()."""
+        """Write the mechanism into a JSON file (a scene), which baum.load() can read. The other
+        arguments are those of scene()."""
         _files.write(path, self.scene(functions, units))
 
     def function_names(self: Any) -> list[str]:
-        """Return the names of the functions and `user` objects that a scene would contain."""
+        """Return the names that scene() writes for the functions and `user` objects of the
+        mechanism."""
         return list(_Hooks(self, {}).objects)
 
     def _comparable(self: Any) -> tuple[str, dict[str, Any]]:
@@ -274,7 +277,8 @@ def _set_functions(mechanism: Mechanism, own: Element, element: Any, functions: 
 def parse(text: str, functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from the text of a scene. The mechanism is not frozen.
 
-    functions: the functions and objects that the scene names, such as {"drag": drag} or globals().
+    functions: a dict that contains a function or an object for each name of a function or object
+        in the scene, such as {"drag": drag} or globals().
 
     Raises baum.Error if the text is not a scene; the message names the line. Raises KeyError if a
     function is missing.
@@ -300,8 +304,8 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
 
 def load(path: str | os.PathLike[str], functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from a file that Mechanism.save() or a C program has written. The argument
-    functions and the errors are those of baum.parse(). Messages of baum.Error begin with the
-    path."""
+    `functions` and the exceptions are the same as in baum.parse(), but the messages of baum.Error
+    begin with the path."""
     try:
         return parse(Path(path).read_text(encoding="utf-8"), functions)
     except UnicodeDecodeError as error:

@@ -24,16 +24,19 @@ ROUNDING = 1e4 * float(np.finfo(float).eps)  # assumed rounding error of a resul
 
 
 class Sensitivities(Named):
-    """The derivatives of results with respect to p numbers.
+    """The derivatives of results with respect to p numbers, which are the parameters or, for
+    parameters that are vectors, their components.
 
     parameters: the names of these numbers. A vector field has one name for each of its numbers,
         such as "rod.position[0]".
 
     sensitivities["rod.pose"] contains the derivatives (samples x columns x p) of a channel. If
-    `reduce` was given, sensitivities["value"] contains the derivatives of its results (... x p).
-    error(name) is an array of the same shape. It contains the differences between the difference
-    quotients of two steps. These differences are large if the results of methods with variable
-    steps jump. They do not show integration errors that all runs have in common.
+    baum.sensitivities() was called with a function `reduce`, sensitivities["value"] contains the
+    derivatives of the results of this function (... x p). error(name) is an array of the same shape
+    as sensitivities[name]. For each derivative, it contains the difference between the two
+    difference quotients from which the derivative is computed. These differences are large if the
+    results jump when a parameter changes, as they may with variable steps. They do not show
+    integration errors that all runs have in common.
     """
 
     def __init__(self, parameters: Sequence[str], values: Array, runs: Sweep) -> None:
@@ -52,7 +55,7 @@ class Sensitivities(Named):
         return f"<sensitivities of {', '.join(self._values)} to {', '.join(self.parameters)}>"
 
     def error(self, name: str) -> Array:
-        """The differences between the difference quotients of two steps."""
+        """The differences between the two difference quotients of each derivative."""
         self[name]  # raises KeyError
         return self._errors[name]
 
@@ -70,26 +73,27 @@ def sensitivities(
     executor: Any = None,
     **options: Any,
 ) -> Sensitivities:
-    """Compute derivatives of results with respect to parameters by central differences. Four runs
-    for each number of a parameter give two difference quotients, with different steps. Richardson's
-    extrapolation from both quotients gives the derivative. The difference of the two quotients
-    shows how certain the derivative is.
+    """Compute derivatives of results with respect to parameters by central differences. A parameter
+    is a number or a vector of numbers. For each number, four runs give two difference quotients:
+    one with a change of the number, and one with half this change. Richardson's extrapolation from
+    both quotients gives the derivative. The difference of the two quotients shows how certain the
+    derivative is.
 
     parameters: a dict from "element.field" to the value at which the derivatives are computed, such
         as {"rod.mass": 0.2}. An orientation cannot be a parameter.
     relative_step: change of a number, relative to its value. If a number in a vector is 0, its
         change is relative to the largest number of the vector.
-    steps: absolute changes of some parameters, which replace relative_step. A parameter that is 0
-        needs such a change.
+    steps: a dict from "element.field" to the absolute change of this parameter, which replaces
+        relative_step. A parameter that is 0 needs such a change.
     times, method, record, reduce, executor, options: as in baum.sweep().
 
     Take a method with a fixed step, such as "rk8" with `step`, and check the integration error by a
     second call with half the step. Results of methods with variable steps do not depend smoothly on
     parameters. Warns with UncertainSensitivityWarning if the two difference quotients of a
     derivative differ by more than 1e-4 of the largest derivative, unless rounding explains this.
-    For a channel, the largest derivative is taken over all samples of a column. Each kind of
-    warning that runs have caused is issued once. Raises baum.Error if a run fails. Raises
-    ValueError if the change of a number is not positive, or is below 1e-8 times the number.
+    For a channel, the largest derivative is taken over all samples of a column. For each kind of
+    warning that occurs in the runs, one Python warning is issued. Raises baum.Error if a run fails.
+    Raises ValueError if the change of a number is not positive, or is below 1e-8 times the number.
     """
     for name in {"samples", "count", "progress", "file"} & set(options):
         raise TypeError(f"sensitivities() got an unexpected keyword argument {name!r}")

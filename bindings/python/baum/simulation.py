@@ -202,19 +202,19 @@ class Simulation(_calls.Closing):
     integrator: the name of an integration method. The methods "euler", "semi_implicit_euler",
         "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle" and "generalized_alpha" need the option
         `step`. The methods "dp5" and "rk8" need either `step` or `rtol`. The methods "cvode_adams",
-        "cvode_bdf" and "ida" need `rtol`. The method "kinematics" needs neither of these options,
+        "cvode_bdf" and "ida" need `rtol`. The method "kinematics" needs neither `step` nor `rtol`,
         because drivers prescribe the whole motion. baum.integrators() states the orders and the
         formulations of all methods.
     step: length of a fixed step [s], positive.
     rtol: tolerance of the local error [-], between 0 and 1, relative to typical sizes of q and v
         (their scales).
-    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale. None
-        adds nothing.
+    atol: absolute tolerance [unit of the coordinate], which is added to rtol times the scale of
+        the coordinate. None adds nothing.
     max_step: longest variable step [s], by default unlimited. Set max_step if a force is zero at
         first and begins to act later: a long step could miss this beginning. Also set it if an
         event function may pass zero twice within a quarter of a step.
-    formulation: "default" is the first formulation that the integrator offers. Others are
-        "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
+    formulation: "default" is the first formulation that the integrator offers. Other formulations
+        are "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
         "index3". "rattle" and "generalized_alpha" offer only "index3".
     gains: gain rule for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(),
         deadbeat(), best_damping() or auto(). None is the default rule of the integrator.
@@ -223,30 +223,35 @@ class Simulation(_calls.Closing):
     allow_unstable: True accepts gains that are known to be unstable.
     tolerance_q, tolerance_v, tolerance_lambda: factors on the tolerances of positions, velocities
         and multipliers [-], positive. By default tolerance_lambda is infinite, so the error of
-        multipliers is not tested. It may be finite only for "ida" with "baumgarte" or
-        "unstabilized".
+        multipliers is not tested. Only "ida" with the formulation "baumgarte" or "unstabilized"
+        accepts a finite tolerance_lambda.
     start_time: time at which the run starts [s].
-    start: "assemble" closes the joints first. "exact" refuses a design configuration that violates
-        constraints. "as_given" accepts such a configuration and does not assemble it.
-    solver: the solver of the linear equations of motion: "auto", "klu", "qr" or "block".
+    start: "assemble" first moves the bodies such that the joints are closed. "exact" refuses a
+        design configuration that violates constraints. "as_given" accepts such a configuration and
+        does not assemble it.
+    solver: the solver of the linear system for the accelerations and the multipliers: "klu" (sparse
+        LU factorization), "qr" (sparse QR factorization), "block" (Schur complement in blocks), or
+        "auto", which chooses one of them.
     check_derivatives: True compares the derivatives of your functions with finite differences, at
         the start and at some later states of the run. A derivative that is wrong at the start
-        raises baum.Error. For one that is wrong later, the run issues a WrongDerivativeWarning.
+        raises baum.Error. For a derivative that is wrong only later, the run issues a
+        WrongDerivativeWarning.
     max_steps: largest number of steps in one call that advances the run. A call that needs more
         steps fails.
     energy_account: True computes the work of all forces during the run. The property and the
         channel `energy_account` report this work.
-    error_check: True estimates the error of the motion by a second integration
-        (counters.error_estimate). The run warns if the error is large, or if the second integration
+    error_check: True estimates the error of the motion by a second integration. The estimate is
+        counters.error_estimate. The run warns if the error is large, or if the second integration
         fails or becomes too expensive, so that the error is unknown. With this option, rtol must be
-        at least 2e-14. Without it, a run with fixed steps makes a second integration only if the
-        sum of its local errors becomes large enough to matter.
+        at least 2e-14. Without this option, a run with fixed steps makes a second integration only
+        if the sum of its local errors becomes large enough to matter.
     progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
-        of its steps is not known in advance. A function progress(t) is called every
-        progress_interval seconds of wall time. It cancels the run if it returns a true value.
+        of its steps is not known in advance. If you give a function, the run calls progress(t) with
+        the present time t [s] every progress_interval seconds of wall time. The function cancels
+        the run if it returns a true value.
 
-    Warnings of the run become Python warnings of subclasses of baum.Warning. If the motion may be
-    wrong, the class is also a subclass of baum.DoubtWarning.
+    The run issues its warnings as Python warnings. The class of each warning is a subclass of
+    baum.Warning. If the motion may be wrong, the class is also a subclass of baum.DoubtWarning.
 
     In a `with` block, the memory of the run is freed at the end of the block. Only one thread at a
     time may use a run, except that any thread may call cancel().
@@ -411,8 +416,9 @@ class Simulation(_calls.Closing):
 
         If the new state violates the constraints, the option `start` decides what happens. With
         start="assemble", v may be None, and entries of v may be NaN; assembly then determines them.
-        Raises baum.Error if the state cannot be assembled. The run is then unchanged. q does not
-        determine the revolutions of angles in space; call set_angle() afterwards to choose them.
+        Raises baum.Error if the state cannot be assembled. The run is then unchanged. The positions
+        q do not determine the number of whole revolutions in an angle of a spatial joint. To choose
+        this number, call set_angle() afterwards.
         """
         nq, nv, _ = self._sizes
         q = vector(q, nq, "q")
@@ -423,8 +429,8 @@ class Simulation(_calls.Closing):
     def set_angle(self, joint: JointLike, angle: Scalar, coordinate: Coordinate = "first") -> None:
         """Set the number of whole revolutions in an angle of a spatial joint, for example after
         set_state() has given a new run the state of another run. The run restarts at its present
-        state. Of all values that differ from the present angle by whole revolutions, the angle
-        takes the one that is nearest to the given angle [rad].
+        state. The new angle differs from the present angle by whole revolutions, and is as near as
+        possible to the argument `angle` [rad].
 
         coordinate: which angle of the joint, as in Mechanism.driver().
         """
@@ -443,11 +449,11 @@ class Simulation(_calls.Closing):
         self._call(lib.baum_simulation_set_input, found.id, number(value, found.name))
 
     def schedule_input(self, input: InputLike, times: ArrayLike, values: ArrayLike) -> None:
-        """Schedule an input: from time times[k] [s] on, it has the value values[k]. Before times[0]
-        it keeps its present value.
+        """Schedule an input: from the time times[k] [s] on, the input has the value values[k].
+        Before times[0], the input keeps its present value.
 
         times: (n) times in rising order.
-        values: (n) values from these times on.
+        values: (n) values of the input from these times on.
 
         Steps end at these times, and multistep methods restart there. set_input() ends the
         schedule.
@@ -460,7 +466,7 @@ class Simulation(_calls.Closing):
 
     @property
     def inputs(self) -> dict[str, float]:
-        """A copy of the present values of all inputs, by name."""
+        """A dict from the name of each input to its present value."""
         return {
             input.name: lib.baum_simulation_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
@@ -511,8 +517,9 @@ class Simulation(_calls.Closing):
 
         direction: 1 if the event happens only when the coordinate or the function rises, -1 if it
             happens only when the coordinate or the function falls, 0 for both.
-        terminal: True stops the run at the event: the call returns Status.STOP_EVENT, and the next
-            call continues. False only records the event in `events`.
+        terminal: True stops the run at the event. The call that advances the run then returns
+            Status.STOP_EVENT, and the next call continues the run. False only records the event in
+            `events`.
         name: name of the event in messages and in `events`, by default "event 0", "event 1", ...
         tolerance: accuracy of the time of the event [s], by default the rounding error of the time.
         coordinate: which coordinate of `joint`, as in Mechanism.driver().
@@ -567,8 +574,8 @@ class Simulation(_calls.Closing):
         """Restore a state from save() of this run, or of another run with the same mechanism and
         the same options.
 
-        Raises baum.Error with Status.ERR_BUFFER for bytes that no such run has saved. Python
-        warnings of the saved run are not issued again.
+        Raises baum.Error with Status.ERR_BUFFER for bytes that do not come from save() of such a
+        run. Python warnings of the saved run are not issued again.
         """
         given = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, given, len(given))
@@ -588,7 +595,7 @@ class Simulation(_calls.Closing):
 
     def cancel(self) -> None:
         """Ask the run to stop after its present step. Any thread and any signal handler may call
-        this."""
+        this method."""
         self._live.cancelled = True
         lib.baum_simulation_cancel(self._owner.address)
 
@@ -674,18 +681,18 @@ class Simulation(_calls.Closing):
         paused: bool = False,
         browser: bool = True,
     ) -> View:
-        """Open a page in the browser that follows this run, at up to 60 frames a second. A notebook
-        shows the returned baum.View.
+        """Open a page in the browser. The page shows this run while it advances, with up to 60
+        frames per second. A notebook shows the returned baum.View.
 
         traces: paths to draw, as in Run.page().
-        paused: True lets the run wait until you start it in the page.
+        paused: True makes the run wait until you start it in the page.
         browser: False opens no browser. You can then visit View.url yourself.
 
         The page has buttons that pause the run, take one step of the integrator, and resume the
         run. While the run is paused, the call that advances it waits. Ctrl-C and cancel() end the
-        waiting. If all pages of the run are closed, the run continues. A view ends with close(), at
-        the end of a `with` block, or when the simulation ends. The server of the view answers only
-        programs on this computer that know the secret in View.url.
+        waiting. If all pages of a paused run are closed, the run continues. A view ends with
+        close(), at the end of a `with` block, or when the simulation ends. The server of the view
+        answers only programs on this computer that know the secret in View.url.
         """
         return open_view(
             self, self._live, self._owner, title, traces, truth(paused, "paused"), browser
@@ -742,8 +749,8 @@ class Simulation(_calls.Closing):
 
     @property
     def energy_account(self) -> EnergyAccount:
-        """The energy account at the present state. Raises baum.Error unless the option
-        energy_account is True."""
+        """The energy account at the present state: the energies and the work of all forces. Raises
+        baum.Error unless the option energy_account is True."""
         struct = _abi.baum_energy_account()
         self._call(lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct))
         return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
@@ -764,7 +771,8 @@ class Simulation(_calls.Closing):
 
     @property
     def counters(self) -> Counters:
-        """What the run has cost and how well it has satisfied the constraints."""
+        """Numbers of steps and evaluations, the wall time, and the largest constraint violations of
+        the run so far."""
         struct = self._read_counters()
         values = [getattr(struct, name) for name in Counters._fields]
         return Counters._make(

@@ -59,8 +59,8 @@ class ReferenceSamples(NamedTuple):
 
 
 class Recommendation(dict[str, Any]):
-    """Options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation `best`,
-    write m.simulate(t, **best).
+    """A dict of options for Mechanism.simulate() and Mechanism.simulation(). With a recommendation
+    `best`, write m.simulate(t, **best).
 
     why: the reason for the recommendation, with the measured figures.
     """
@@ -123,7 +123,8 @@ class Study(_calls.Closing):
         from the reference, divided by `unit`. By default the error of a run is the largest error of
         all positions, with lengths divided by the characteristic length, and angles in radians.
     reference: a known motion, which replaces the reference that the study computes itself. It is a
-        tuple (times, q), (times, q, v) or (times, q, v, lambda_) with a row for each time.
+        tuple (times, q), (times, q, v) or (times, q, v, lambda_). Each of the arrays q, v and
+        lambda_ has one row for each time.
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
     digits: the number of digits of the known motion that can be trusted.
     samples: number of times at which errors are measured, 2 to 1e6.
@@ -133,16 +134,17 @@ class Study(_calls.Closing):
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
         Python functions.
     energy_account: True measures the work that stabilization and projection do on the mechanism.
-    validate: True makes more runs of entries that may be recommended: over twice the time span,
-        and from perturbed starts.
+    validate: True makes further runs that test the entries that may be recommended: over twice the
+        time span, and from perturbed initial states.
     file: path of a file in which the study keeps its results. A later study can continue from it.
     grid: the settings that run() adds to a study without settings. "quick" takes seconds, or about
         a minute with Python functions. "full" takes about 25 times as long.
     progress: by default a bar in a terminal or a notebook, with an estimate of the time left; False
-        shows nothing. A function progress(done, total) is called after each entry. An entry counts
-        twice: once when its error is known, and once when its time is known. The function cancels
-        the study if it returns a true value. It may call cancel() and len() of the study, but no
-        other method.
+        shows nothing. If you give a function, progress(done, total) is called after each entry, and
+        while the study computes the reference. `done` is the number of entries whose error is known
+        plus the number of entries whose CPU time is known, and `total` is twice the number of
+        entries. The function cancels the study if it returns a true value. It may call cancel() and
+        len() of the study, but no other method.
 
     In a `with` block, the end of the block frees the memory of the study and closes its file.
 
@@ -314,15 +316,16 @@ class Study(_calls.Closing):
         """Add the standard grid of settings, or only its settings with one integrator or one
         formulation. Returns the study.
 
-        settings: number of steps or tolerances of each method, 1 to 64.
+        settings: number of step sizes or tolerances of each method, 1 to 64.
         constants: number of pairs of constant gains that are tried in addition to the gain rules, 0
             to 4.
-        coarsest: longest step of methods of the orders 3 to 5 [s]. The longest steps of methods of
-            the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times as long. By default all these steps
-            follow from the speed of the motion.
-        finest: smallest rtol [-], by default 1e-13, or 1e-11 if derivatives are computed by
-            differences.
-        quick: True adds the quick grid, with at most 5 settings of each integrator.
+        coarsest: longest step of integrators of the orders 3 to 5 [s]. The longest steps of
+            integrators of the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times this step. By default
+            all these steps follow from the speed of the motion.
+        finest: smallest rtol [-], by default 1e-13, or 1e-11 if a user constraint has neither
+            `jacobian` nor `gamma`.
+        quick: True adds the quick grid, with at most 5 step sizes and at most 5 tolerances of each
+            integrator.
         """
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
@@ -339,8 +342,8 @@ class Study(_calls.Closing):
         return self
 
     def add_stress(self, integrator: str | Integrator | None = None) -> Study:
-        """Add stress settings, which have extreme steps, tolerances and gains, for one integrator
-        or, by default, for all. Returns the study."""
+        """Add stress settings, which have extreme steps, tolerances and gains. They use the given
+        integrator, or by default all integrators. Returns the study."""
         place = None if integrator is None else lookup(integrator).address
         self._long(lib.baum_study_add_stress, place)
         return self
@@ -350,10 +353,10 @@ class Study(_calls.Closing):
     def run(self) -> Study:
         """Compute the reference, and run the entries that are not done. Returns the study.
 
-        If the study has no entries, this call first adds those of the option `grid`. A Python
-        warning is issued if the reference cannot be trusted, or if the time budget is spent. If a
-        function of the mechanism raises an exception in a run of an entry, this entry fails, and
-        its message contains the exception.
+        If the study has no entries, this call first adds the settings that the option `grid`
+        selects. A Python warning is issued if the reference cannot be trusted, or if the time
+        budget is spent. If a function of the mechanism raises an exception in a run of an entry,
+        this entry fails, and its message contains the exception.
         """
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -401,7 +404,7 @@ class Study(_calls.Closing):
 
     @property
     def entries(self) -> list[StudyEntry]:
-        """All entries, in the order of adding."""
+        """All entries, in the order in which they were added."""
         return [
             self._read(lib.baum_study_entry_at, _abi.baum_study_entry(), StudyEntry, k)
             for k in range(len(self))
@@ -420,7 +423,8 @@ class Study(_calls.Closing):
 
     @property
     def reference(self) -> StudyReference:
-        """How far the reference can be trusted. This is known after run()."""
+        """The quality of the reference: how far the reference can be trusted. It is known after
+        run()."""
         struct = _abi.baum_study_reference()
         found: StudyReference = self._read(lib.baum_study_reference_read, struct, StudyReference)
         return found
@@ -443,10 +447,11 @@ class Study(_calls.Closing):
     # ---- answers ---------------------------------------------------------------------------------
 
     def front(self, cost: Cost = "work") -> list[int]:
-        """Return the indices of the entries on the Pareto front, from cheap to accurate. No other
-        entry is both cheaper and more accurate than an entry on the front.
+        """Return the indices of the entries on the Pareto front, from the cheapest to the most
+        accurate. No other entry is both cheaper and more accurate than an entry on the front.
 
-        cost: "work", which is the same on every machine, or "cpu".
+        cost: "work" counts evaluations, factorizations and iterations of implicit methods, and is
+            the same on every machine. "cpu" is the CPU time.
         """
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
@@ -457,8 +462,9 @@ class Study(_calls.Closing):
     def cost_at(self, method: int, error: Scalar, cost: Cost = "work") -> float:
         """Return what a method costs for a given error [-].
 
-        method: index of the method.
-        cost: "work" gives evaluations, "cpu" gives CPU time [s].
+        method: index of the method in `methods`.
+        cost: "work" gives the number of evaluations, factorizations and iterations of implicit
+            methods; "cpu" gives the CPU time [s].
         """
         out = ctypes.c_double()
         given = integer(method, "method"), number(error, "error"), word(COSTS, cost, "cost")
@@ -467,23 +473,24 @@ class Study(_calls.Closing):
 
     def compare(self, a: int, b: int, error: Scalar, cost: Cost = "work") -> float:
         """Return the cost of method a divided by the cost of method b, for the same error [-]. a
-        and b are indices."""
+        and b are indices of methods in `methods`."""
         out = ctypes.c_double()
         given = integer(a, "a"), integer(b, "b"), number(error, "error"), word(COSTS, cost, "cost")
         self._owner.call(lib.baum_study_compare, *given, ctypes.byref(out))
         return out.value
 
     def recommend(self, error: Scalar, cost: Cost = "work") -> Recommendation:
-        """Return the cheapest setting whose error is at most `error` [-]. If possible, this setting
-        keeps the limit also in runs from perturbed starts and over twice the time span. If no
-        setting does, the field `why` of the result says so. Raises baum.Error if no setting has so
-        small an error."""
+        """Return the cheapest setting whose error is at most `error` [-]. If possible, the error of
+        this setting stays below this limit also in runs from perturbed initial states and over
+        twice the time span. If no setting achieves this, the attribute `why` of the result says so.
+        Raises baum.Error if no setting is accurate enough, or if the uncertainty of the reference
+        is larger than `error`."""
         given = number(error, "error"), word(COSTS, cost, "cost")
         return self._answer(lib.baum_study_recommend, *given)
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
         """Return the most accurate setting whose run takes at most this CPU time [s] on this
-        machine. Raises baum.Error if there is none."""
+        machine. Raises baum.Error if no setting is fast enough."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
     def _answer(self, function: Any, *arguments: Any) -> Recommendation:
@@ -541,8 +548,8 @@ class Study(_calls.Closing):
         return in_python(report) if form == "text" else report
 
     def write(self, path: str | os.PathLike[str], title: str | None = None) -> None:
-        """Write a report to a file. The suffix determines its form: .txt, .csv, .json or .html. If
-        the file exists, it is replaced when the new one is complete."""
+        """Write a report to a file. The suffix of the path determines the form of the report: .txt,
+        .csv, .json or .html. An existing file is replaced only when the new file is complete."""
         suffix = os.path.splitext(os.fspath(path))[1]
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")

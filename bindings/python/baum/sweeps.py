@@ -224,13 +224,15 @@ class Named:
 class Sweep(Named):
     """The results of a sweep of n runs.
 
-    parameters: the values of each parameter (n) or (n x size), by name.
+    parameters: a dict from the name of each parameter to its values: an array (n), or (n x size)
+        for a vector field.
     status: the Status of each run (n).
-    messages: the messages of runs that failed, by the index of the run.
-    warnings: the names of the warning classes of each run.
+    messages: a dict from the indices of the runs that failed to their messages.
+    warnings: for each run, the names of the classes of its warnings (n).
 
-    sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If `reduce` was
-    given, sweep["value"] contains its results (n x ...). The values of failed runs are NaN.
+    sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If baum.sweep() was
+    called with a function `reduce`, sweep["value"] contains the results of this function (n x ...).
+    The values of failed runs are NaN.
     """
 
     def __init__(self, names: Sequence[str], rows: Sequence[Any], results: Sequence[Any]) -> None:
@@ -289,7 +291,7 @@ def sweep(
 ) -> Sweep:
     """Run a mechanism once for each sample of its parameters.
 
-    mechanism: frozen or not.
+    mechanism: the mechanism, which may be frozen or not.
     parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. Values of a
         vector field have the shape (n x size).
     method: the integrator, such as "rk8".
@@ -304,18 +306,18 @@ def sweep(
         of Dask or of mpi4py. By default the sweep uses threads, which is sufficient unless the
         mechanism has Python functions. Results do not depend on the executor. If the executor uses
         other processes, they must be able to import `reduce` and the functions of the mechanism.
-    progress: True shows a bar. A function receives the number of finished runs and the number of
-        all runs. If it returns a true value, the sweep is cancelled, and the remaining runs have
-        the status STOP_CANCELLED.
+    progress: True shows a bar. If you give a function, it is called with the number of finished
+        runs and the number of all runs. If it returns a true value, the sweep is cancelled, and the
+        remaining runs have the status STOP_CANCELLED.
     file: a file that keeps finished runs, so that a sweep that was interrupted continues when you
         call sweep() again. The file of another sweep, or of another version of baum, is refused
-        with ValueError. `reduce` and the functions of the mechanism are compared by their names and
-        their code, but not by the values of other variables that they use. The file is a pickle;
-        open only files that you trust.
+        with ValueError. To recognize its file, a sweep compares `reduce` and the functions of the
+        mechanism by their names and their code, but not by the values of other variables that they
+        use. The file is a pickle; open only files that you trust.
 
     A run that fails does not stop the other runs. Raises KeyError if the element of a parameter
-    does not exist, TypeError if its field does not exist, and TypeError or ValueError if its values
-    have a wrong form.
+    does not exist, TypeError if the element does not have this field, and TypeError or ValueError
+    if the values of a parameter have a wrong form.
     """
     columns = _columns(parameters)
     rows = _rows(columns, samples, count)

@@ -32,7 +32,7 @@ ChannelLike = Union[str, "Channel"]
 
 
 class HasAddress(Protocol):
-    """A compiled function such as Numba's cfunc."""
+    """A compiled function with an attribute `address`, such as Numba's cfunc."""
 
     @property
     def address(self) -> int: ...

@@ -29,8 +29,9 @@ class Workspace(_calls.Closing):
     q: positions (nq).
     v: velocities (nv).
 
-    nc is the number of constraint rows. Columns are in the order in which the bodies were added,
-    and rows in the order of the joints. Only one thread at a time may use a workspace.
+    nc is the number of constraint rows. The columns of J and M and the numbers in q and v are in
+    the order in which the bodies were added. Constraint rows are in the order in which the joints
+    were added. Only one thread at a time may use a workspace.
 
     Errors: TypeError and ValueError for values of a wrong type or size; baum.Error if the library
         cannot evaluate the state; exceptions of your own functions.
@@ -88,30 +89,30 @@ class Workspace(_calls.Closing):
 
     @property
     def inputs(self) -> dict[str, float]:
-        """A copy of the present values of all inputs, by name."""
+        """A dict from the name of each input to its present value."""
         return {
             input.name: lib.baum_workspace_input(self._owner.address, input.id)
             for input in self.mechanism.inputs
         }
 
     def design(self) -> tuple[Array, Array]:
-        """Return the positions q (nq) of the design configuration, and the given velocities v (nv).
-        Velocities that are not given are NaN."""
+        """Return the design configuration: the positions q (nq) and velocities v (nv) that the
+        definitions of the bodies give. Velocities that they do not give are NaN."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
         self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the time derivative of the positions, q' = N(q) v (nq). If the positions form a
-        vector, as they do for planar bodies, this is v itself."""
+        """Return the time derivative of the positions, q' = N(q) v (nq). For planar bodies, q'
+        is equal to v."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
         return out
 
     def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
-        """Return q (nq) moved by a displacement dx (nv). If the positions form a vector, this is q
-        + dx."""
+        """Return the positions q (nq) moved by a displacement dx (nv). For planar bodies, the
+        result is q + dx."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
@@ -183,9 +184,10 @@ class Workspace(_calls.Closing):
         return a, lambda_
 
     def reaction(self, t: Scalar, q: ArrayLike, lambda_: ArrayLike, joint: JointLike) -> Array:
-        """Return the reaction of a joint, as the channel `reaction` does. For most joints this is
-        the force [N] and the moment [N m] on body_b (3 numbers, or 6 in space). lambda_:
-        multipliers (nc), as acceleration() returns them."""
+        """Return the reaction of a joint, which is also what the channel `reaction` of the joint
+        contains. For most joints, the reaction is the force [N] and the moment [N m] on body_b (3
+        numbers in the plane, 6 in space). lambda_: multipliers (nc), as acceleration() returns
+        them."""
         found = self.mechanism.find("joint", joint)
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=found.id)
         out = np.empty(width(self.mechanism, channel))
@@ -207,11 +209,11 @@ class Workspace(_calls.Closing):
         v: ArrayLike | None = None,
         held: Sequence[BodyLike] = (),
     ) -> tuple[Array, Array]:
-        """Assemble the mechanism. Return the nearest configuration q (nq) with Phi = 0, and v (nv)
-        with J v = nu.
+        """Assemble the mechanism. Return the configuration q (nq) with Phi = 0 that is nearest to
+        the given one, and velocities v (nv) with J v = nu.
 
-        q, v: where to begin, by default the design configuration. Finite entries of v are kept, and
-            entries that are NaN are computed from the constraints.
+        q, v: the given configuration and velocities, by default those that design() returns. Finite
+            entries of v are kept, and entries that are NaN are computed from the constraints.
         held: bodies whose positions must not change.
 
         Raises baum.Error if the joints cannot be closed.

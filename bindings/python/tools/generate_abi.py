@@ -67,16 +67,17 @@ RECORDS = {
     "and nc are the numbers of velocities and of constraint rows, and J is the velocity Jacobian "
     "of the constraints.",
     "baum_counters": "What a run has cost since it was created, and how well it has kept the "
-    "constraints. Joints are handles or None, and names after unpickling. Phi are the values of "
-    "the constraints, and Phi' is their time derivative.",
+    "constraints. A joint is a handle or None; after unpickling it is the name of the joint. Phi "
+    "are the values of the constraints, and Phi' is their time derivative.",
     "baum_energy_account": "Where the energy of a run has come from. The page docs/notation.md "
     "explains the symbols.",
     "baum_near_singular": "An interval in which a run was near a singular configuration. branch is "
-    '"continued", "left" or "unknown". The joint is a handle or None, and a name after unpickling.',
-    "baum_study_entry": "What a setting costs and how accurate it is; NaN: not known. The scale of "
-    "a length is the characteristic length, and the scale of an angle is 1 rad. For error_lambda, "
-    "the multiplier of row i is multiplied by the norm of row i of the Jacobian, with each "
-    "column of the Jacobian multiplied by the scale of its coordinate.",
+    '"continued", "left" or "unknown". The joint is a handle or None; after unpickling it is the '
+    "name of the joint.",
+    "baum_study_entry": "What a setting costs and how accurate it is. Unknown values are NaN. The "
+    "scale of a length is the characteristic length, and the scale of an angle is 1 rad. For "
+    "error_lambda, the multiplier of row i is multiplied by the norm of row i of the Jacobian. For "
+    "this norm, each column of the Jacobian is first multiplied by the scale of its coordinate.",
     "baum_study_method": "Entries of a study with the same integrator, formulation and gains.",
     "baum_study_reference": "How far the reference of a study can be trusted. error, error_q, "
     "error_v, error_lambda and energy_error are fields of StudyEntry.",
