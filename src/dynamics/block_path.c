@@ -519,7 +519,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   bool finite;
   w->solved_by = path;
   if (path->space) {
-    baum_i_pivots pivots;
+    baum_i_pivots pivots = BAUM_I_PIVOTS_BAD;
     BAUM_I_TRY(set_and_factor_space(w, path, t, q, v, right, &pivots));
     BAUM_I_TRY(solve_space(w, path, last, v, pivots));
     finite = path->space_kernel->read_motion(path->space, w->a);
