@@ -269,7 +269,7 @@ class Page:
             first = f'record=["{self.element.name}.{found[0][1:].split("`")[0]}"]'
             text += "## What a run can record\n\nThe argument `record` of {py:meth}`baum.Mechanism.simulate` names the "
             text += f"quantities that a run records, as in `{first}`. After the dot stands one of the following names. "
-            text += f"The number in parentheses tells how many values it has: {', '.join(found)}."
+            text += f"The number in parentheses is the number of values of this quantity: {', '.join(found)}."
             text += about_channels(self.name, found) + "\n\n"
             text += self.in_c(found)
         links = uses(self.method)

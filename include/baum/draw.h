@@ -160,7 +160,8 @@ BAUM_API baum_status baum_mechanism_svg_assembled(const baum_mechanism *mechanis
 
 /* ---- a run ----------------------------------------------------------------------------------- */
 
-/** A kind of mark on the time axis of a page. Each kind has a different colour and shape. */
+/** A kind of mark on the time axis of the HTML page of a run (baum_page). Each kind has a different
+ *  colour and shape. */
 typedef enum baum_mark_kind {
   BAUM_MARK_WARNING = 0,  /**< A warning of the run. */
   BAUM_MARK_SINGULAR = 1, /**< A near-singular interval of the run. */

@@ -58,8 +58,8 @@ typedef struct baum_event_def {
   const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
   /** The event function. It writes one number to its argument `out`; its arguments q (nq) and v
    *  (nv) are those of the whole mechanism. The run calls it when a step is complete, so the
-   *  function cannot ask for a smaller step: if it returns a number other than 0, the call that
-   *  advances the run fails. Default: NULL, the coordinate of `joint` is used. */
+   *  function cannot ask for a smaller step: if its return value is not 0, the call that advances
+   *  the run fails. Default: NULL, the coordinate of `joint` is used. */
   baum_force_fn *function;
   /** A joint with a coordinate. Must be set if function is NULL, and only then. Default: none. */
   baum_joint_id joint;

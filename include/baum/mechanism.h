@@ -296,8 +296,8 @@ typedef struct baum_user_constraint_def {
   baum_q_fn *phi;
   /** Computes J, out (row_count x nv). Default: NULL, computed by differences of `phi`. */
   baum_q_fn *jacobian;
-  /** Computes nu = -dPhi/dt, out (row_count). Default: NULL, computed by differences of `phi` in t.
-   */
+  /** Computes nu = -dPhi/dt, the partial derivative at constant q, out (row_count). Default: NULL,
+   *  computed by differences of `phi` in t. */
   baum_q_fn *nu;
   /** Computes gamma in J a = gamma, out (row_count). Default: NULL, computed by differences of
    *  `phi`. */
@@ -332,8 +332,9 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint. Drivers, couplings, joint springs, output channels and events each
- *  refer to one coordinate. The joints have the following ones:
+/** A coordinate of a joint. Drivers, joint springs, output channels and events each refer to one
+ *  coordinate of a joint; a coupling refers to one of each of its two joints. The joints have the
+ *  following coordinates:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT

@@ -294,10 +294,10 @@ typedef struct baum_simulation_options {
    *  the error is large; see error_estimate in baum_counters. If the run has a fixed step, the
    *  second integration uses rk8 with rtol = 1e-8. If the run has variable steps, the second
    *  integration uses the method of the run with 0.03 times its rtol, and the rtol of the run must
-   *  be at least 2e-14. The cost of the run at least doubles. If the second integration fails, or
-   *  takes more than ten times as many evaluations as the run, it ends, and the run warns
-   *  (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this option, because it
-   *  does not integrate.
+   *  be at least 2e-14. With variable steps, the cost of the run at least doubles. If the second
+   *  integration fails, or takes more than ten times as many evaluations as the run, it ends, and
+   *  the run warns (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this
+   *  option, because it does not integrate.
    *
    *  Without this option, a fixed-step run starts a second integration only if the sum of its local
    *  errors becomes large enough to matter. Default: false. */

@@ -151,9 +151,9 @@ typedef struct baum_study_grid {
    *  the orders 1, 2 and 8 are 0.2, 0.6 and 1.6 times this step. Default: NaN, chosen from the time
    *  scale of the motion. */
   double coarsest;
-  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN, which means 1e-13. If a
-   *  user constraint has neither `jacobian` nor `gamma`, NaN means 1e-11, because finite
-   *  differences are not more accurate than this. */
+  /** [-] > 0, < 1e-2, smallest rtol of the grid; its largest rtol is 1e-2. Default: NaN, which
+   *  means 1e-13. If a user constraint has neither `jacobian` nor `gamma`, NaN means 1e-11, because
+   *  finite differences are not more accurate than this. */
   double finest;
   /** A smaller grid for a first answer. Its cost is approximately 1/25 of the cost of the default
    *  grid. It contains every integrator with its default gains and its default formulation, or with
@@ -488,8 +488,8 @@ typedef enum baum_study_cost {
  *  in step or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size; /**< Set by baum_study_method_at(). */
-  /** The name, such as "rk8 projection". If an integrator can use fixed and variable steps, two of
-   *  its methods have the same name; the field fixed_step distinguishes them. */
+  /** The name, such as "rk8 projection". If an integrator can use fixed and variable steps, two
+   *  methods have the same name; the field fixed_step distinguishes them. */
   const char *name;
   const baum_integrator *integrator; /**< Integrator of the method. */
   baum_formulation formulation;      /**< Formulation of the method. */

@@ -390,7 +390,7 @@ class StudyMethod(NamedTuple):
     """Entries of a study with the same integrator, formulation and gains.
 
     name: The name, such as "rk8 projection". If an integrator can use fixed and variable steps,
-        two of its methods have the same name; the field fixed_step distinguishes them.
+        two methods have the same name; the field fixed_step distinguishes them.
     integrator: Integrator of the method.
     formulation: Formulation of the method.
     gains: Gain rule of the method.

@@ -128,7 +128,7 @@ class Study(_calls.Closing):
     solution: a known motion as a function: solution(t) returns (q, v) or (q, v, lambda_).
     digits: the number of digits of the known motion that can be trusted.
     samples: number of times at which errors are measured, 2 to 1e6.
-    repeats: largest number of runs that measure the CPU time of an entry (one setting).
+    repeats: how often, at most, each entry is run again to measure its CPU time.
     entry_limit: largest CPU time of a run [s].
     time_budget: largest wall time of one call of run() [s].
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
