@@ -425,10 +425,25 @@ static baum_status set_and_factor_space(baum_workspace *w, baum_i_block_path *pa
   return BAUM_OK;
 }
 
+static void find_residual(const baum_i_block_path *path)
+{
+  if (path->space) {
+    path->residual_kernel->find(path->space);
+  } else {
+    baum_i_block_find_residual(path->block);
+  }
+}
+
 static double correct(const baum_i_block_path *path)
 {
-  path->residual_kernel->find(path->space);
-  return path->refine_kernel->correct(path->space);
+  return path->space ? path->refine_kernel->correct(path->space)
+                     : path->kernel->correct(path->block);
+}
+
+static double refine(const baum_i_block_path *path)
+{
+  find_residual(path);
+  return correct(path);
 }
 
 /* If `simple` is true, the first refinement needs no residual in twice the working precision. */
@@ -438,7 +453,7 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     bool simply = simple && k == 0;
     path->refinements++;
-    change = simply ? path->refine_kernel->correct_rows(path->space) : correct(path);
+    change = simply ? path->refine_kernel->correct_rows(path->space) : refine(path);
     done = change <= (simply ? SETTLED_SIMPLY : settled) ||
            (!path->uneven && path->refine_kernel->check(path->space));
   }
@@ -536,29 +551,13 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
 
 /* ---- other right-hand sides ---- */
 
-static void find_residual(const baum_i_block_path *path)
-{
-  if (path->space) {
-    path->residual_kernel->find(path->space);
-  } else {
-    baum_i_block_find_residual(path->block);
-  }
-}
-
-static double correct_any(const baum_i_block_path *path)
-{
-  return path->space ? path->refine_kernel->correct(path->space)
-                     : path->kernel->correct(path->block);
-}
-
 /* Set out (nv) to `factor` times the solution for the right-hand side that was written to the
  * solver. If pivots are weak, refine it. */
 static baum_status solve_again(const baum_i_block_path *path, double factor, double *out)
 {
-  double change = correct_any(path);
+  double change = correct(path);
   for (int k = 0; k < MOST_FURTHER_REFINEMENTS && path->weak && !(change <= SETTLING); k++) {
-    find_residual(path);
-    change = correct_any(path);
+    change = refine(path);
   }
   bool finite = path->space ? path->space_kernel->read_motion(path->space, out)
                             : path->kernel->read_motion(path->block, out);
@@ -566,10 +565,8 @@ static baum_status solve_again(const baum_i_block_path *path, double factor, dou
   for (int i = 0; i < nv; i++) {
     out[i] *= factor;
   }
-  if (!finite) {
-    return BAUM_ERR_NOT_FINITE;
-  }
-  return path->weak && change > SETTLING ? BAUM_ERR_SINGULAR : BAUM_OK;
+  baum_status status = path->weak && !(change <= SETTLING) ? BAUM_ERR_SINGULAR : BAUM_OK;
+  return finite ? status : BAUM_ERR_NOT_FINITE;
 }
 
 baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const double *r, double *out)
@@ -582,17 +579,6 @@ baum_status baum_i_block_path_meet_rows(const baum_i_block_path *path, const dou
   return solve_again(path, 1.0, out);
 }
 
-/* Refinement needs r = -J x, which one correction does not compute. */
-static void set_rows_of_motion(const baum_i_block_path *path)
-{
-  find_residual(path);
-  if (path->space) {
-    baum_i_space_move_rest(path->space);
-  } else {
-    baum_i_block_move_rest(path->block);
-  }
-}
-
 baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const double *x,
                                           double *out)
 {
@@ -601,8 +587,13 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
   } else {
     baum_i_block_pull(path->block, x);
   }
-  if (path->weak) {
-    set_rows_of_motion(path);
+  if (path->weak) { /* refinement needs r = -J x, which one correction does not compute */
+    find_residual(path);
+    if (path->space) {
+      baum_i_space_move_rest(path->space);
+    } else {
+      baum_i_block_move_rest(path->block);
+    }
   }
   return solve_again(path, -1.0, out);
 }
