@@ -440,7 +440,7 @@ static double correct(const baum_i_block_path *path)
                      : path->kernel->correct(path->block);
 }
 
-static double refine(const baum_i_block_path *path)
+static double refine_any(const baum_i_block_path *path)
 {
   find_residual(path);
   return correct(path);
@@ -453,7 +453,7 @@ static baum_status refine_space(baum_i_block_path *path, bool done, bool simple,
   for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
     bool simply = simple && k == 0;
     path->refinements++;
-    change = simply ? path->refine_kernel->correct_rows(path->space) : refine(path);
+    change = simply ? path->refine_kernel->correct_rows(path->space) : refine_any(path);
     done = change <= (simply ? SETTLED_SIMPLY : settled) ||
            (!path->uneven && path->refine_kernel->check(path->space));
   }
@@ -557,7 +557,7 @@ static baum_status solve_again(const baum_i_block_path *path, double factor, dou
 {
   double change = correct(path);
   for (int k = 0; k < MOST_FURTHER_REFINEMENTS && path->weak && !(change <= SETTLING); k++) {
-    change = refine(path);
+    change = refine_any(path);
   }
   bool finite = path->space ? path->space_kernel->read_motion(path->space, out)
                             : path->kernel->read_motion(path->block, out);
