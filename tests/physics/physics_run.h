@@ -41,17 +41,17 @@ static inline model build_mechanism(physics_mechanism which)
 /* ---- runs ---- */
 
 /* A run, together with a workspace that is used only to evaluate the constraints. */
-typedef struct watched_run {
+typedef struct checked_run {
   baum_simulation *run;
   baum_workspace *workspace;
   int32_t nq;
   int32_t nc;
-} watched_run;
+} checked_run;
 
-static inline watched_run watch(const baum_mechanism *mechanism,
-                                const baum_simulation_options *options)
+static inline checked_run create_checked_run(const baum_mechanism *mechanism,
+                                             const baum_simulation_options *options)
 {
-  watched_run out = {0};
+  checked_run out = {0};
   check(baum_mechanism_sizes(mechanism, &out.nq, NULL, &out.nc));
   assert_true(out.nq <= PHYSICS_NQ && out.nc <= PHYSICS_NC);
   out.run = create_run(mechanism, options);
@@ -59,10 +59,10 @@ static inline watched_run watch(const baum_mechanism *mechanism,
   return out;
 }
 
-static inline void unwatch(watched_run *watched)
+static inline void destroy_checked_run(checked_run *checked)
 {
-  baum_simulation_destroy(watched->run);
-  baum_workspace_destroy(watched->workspace);
+  baum_simulation_destroy(checked->run);
+  baum_workspace_destroy(checked->workspace);
 }
 
 static inline double largest_of(const double *values, int count)
@@ -75,10 +75,10 @@ static inline double largest_of(const double *values, int count)
 }
 
 /* Computes Phi at the present state of the run. */
-static inline void watch_phi(const watched_run *watched, double phi[PHYSICS_NC])
+static inline void evaluate_phi(const checked_run *checked, double phi[PHYSICS_NC])
 {
-  check(baum_workspace_phi(watched->workspace, baum_simulation_time(watched->run),
-                           baum_simulation_q(watched->run), phi));
+  check(baum_workspace_phi(checked->workspace, baum_simulation_time(checked->run),
+                           baum_simulation_q(checked->run), phi));
 }
 
 #endif

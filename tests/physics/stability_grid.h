@@ -49,23 +49,23 @@ static inline double step_of(physics_mechanism which)
 }
 
 /* Changes every coordinate by a different amount, so that all rows are violated. */
-static inline void violate(const watched_run *watched, const baum_mechanism *mechanism)
+static inline void violate(const checked_run *checked, const baum_mechanism *mechanism)
 {
   double q[PHYSICS_NQ];
   double v[PHYSICS_NQ];
   double scale = (double)NAN;
   check(baum_mechanism_get_characteristic_length(mechanism, &scale));
-  for (int i = 0; i < watched->nq; i++) {
-    double unit = watched->nq == PHYSICS_NQ && i % 3 == 2 ? 1.0 : scale;
-    q[i] = baum_simulation_q(watched->run)[i] + OFF * unit * cos(2.0 * i);
-    v[i] = baum_simulation_v(watched->run)[i];
+  for (int i = 0; i < checked->nq; i++) {
+    double unit = checked->nq == PHYSICS_NQ && i % 3 == 2 ? 1.0 : scale;
+    q[i] = baum_simulation_q(checked->run)[i] + OFF * unit * cos(2.0 * i);
+    v[i] = baum_simulation_v(checked->run)[i];
   }
-  check(baum_simulation_set_state(watched->run, 0.0, q, v));
+  check(baum_simulation_set_state(checked->run, 0.0, q, v));
 }
 
 /* Starts a run whose initial state violates all constraints. `consistent` is an assembled run from
  * which the consistent state is read. It is created only once. */
-static inline watched_run start(const model *m, const watched_run *consistent,
+static inline checked_run start(const model *m, const checked_run *consistent,
                                 const baum_integrator *integrator, double step, baum_gains gains)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -76,19 +76,19 @@ static inline watched_run start(const model *m, const watched_run *consistent,
   options.step = step;
   options.start = BAUM_START_AS_GIVEN;
   options.check_derivatives = false;
-  watched_run out = watch(m->mechanism, &options);
+  checked_run out = create_checked_run(m->mechanism, &options);
   check(baum_simulation_set_state(out.run, 0.0, baum_simulation_q(consistent->run),
                                   baum_simulation_v(consistent->run)));
   violate(&out, m->mechanism);
   return out;
 }
 
-static inline watched_run start_consistent(const model *m)
+static inline checked_run start_consistent(const model *m)
 {
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_euler();
   options.step = 1e-5;
-  return watch(m->mechanism, &options);
+  return create_checked_run(m->mechanism, &options);
 }
 
 /* ---- observed stability ---- */
@@ -97,22 +97,22 @@ static inline watched_run start_consistent(const model *m)
  * quarter. A run ends early if its violation has grown. It also ends early if the violation stays
  * below DECAYED for CALM steps. Fewer steps would not suffice, because the violation could just be
  * passing through zero. */
-static inline bool watch_decay(const watched_run *watched, bool one_step)
+static inline bool violation_decays(const checked_run *checked, bool one_step)
 {
   double phi[PHYSICS_NC];
   double quarter[4] = {0.0};
-  watch_phi(watched, phi);
-  double first = largest_of(phi, watched->nc);
+  evaluate_phi(checked, phi);
+  double first = largest_of(phi, checked->nc);
   int calm = 0;
   for (int k = 0; k < STEPS; k++) {
-    watch_phi(watched, phi);
-    double size = largest_of(phi, watched->nc);
+    evaluate_phi(checked, phi);
+    double size = largest_of(phi, checked->nc);
     quarter[4 * k / STEPS] = fmax(quarter[4 * k / STEPS], size);
     calm = size < DECAYED * first ? calm + 1 : 0;
     if (one_step && calm == CALM) {
       return true;
     }
-    if (!(size < GROWN * first) || baum_simulation_step(watched->run, 1) < BAUM_OK) {
+    if (!(size < GROWN * first) || baum_simulation_step(checked->run, 1) < BAUM_OK) {
       return false;
     }
   }
@@ -208,15 +208,15 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
   const window *w = &made;
   const bool one_step = strncmp(baum_integrator_name(integrator), "ab", 2) != 0;
   model m = build_mechanism(which);
-  watched_run consistent = start_consistent(&m);
+  checked_run consistent = start_consistent(&m);
   tally t = {0};
   for (int k = 0; k < CELLS * CELLS; k++) {
     int i = k % CELLS + 1;
     int j = k / CELLS + 1;
     baum_gains gains = baum_gains_scaled(alpha_at(w, i), beta2_at(w, j));
-    watched_run watched = start(&m, &consistent, w->integrator, step_of(which), gains);
-    count(&t, w, i, j, watch_decay(&watched, one_step));
-    unwatch(&watched);
+    checked_run checked = start(&m, &consistent, w->integrator, step_of(which), gains);
+    count(&t, w, i, j, violation_decays(&checked, one_step));
+    destroy_checked_run(&checked);
   }
   printf("%-20s %-20s %4.2f x %5.2f: %6.2f %% of %d agree (%d stable), %d differ next to the "
          "boundary (%d points), %d elsewhere\n",
@@ -224,7 +224,7 @@ static inline void compare_grid(const baum_integrator *integrator, physics_mecha
          100.0 * t.agree / (CELLS * CELLS), CELLS * CELLS, t.stable, t.differ_at_boundary,
          t.boundary, t.differ_elsewhere);
   (void)fflush(stdout);
-  unwatch(&consistent);
+  destroy_checked_run(&consistent);
   model_destroy(&m);
   assert_int_equal(t.differ_elsewhere, 0);
   assert_true(t.agree >= 97 * CELLS * CELLS / 100);

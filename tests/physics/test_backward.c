@@ -57,15 +57,15 @@ static double scaled_error(const baum_mechanism *mechanism, const double *q, con
 }
 
 /* Advances the run and returns the largest violation at the output times. */
-static double travel(const watched_run *watched, double from, double to)
+static double travel(const checked_run *checked, double from, double to)
 {
   double phi[PHYSICS_NC];
   double largest = 0.0;
   for (int k = 1; k <= LOOKS; k++) {
     double t = k < LOOKS ? from + (to - from) * k / LOOKS : to;
-    check(baum_simulation_advance_to(watched->run, t));
-    watch_phi(watched, phi);
-    largest = fmax(largest, largest_of(phi, watched->nc));
+    check(baum_simulation_advance_to(checked->run, t));
+    evaluate_phi(checked, phi);
+    largest = fmax(largest, largest_of(phi, checked->nc));
   }
   return largest;
 }
@@ -77,20 +77,20 @@ static journey out_and_back(const model *m, const method *with, bool driven)
   options.formulation = with->formulation;
   options.step = with->step;
   options.rtol = with->rtol;
-  watched_run watched = watch(m->mechanism, &options);
+  checked_run checked = create_checked_run(m->mechanism, &options);
   double start[NQ];
-  memcpy(start, baum_simulation_q(watched.run), sizeof start);
+  memcpy(start, baum_simulation_q(checked.run), sizeof start);
   double far = SLIDER_CRANK_DRIVEN_T[FAR];
   const baum_catalog_choice free_crank = {.name = "slider_crank_eccentric"};
   double want[NQ];
   memcpy(want, SLIDER_CRANK_DRIVEN_Q[FAR], sizeof want);
   check(driven ? BAUM_OK : baum_catalog_reference(&free_crank, far, want, NULL));
   journey out;
-  out.phi[0] = travel(&watched, 0.0, far);
-  out.error[0] = scaled_error(m->mechanism, baum_simulation_q(watched.run), want);
-  out.phi[1] = travel(&watched, far, 0.0);
-  out.error[1] = scaled_error(m->mechanism, baum_simulation_q(watched.run), start);
-  unwatch(&watched);
+  out.phi[0] = travel(&checked, 0.0, far);
+  out.error[0] = scaled_error(m->mechanism, baum_simulation_q(checked.run), want);
+  out.phi[1] = travel(&checked, far, 0.0);
+  out.error[1] = scaled_error(m->mechanism, baum_simulation_q(checked.run), start);
+  destroy_checked_run(&checked);
   return out;
 }
 

@@ -379,7 +379,7 @@ static void reversing_at_an_event_does_not_report_it_again(void **state)
 
 /* ---- dips ---- */
 
-/* Two events watch the angle. Where the pendulum reverses, the angle is `depth` below the value of
+/* Two events use the angle. Where the pendulum reverses, the angle is `depth` below the value of
  * the first event and `depth` above the value of the second. The angle therefore passes only the
  * first value. */
 static void check_dips(step_mode mode, double step, double depth)

@@ -21,16 +21,16 @@ enum { TAYLOR_STEPS = 400 };
 static void watch_circle(physics_mechanism which)
 {
   model m = build_mechanism(which);
-  watched_run consistent = start_consistent(&m);
-  watched_run watched = start(&m, &consistent, baum_euler(), step_of(which), baum_gains_taylor());
+  checked_run consistent = start_consistent(&m);
+  checked_run checked = start(&m, &consistent, baum_euler(), step_of(which), baum_gains_taylor());
   double phi[TAYLOR_STEPS + 1][PHYSICS_NC] = {{0.0}};
   double worst = 0.0;
   for (int n = 0; n <= TAYLOR_STEPS; n++) {
-    watch_phi(&watched, phi[n]);
-    check(baum_simulation_step(watched.run, 1));
+    evaluate_phi(&checked, phi[n]);
+    check(baum_simulation_step(checked.run, 1));
   }
   for (int n = 2; n <= TAYLOR_STEPS; n++) {
-    for (int i = 0; i < watched.nc; i++) {
+    for (int i = 0; i < checked.nc; i++) {
       assert_true(phi[n][i] * phi[n - 2][i] < 0.0);
       worst = fmax(worst, fabs(phi[n][i] + phi[n - 2][i]) / fabs(phi[0][i]));
     }
@@ -39,13 +39,13 @@ static void watch_circle(physics_mechanism which)
   for (int n = 0; n < 8; n++) {
     printf(" %+.2e", phi[n][0]);
   }
-  printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", watched.nc,
+  printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", checked.nc,
          TAYLOR_STEPS, worst);
   /* Relative to the characteristic length, the initial violations are at least 1e-7. In each step,
    * the motion adds h^2 |gamma|, which is about 1e-10. */
   assert_true(worst < 1e-2);
-  unwatch(&watched);
-  unwatch(&consistent);
+  destroy_checked_run(&checked);
+  destroy_checked_run(&consistent);
   model_destroy(&m);
 }
 

@@ -72,23 +72,23 @@ static void compare_rows(const double *got, const double *gamma, double factor, 
   }
 }
 
-static void compare_state(const watched_run *watched, const motion *with, deviation *worst)
+static void compare_state(const checked_run *checked, const motion *with, deviation *worst)
 {
   const baum_channel channels[2] = {baum_channel_of(BAUM_PHI), baum_channel_of(BAUM_PHI_RATE)};
   double rows[2 * PHYSICS_NC];
   double gamma[PHYSICS_NC];
   double h = with->step;
-  baum_counters c = counters_of(watched->run);
-  check(baum_simulation_get(watched->run, channels, 2, rows));
-  check(baum_workspace_gamma(watched->workspace, baum_simulation_time(watched->run),
-                             baum_simulation_q(watched->run), baum_simulation_v(watched->run),
+  baum_counters c = counters_of(checked->run);
+  check(baum_simulation_get(checked->run, channels, 2, rows));
+  check(baum_workspace_gamma(checked->workspace, baum_simulation_time(checked->run),
+                             baum_simulation_q(checked->run), baum_simulation_v(checked->run),
                              gamma));
   double slack = LAG * h * with->rate;
-  compare_rows(rows, gamma, c.alpha / (c.beta * c.beta) * h, slack, watched->nc, &worst->phi);
-  compare_rows(rows + watched->nc, gamma, h / 2, slack, watched->nc, &worst->phi_rate);
+  compare_rows(rows, gamma, c.alpha / (c.beta * c.beta) * h, slack, checked->nc, &worst->phi);
+  compare_rows(rows + checked->nc, gamma, h / 2, slack, checked->nc, &worst->phi_rate);
 }
 
-static watched_run start(const model *m, const motion *with, const baum_integrator *integrator,
+static checked_run start(const model *m, const motion *with, const baum_integrator *integrator,
                          const double pair[2])
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -96,7 +96,7 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
   options.formulation = BAUM_FORMULATION_BAUMGARTE;
   options.gains = baum_gains_scaled(pair[0], pair[1] * pair[1]);
   options.step = with->step;
-  return watch(m->mechanism, &options);
+  return create_checked_run(m->mechanism, &options);
 }
 
 /* Compares the largest violation of the run with the largest violation that is predicted. Both are
@@ -105,9 +105,9 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
  * overshoots like a step response, by at most 100 %. With explicit Euler and (alpha h, beta h) =
  * (0.3, 0.7), an overshoot of 90 % was measured. The amplification factors then have the modulus
  * 0.94. */
-static void compare_counters(const watched_run *watched, physics_mechanism which)
+static void compare_counters(const checked_run *checked, physics_mechanism which)
 {
-  baum_counters c = counters_of(watched->run);
+  baum_counters c = counters_of(checked->run);
   printf("   max|Phi| %.3e predicted %.3e   max|Phi'| %.3e predicted %.3e\n", c.max_phi,
          c.predicted_phi, c.max_phi_rate, c.predicted_phi_rate);
   double most = which == PENDULUM ? 1.0 + TOLERANCE : 2.0;
@@ -120,17 +120,17 @@ static void compare_counters(const watched_run *watched, physics_mechanism which
 static void follow(const baum_integrator *integrator, const motion *with, const double pair[2])
 {
   model m = build_motion(with);
-  watched_run watched = start(&m, with, integrator, pair);
+  checked_run checked = start(&m, with, integrator, pair);
   deviation worst = {0.0, 0.0};
-  check(baum_simulation_step(watched.run, (int64_t)ceil(50.0 / pair[0])));
+  check(baum_simulation_step(checked.run, (int64_t)ceil(50.0 / pair[0])));
   for (int k = 0; k < SAMPLES; k++) {
-    check(baum_simulation_step(watched.run, STRIDE));
-    compare_state(&watched, with, &worst);
+    check(baum_simulation_step(checked.run, STRIDE));
+    compare_state(&checked, with, &worst);
   }
   printf("%-20s %-18s %4.1f %4.1f   off by %5.2f %% %5.2f %%", baum_integrator_name(integrator),
          mechanism_name(with->which), pair[0], pair[1], 100.0 * worst.phi, 100.0 * worst.phi_rate);
-  compare_counters(&watched, with->which);
-  unwatch(&watched);
+  compare_counters(&checked, with->which);
+  destroy_checked_run(&checked);
   model_destroy(&m);
 }
 

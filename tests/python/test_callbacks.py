@@ -138,7 +138,7 @@ class Values(unittest.TestCase):
     def test_functions_of_a_manifold_get_arrays_of_their_sizes(self):
         seen = {}
 
-        def watch(name, function):
+        def record(name, function):
             def call(*arguments):
                 seen[name] = [np.shape(one) for one in arguments]
                 return function(*arguments)
@@ -154,7 +154,7 @@ class Values(unittest.TestCase):
             difference=lambda a, b: np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b),
             normalize=lambda q: q / np.hypot(*q),
         )
-        m = self.swing(**{name: watch(name, function) for name, function in plain.items()})
+        m = self.swing(**{name: record(name, function) for name, function in plain.items()})
         m.simulate([1.0], "rk4", step=0.1)
         sizes = dict(rate=[(2,), (1,)], move=[(), (1,), (2,)], difference=[(2,), (2,)])
         self.assertEqual(seen, {**sizes, "normalize": [(2,)]})

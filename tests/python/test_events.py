@@ -88,14 +88,14 @@ class Events(unittest.TestCase):
     def test_exceptions_are_raised_and_the_run_continues(self):
         armed = [True]
 
-        def watch(t, q, v):
+        def record(t, q, v):
             if armed and t > 0.3:
-                raise KeyError("watch")
+                raise KeyError("record")
             return 1.0
 
         s = turning().simulation("rk8", rtol=1e-8)
-        s.event(function=watch)
-        with self.assertRaisesRegex(KeyError, "watch"):
+        s.event(function=record)
+        with self.assertRaisesRegex(KeyError, "record"):
             s.advance_to(1)
         self.assertLess(s.time, 1)
         armed.clear()
