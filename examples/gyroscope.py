@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A heavy top consists of a disc and a light axle. A spherical joint holds the lower end of the
-axle. At a certain angular velocity about its axle, the top precesses steadily. If the top spins
-slightly more slowly, its tilt oscillates."""
+"""A heavy top: a disc on a light axle. A spherical joint holds the lower end of the axle. At a
+certain angular velocity about its axle, the top precesses steadily. If the top spins slightly more
+slowly, its tilt oscillates."""
 
 import sys
 

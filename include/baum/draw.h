@@ -86,10 +86,9 @@ static inline baum_outline baum_outline_default(void)
 
 /** Set the outlines of a body. The body is then drawn with these outlines instead of the shape that
  *  the library has chosen. Planar and spatial bodies, particles and ground may have outlines of
- *  every form.
- *  The mechanism may be frozen or not. Outlines change only drawings, not the motion. Copies of the
- *  mechanism have the same outlines. While this function runs, no other thread may draw or copy the
- *  mechanism.
+ *  every form. The mechanism may be frozen or not. Outlines change only drawings, not the motion.
+ *  Copies of the mechanism have the same outlines. While this function runs, no other thread may
+ *  draw or copy the mechanism.
  *  @param     mechanism  unchanged on failure
  *  @param     body       a body of the mechanism, but not a body of user coordinates, because such
  *                        a body has no position in space

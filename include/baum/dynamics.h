@@ -188,7 +188,7 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
  *  of J M^(-1/2). The returned multipliers satisfy M a + J^T lambda = g with a relative error
  *  of at most 1e-9. If the rows that are not omitted become nearly dependent on each other, the
  *  workspace chooses other rows to omit, which allocates memory. From then on,
- *  baum_workspace_residual() omits the newly chosen rows, too.
+ *  baum_workspace_residual() omits the same rows.
  *  @param      workspace        a workspace of the mechanism
  *  @param      t                [s] time
  *  @param[in]  q                (nq) positions

@@ -332,7 +332,7 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint. Drivers, joint springs, output channels and events each refer to one
+/** A coordinate of a joint. Drivers, joint springs, channels and events each refer to one
  *  coordinate of a joint; a coupling refers to one of each of its two joints. The joints have the
  *  following coordinates:
  *
@@ -409,9 +409,9 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
  *  library sets f to zero before the call. If x is an angle, it grows continuously over several
  *  revolutions. There is one exception: if a workspace calls the function, an angle of a spatial
  *  joint is between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions.
- *  Methods that need the third derivative compute it by differences of f[2]. When the library
- *  checks the derivatives, it also calls the law at values of x that the motion does not reach. The
- *  return value has the same meaning as that of baum_q_fn. */
+ *  Methods that need the third derivative compute it by finite differences of f[2]. When the
+ *  library checks the derivatives, it also calls the law at values of x that the motion does not
+ *  reach. The return value has the same meaning as that of baum_q_fn. */
 typedef int baum_coupling_fn(double x, double f[3], void *user);
 
 /** A coupling connects the coordinates of two joints. It adds one row, coordinate_b -
@@ -790,8 +790,8 @@ typedef struct baum_report {
   int32_t fixed_bodies;
   bool constant_mass;  /**< True if the mass matrix is constant; it is then inverted only once. */
   bool constant_force; /**< True if all forces are constant. */
-  /** True if the block solver solves the equations, false if KLU does, a sparse LU factorization
-   *  of the whole system. */
+  /** True if the block solver solves the equations, false if KLU (a sparse LU factorization of the
+   *  whole system) does. */
   bool blocks;
   /** [-] nodes of the block solver; 0 if KLU solves the equations. A node is a whole joint if the
    *  mechanism has spatial bodies but no user coordinates; otherwise it is a pair of rows. */

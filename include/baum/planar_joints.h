@@ -194,7 +194,7 @@ typedef int baum_curve_fn(const double xy[2], double out[6], void *user);
  *  The coordinates x and y in F are relative to body_a's point and in the axes of body_a. body_a
  *  must have an angle; body_b may be a particle. baum_mechanism_check_derivatives() compares the
  *  derivatives of F with finite differences. Integrators that need third derivatives compute them
- *  by differences of the second derivatives. */
+ *  by finite differences of the second derivatives. */
 typedef struct baum_planar_curve_def {
   size_t struct_size;  /**< Set by baum_planar_curve_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

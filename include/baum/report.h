@@ -55,7 +55,8 @@ BAUM_API baum_status baum_study_write(const baum_study *study, baum_report_form 
  *  @param      study     the study
  *  @param      form      form of the report
  *  @param[in]  title     title of the report; CSV has none. NULL means "Study".
- *  @param[out] text      (capacity) zero-terminated, truncated if too long. NULL if capacity is 0.
+ *  @param[out] text      (capacity) the report, zero-terminated, truncated if too long. May be
+ *                        NULL if capacity is 0.
  *  @param      capacity  [byte]
  *  @param[out] size      [byte] length of the whole report without the final zero. May be NULL.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY */

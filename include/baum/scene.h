@@ -38,8 +38,8 @@ typedef struct baum_hook {
 
 /** Write a mechanism as a scene.
  *  @param      mechanism   frozen or not
- *  @param[in]  hooks       (hook_count) names of functions and `user` pointers; NULL if there are
- *                          none
+ *  @param[in]  hooks       (hook_count) names of functions and `user` pointers. May be NULL if
+ *                          hook_count is 0.
  *  @param      hook_count  [-] >= 0
  *  @param[out] text        (capacity) the scene, zero-terminated, truncated if too long. May be
  *                          NULL if capacity is 0.

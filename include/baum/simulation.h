@@ -284,7 +284,7 @@ typedef struct baum_simulation_options {
   /** Compute the energy account that baum_simulation_energy_account() returns. The integrator
    *  baum_kinematics() refuses this option. Default: false. */
   bool energy_account;
-  /** [-] array of row_gain_count factors f_i > 0. The gains of constraint row i are alpha f_i and
+  /** [-] (row_gain_count) factors f_i > 0. The gains of constraint row i are alpha f_i and
    *  beta f_i. Copied. Default: NULL, all 1. */
   const double *row_gains;
   /** [-] number of elements of row_gains; must be the number of constraint rows of the mechanism
@@ -871,7 +871,9 @@ typedef enum baum_branch {
  *  only a constraint violation has kept p above 1e-3, the run adds the interval, too. */
 typedef struct baum_near_singular {
   size_t struct_size; /**< Set by baum_simulation_near_singular(). */
-  double begin;       /**< [s] time of the last state of the run before the interval. */
+  /** [s] time of the last state of the run before the interval, or of the first state if the run
+   *  starts or restarts in the interval. */
+  double begin;
   /** [s] time of the first state of the run after the interval. However, if the motion stays close
    *  to singular configurations, the run may list the interval before the motion has left it. The
    *  interval then continues after this time. */
@@ -905,7 +907,8 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  the motion in doubt. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1, /**< Some multipliers are not unique. */
-  BAUM_WARNING_GAINS = 2, /**< With the gains of the run, violations may grow, or may not decay. */
+  /** With the gains of the run, violations may grow, or not decay, or decay slowly. */
+  BAUM_WARNING_GAINS = 2,
   /** The option rtol is smaller than the error of derivatives that are computed by finite
    *  differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,

@@ -15,9 +15,8 @@
  *
  *  Rules: a gain rule chooses the gains. The comments of baum_gains_fixed() and of the other rules
  *  state for which steps the gains are stable, how large a violation they leave, and what they do
- *  to accuracy and cost. In these comments, gamma is the right-hand side of the acceleration
- *  constraints J a = gamma. The measured values in the comments are those of a pendulum of length 1
- *  m, which is released from the horizontal and simulated for 1 s with h = 0.0025 s. The page
+ *  to accuracy and cost. The measured values in the comments are those of a pendulum of length 1 m,
+ *  which is released from the horizontal and simulated for 1 s with h = 0.0025 s. The page
  *  "docs/theory/gain_rules.md" has more measurements.
  *
  *  Two kinds of integrators have no region of stability: those that always choose their step
@@ -254,10 +253,10 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
  *  @param      integrator     the method
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       [-] size of the arrays; >= 0
- *  @param[out] from           [-] (capacity) lower ends of the intervals, in rising order. NULL if
- *                             capacity is 0.
+ *  @param[out] from           [-] (capacity) lower ends of the intervals, in rising order. May
+ *                             be NULL if capacity is 0.
  *  @param[out] to             [-] (capacity) upper ends of the intervals; the last one may be
- *                             infinite. NULL if capacity is 0.
+ *                             infinite. May be NULL if capacity is 0.
  *  @param[out] count          [-] number of intervals. If it exceeds the capacity, `from` and `to`
  *                             receive only the first intervals.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
@@ -334,8 +333,9 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  @param      radius      [-] > 0, finite
  *  @param      capacity    [-] size of the arrays; >= 0. A capacity of 2000 is enough for every
  *                          integrator of the library.
- *  @param[out] alpha_h     [-] (capacity) alpha h of each point. NULL if capacity is 0.
- *  @param[out] beta2_h2    [-] (capacity) (beta h)^2 of each point. NULL if capacity is 0.
+ *  @param[out] alpha_h     [-] (capacity) alpha h of each point. May be NULL if capacity is 0.
+ *  @param[out] beta2_h2    [-] (capacity) (beta h)^2 of each point. May be NULL if capacity is
+ *                          0.
  *  @param[out] count       [-] number of points; 0 if the spectral radius is larger than `radius`
  *                          everywhere. If it exceeds the capacity, the arrays receive only the
  *                          first points.

@@ -73,7 +73,7 @@ BAUM_API const char *baum_message(void);
  *  functions that fail. If a user function fails, the message of baum ends with the message of
  *  the user function.
  *  @param     status   returned unchanged
- *  @param[in] message  copied, truncated if very long; NULL: the general meaning of the status
+ *  @param[in] message  copied, truncated if very long; NULL stands for baum_status_text(status)
  *  @return  status, so that you can write `return baum_fail(...)` */
 BAUM_API baum_status baum_fail(baum_status status, const char *message);
 

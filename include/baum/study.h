@@ -59,9 +59,9 @@ BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t
 /** Release a study. @param study  may be NULL */
 BAUM_API void baum_study_destroy(baum_study *study);
 
-/** A progress function. A study calls it after each entry and while it computes the reference. Only
- *  one thread at a time calls it, but this thread may differ from the one that called
- *  baum_study_run().
+/** A progress function. A study calls it twice for each entry: after the run that determines the
+ *  error, and after the runs that measure the CPU time. Only one thread at a time calls it, but
+ *  this thread may differ from the one that called baum_study_run().
  *  @param study  the study
  *  @param done   number of entries whose error is known, plus number of entries whose CPU time is
  *                known
@@ -180,7 +180,7 @@ static inline baum_study_grid baum_study_grid_default(void)
  *  gains gets several step sizes or tolerances, from coarse to fine. The step sizes follow from the
  *  time scale of the motion, which a trial run determines.
  *  @param     study  unchanged on failure
- *  @param[in] grid   NULL: the default
+ *  @param[in] grid   NULL means the default
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if no integrator of the build matches the fields
  *           `integrator` and `formulation` of the grid), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
  *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
@@ -195,7 +195,7 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *  suggests, or have a message or a warning that says why it is not. The option entry_limit bounds
  *  the CPU time of entries with tiny steps.
  *  @param study       unchanged on failure
- *  @param integrator  NULL: all integrators of this build that take the option step or rtol
+ *  @param integrator  NULL means all integrators of this build that take the option step or rtol
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build does not contain `integrator`),
  *           BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be
  *           started, the status of baum_simulation_create() */
@@ -532,7 +532,7 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
  *  @param      capacity  [-] size of `entries`; >= 0
  *  @param[out] entries   (capacity) numbers of the entries on the front, from the cheapest to the
  *                        most accurate; if the front has more than `capacity` entries, only the
- *                        cheapest ones. NULL if capacity is 0.
+ *                        cheapest ones. May be NULL if capacity is 0.
  *  @param[out] count     [-] number of entries on the front, which may exceed the capacity
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,

@@ -65,8 +65,8 @@ class Report(NamedTuple):
         multipliers are requested.
     constant_mass: True if the mass matrix is constant; it is then inverted only once.
     constant_force: True if all forces are constant.
-    blocks: True if the block solver solves the equations, false if KLU does, a sparse LU
-        factorization of the whole system.
+    blocks: True if the block solver solves the equations, false if KLU (a sparse LU
+        factorization of the whole system) does.
     nodes: [-] nodes of the block solver; 0 if KLU solves the equations. A node is a whole joint
         if the mechanism has spatial bodies but no user coordinates; otherwise it is a pair of
         rows.
@@ -254,7 +254,8 @@ class NearSingular(NamedTuple):
     """An interval in which a run was near a singular configuration. branch is "continued", "left"
     or "unknown". The joint is a handle or None; after unpickling it is the name of the joint.
 
-    begin: [s] time of the last state of the run before the interval.
+    begin: [s] time of the last state of the run before the interval, or of the first state if
+        the run starts or restarts in the interval.
     end: [s] time of the first state of the run after the interval. However, if the motion stays
         close to singular configurations, the run may list the interval before the motion has
         left it. The interval then continues after this time.

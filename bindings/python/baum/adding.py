@@ -432,7 +432,7 @@ class Adding:
         """Prescribe a coordinate of a joint as a function of time.
 
         The driver has one row: the coordinate [rad] or [m] equals value + rate t + acceleration t^2
-        / 2, or the value that law(t) returns.
+        / 2, or the first of the three numbers that law(t) returns.
 
         value: value of the coordinate at t = 0 [rad] or [m]. If the design configuration has
             another value, assembly moves the bodies. To start a crank at its angle in the design

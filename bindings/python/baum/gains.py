@@ -82,9 +82,9 @@ def best_damping() -> Gains:
 def auto() -> Gains:
     """Gains that suit the speed of the motion: alpha = beta = c omega.
 
-    omega is a rate of the motion: max(|v|/L, sqrt(|a|/L)), where v are the velocities, a the
-    accelerations, and L the characteristic length. It is averaged over a short run at the
-    beginning. The factor c depends on the integrator. It is 0.05 to 0.35, or 0.6 to 40 if drivers
-    prescribe all degrees of freedom. With these gains the integrator keeps its order.
+    omega is the mean angular velocity of the first radians of the motion. This angular velocity is
+    max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L is the
+    characteristic length. The factor c depends on the integrator. It is 0.05 to 0.35, or 0.6 to
+    40 if drivers prescribe all degrees of freedom. With these gains the integrator keeps its order.
     """
     return Gains("auto")

@@ -24,10 +24,10 @@ ROUNDING = 1e4 * float(np.finfo(float).eps)  # assumed rounding error of a resul
 
 
 class Sensitivities(Named):
-    """The derivatives of results with respect to p numbers, which are the parameters or, for
-    parameters that are vectors, their components.
+    """The derivatives of results with respect to the p numbers in the parameters. A parameter is a
+    number or a vector of numbers.
 
-    parameters: the names of these numbers. A vector field has one name for each of its numbers,
+    parameters: the names of these numbers. A vector has one name for each of its numbers,
         such as "rod.position[0]".
 
     sensitivities["rod.pose"] contains the derivatives (samples x columns x p) of a channel. If

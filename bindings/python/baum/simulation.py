@@ -226,7 +226,7 @@ class Simulation(_calls.Closing):
         multipliers is not tested. Only "ida" with the formulation "baumgarte" or "unstabilized"
         accepts a finite tolerance_lambda.
     start_time: time at which the run starts [s].
-    start: "assemble" first moves the bodies such that the joints are closed. "exact" refuses a
+    start: "assemble" first moves the bodies so that the joints are closed. "exact" refuses a
         design configuration that violates constraints. "as_given" accepts such a configuration and
         does not assemble it.
     solver: the solver of the linear system for the accelerations and the multipliers: "klu" (sparse

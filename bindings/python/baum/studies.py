@@ -140,11 +140,11 @@ class Study(_calls.Closing):
     grid: the settings that run() adds to a study without settings. "quick" takes seconds, or about
         a minute with Python functions. "full" takes about 25 times as long.
     progress: by default a bar in a terminal or a notebook, with an estimate of the time left; False
-        shows nothing. If you give a function, progress(done, total) is called after each entry, and
-        while the study computes the reference. `done` is the number of entries whose error is known
-        plus the number of entries whose CPU time is known, and `total` is twice the number of
-        entries. The function cancels the study if it returns a true value. It may call cancel() and
-        len() of the study, but no other method.
+        shows nothing. If you give a function, progress(done, total) is called twice for each entry:
+        when its error is known, and when its CPU time is known. `done` is the number of entries
+        whose error is known plus the number of entries whose CPU time is known, and `total` is
+        twice the number of entries. The function cancels the study if it returns a true value. It
+        may call cancel() and len() of the study, but no other method.
 
     In a `with` block, the end of the block frees the memory of the study and closes its file.
 
