@@ -40,11 +40,11 @@ from the sources. In the tables, `#` stands for a number, and words in capital l
 - `ENTRY` names one number in the result of a user function, such as `joint 2 "B": gamma()[0]`.
 - `SOURCE` is the path of the file that is read, or the word `scene`.
 
-`{A / B}` stands for one of the texts A and B, and `...` for any other text. In the first column, *as failed* means that the text
-is added to the message of an earlier failure, whose status does not change. Each warning links to its section of the page
-"[cookbook/warnings.md](cookbook/warnings.md)". The page "[theory/errors.md](theory/errors.md)" describes the warnings that put a
-result in doubt, and the header [status.h](../include/baum/status.h) describes the statuses. `sh tests/run.sh coverage` lists the
-messages that no test triggers.
+`{A / B}` stands for one of the texts A and B, and `...` for any other text. In the first column, *as failed* means that the
+text is added to the message of an earlier failure, whose status does not change. Each warning links to its section of the page
+"[cookbook/warnings.md](cookbook/warnings.md)". The page "[theory/errors.md](theory/errors.md)" describes the warnings that put
+a result in doubt, and the header [status.h](../include/baum/status.h) describes the statuses. `sh tests/run.sh coverage` lists
+the messages that no test triggers.
 """
 
 
