@@ -587,7 +587,7 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
   } else {
     baum_i_block_pull(path->block, x);
   }
-  if (path->weak) { /* refinement needs r = -J x, which one correction does not compute */
+  if (path->weak) {
     find_residual(path);
     if (path->space) {
       baum_i_space_move_rest(path->space);
@@ -595,5 +595,5 @@ baum_status baum_i_block_path_normal_part(const baum_i_block_path *path, const d
       baum_i_block_move_rest(path->block);
     }
   }
-  return solve_again(path, -1.0, out);
+  return solve_again(path, path->weak ? 1.0 : -1.0, out);
 }

@@ -69,8 +69,7 @@ void baum_i_block_set_rest(baum_i_block *block, const double *r)
 
 void baum_i_block_move_rest(baum_i_block *block)
 {
-  for (int i = 0; i < 2 * block->node_count; i++) {
-    block->right[i] = -block->rest[i];
-    block->rest[i] = 0.0;
-  }
+  memcpy(block->right, block->rest, 2 * (size_t)block->node_count * sizeof *block->right);
+  memset(block->motion, 0, (size_t)block->motion_size * sizeof *block->motion);
+  memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
 }

@@ -10,8 +10,10 @@
  * fixed bodies 0 is used in place of x. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 
-/* Sets r to the negative of rest, and rest to 0. After baum_i_block_pull() and
- * baum_i_block_find_residual(), the corrected motion can thus be corrected again. */
+/* Sets r to rest, and the motion to 0. After baum_i_block_pull() and baum_i_block_find_residual(),
+ * rest is J x. The next correct() then gives a motion with J a = J x, which can be corrected again.
+ * A correction of the motion -x could not be: if the sum of both should be 0, rounding errors are
+ * left, and further corrections do not become smaller than the sum. */
 void baum_i_block_move_rest(baum_i_block *block);
 
 #endif

@@ -308,13 +308,11 @@ static void clear(baum_i_space *b)
   }
 }
 
-/* Sets r of the rows of a node except its spin row to `factor` times rest. */
-static void set_right(const baum_i_space *b, const baum_i_space_node *node, double factor)
+/* Sets r of the rows of a node except its spin row to rest. */
+static void set_right(const baum_i_space *b, const baum_i_space_node *node)
 {
   double *r = b->nodes + node->at + baum_i_space_vector(node->rows);
-  for (int i = 0; i < baum_i_space_own_rows(node); i++) {
-    r[i] = factor * b->rest[node->place + i];
-  }
+  memcpy(r, b->rest + node->place, (size_t)baum_i_space_own_rows(node) * sizeof *r);
 }
 
 void baum_i_space_set_rest(baum_i_space *space, const double *r)
@@ -326,16 +324,21 @@ void baum_i_space_set_rest(baum_i_space *space, const double *r)
       bool omitted = (node->omitted >> i & 1u) != 0;
       space->rest[node->place + i] = omitted ? 0.0 : r[node->row[i]];
     }
-    set_right(space, node, 1.0);
+    set_right(space, node);
   }
 }
 
 void baum_i_space_move_rest(baum_i_space *space)
 {
+  size_t motion = BAUM_I_SPACE_MOTION * (size_t)space->body_count;
+  memset(space->motion, 0, motion * sizeof *space->motion);
+  memset(space->pull, 0, motion * sizeof *space->pull);
   for (int k = 0; k < space->node_count; k++) {
     const baum_i_space_node *node = &space->list[k];
-    set_right(space, node, -1.0);
-    memset(space->rest + node->place, 0, (size_t)baum_i_space_own_rows(node) * sizeof *space->rest);
+    set_right(space, node);
+    for (int i = baum_i_space_own_rows(node); i < node->rows; i++) {
+      space->rest[node->place + i] = 0.0; /* a spin row */
+    }
   }
 }
 

@@ -486,7 +486,7 @@ static double weakest(const baum_i_space *b)
 
 static baum_i_pivots eliminate(baum_i_space *b, int first, int end)
 {
-  const int32_t *target = b->targets + b->stages[first].target;
+  const int32_t *target = b->targets ? b->targets + b->stages[first].target : NULL;
   const int last = b->stages[end].node;
   for (int k = b->stages[first].node; k < last;) {
     switch (b->list[k].rows) {
