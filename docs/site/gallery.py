@@ -62,7 +62,7 @@ SECTIONS = {
 # of its Python example, if there is one.
 IN_C = {
     "cart_pole": {
-        "control_loop": "A controller in C keeps a crank at constant speed, and measures the time of its intervals",
+        "control_loop": "A controller in C keeps a crank at constant speed, and measures how long each interval takes",
         "predictive_control": "A controller in C tries torques by simulating ahead, and restores the saved run after each trial",
     },
     "eight_gains": {"slider_crank": "The same gains in C, with a prediction of the violations"},
