@@ -103,9 +103,10 @@ BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 
-/** Gains given by the natural frequency and the damping ratio of the equation Phi'' + 2 alpha Phi'
- *  + beta^2 Phi = 0. Stability, accuracy and cost are those of baum_gains_fixed(). With a damping
- *  ratio below 0.618, violations may grow with CVODE BDF and IDA.
+/** Gains given by the natural frequency and the damping ratio of the equation
+ *  Phi'' + 2 alpha Phi' + beta^2 Phi = 0. Stability, accuracy and cost are those of
+ *  baum_gains_fixed(). With a damping ratio below 0.618, violations may grow with CVODE BDF and
+ *  IDA.
  *  @param hertz          [Hz] > 0, natural frequency
  *  @param damping_ratio  [-] > 0; 1 is critical damping
  *  @return  the rule */

@@ -51,8 +51,9 @@ static inline baum_sweep_def baum_sweep_def_default(void)
 /** Execute all runs of a sweep. For each run, this function copies the mechanism, calls the
  *  function `change` of the definition for the copy, and samples the channels like
  *  baum_simulation_sample(). The results do not depend on the number of threads. A run that fails
- *  does not stop the others; its samples are NaN from the failure on. All threads call the user
- *  functions, such as force functions of the mechanism and the progress function of the options.
+ *  does not stop the others; its samples are NaN from the failure on. Several threads may call a
+ *  user function at the same time, such as a force function of the mechanism or the progress
+ *  function of the options.
  *  @param      mechanism  frozen; it is not modified
  *  @param[in]  options    options of all runs
  *  @param[in]  def        what the sweep computes
