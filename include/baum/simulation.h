@@ -249,12 +249,13 @@ typedef struct baum_simulation_options {
   /** Check the derivatives of user functions. When the run is created,
    *  baum_mechanism_check_derivatives() checks them. During the run they are checked again: if the
    *  last check was after n steps of the run, the next one is after 2 n + 32 steps. A run that is
-   *  advanced in a single call is thus checked after 32, 96, 224, 480, ... steps. The end of a call
-   *  that advances the run adds a check if the run has taken at least 1.5 n + 16 steps, or has made
-   *  no check yet. The checks during the run call the functions at states near those of the run. If
-   *  a derivative is wrong there, the run warns with BAUM_WARNING_WRONG_DERIVATIVE. If a step
-   *  fails, the derivatives are checked at the last good state, even without this option. If one of
-   *  them is wrong, the message names it. Default: true. */
+   *  advanced in a single call is thus checked after 32, 96, 224, 480, ... steps. At the end of a
+   *  call that advances the run, they are also checked if the run has taken at least 1.5 n + 16
+   *  steps since its start, or if this is the first check during the run. The checks during the run
+   *  call the functions at states near those of the run. If a derivative is wrong there, the run
+   *  warns with BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the
+   *  last good state, even without this option. If one of them is wrong, the message names it.
+   *  Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */
