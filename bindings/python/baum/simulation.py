@@ -213,9 +213,10 @@ class Simulation(_calls.Closing):
     max_step: longest variable step [s], by default unlimited. Set max_step if a force is zero at
         first and begins to act later: a long step could miss this beginning. Also set it if an
         event function may pass zero twice within a quarter of a step.
-    formulation: "default" is the first formulation that the integrator offers. Other formulations
-        are "unstabilized", "baumgarte" and "projection", and with "ida" also "index2", "ggl" and
-        "index3". "rattle" and "generalized_alpha" offer only "index3".
+    formulation: "default" is the first formulation that the integrator offers. Most integrators
+        offer "unstabilized" and "baumgarte"; the Runge-Kutta methods, the Euler methods and
+        "cvode_bdf" also offer "projection", and "ida" also offers "index2", "ggl" and "index3".
+        "rattle" and "generalized_alpha" offer only "index3".
     gains: gain rule for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(),
         deadbeat(), best_damping() or auto(). None is the default rule of the integrator.
     row_gains: factors on alpha and beta, as a dict from joints or their names to a number, or to
