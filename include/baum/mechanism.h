@@ -420,8 +420,8 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  for example, both may be joints to ground. A coupling of the angle and the displacement of one
  *  cylindrical joint is a screw.
  *
- *  Angles of spatial joints are known only up to whole revolutions. Without a law, the row
- *  therefore remains satisfied if such an angle changes by whole revolutions. If both coordinates
+ *  Angles of spatial joints are known only up to whole revolutions. Without a law, the value of the
+ *  row therefore does not depend on the number of revolutions of such an angle. If both coordinates
  *  are angles of spatial joints, this is true only if ratio is a fraction with a denominator of at
  *  most 1000. With any other ratio, the value of the row depends on the number of revolutions.
  *

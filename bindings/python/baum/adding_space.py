@@ -237,7 +237,7 @@ class AddingInSpace:
         point, point_a, point_b, axis, axis_b: as in spatial_revolute().
         x_axis: direction of x. It is in ground axes if `point` is given, otherwise in the axes of
             body_a. By default it is the ground x axis, or the ground y axis if the normal is along
-            x.
+            the ground x axis.
         """
         return self._add(Joint, "spatial_planar", locals())
 

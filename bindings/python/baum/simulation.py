@@ -241,7 +241,7 @@ class Simulation(_calls.Closing):
         steps fails.
     energy_account: True computes the work of all forces during the run. The property and the
         channel `energy_account` report this work.
-    error_check: True estimates the error of the motion by a second integration. The estimate is
+    error_check: if True, estimate the error of the motion by a second integration. The estimate is
         counters.error_estimate. The run warns if the error is large, or if the second integration
         fails or becomes too expensive, so that the error is unknown. With this option, rtol must be
         at least 2e-14. Without this option, a run with fixed steps makes a second integration only

@@ -133,7 +133,7 @@ class Study(_calls.Closing):
     time_budget: largest wall time of one call of run() [s].
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
         Python functions.
-    energy_account: True measures the work that stabilization and projection do on the mechanism.
+    energy_account: if True, measure the work that stabilization and projection do on the mechanism.
     validate: True makes further runs that test the entries that may be recommended: over twice the
         time span, and from perturbed initial states.
     file: path of a file in which the study keeps its results. A later study can continue from it.
