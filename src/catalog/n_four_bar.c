@@ -90,8 +90,9 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .name = "n_four_bar",
   .title = "N-four-bar of uniform rods, through flat and singular configurations",
   .source = "IFToMM and A Coruna library of benchmarks, A02; the published table is for N = 40",
-  .provenance = "Taylor series of the equation of parallel cranks, which is that of a pendulum; "
-                "agrees to 13 digits with extrapolation in 160-bit arithmetic for N = 1, 2, 40",
+  .provenance =
+    "Taylor series of the equation of parallel cranks, which is that of a pendulum; "
+    "this series agrees to 13 digits with extrapolation in 160-bit arithmetic for N = 1, 2, 40",
   .note = "twice per revolution, the rank of J falls by N; the reference is the branch of "
           "parallel cranks",
   BAUM_I_CATALOG_MODEL(PARAMETERS, build, state, "mmr", 0),
