@@ -190,8 +190,8 @@ typedef struct baum_coordinates_def {
   /** Computes the mass matrix, out (size x size), which is symmetric and positive semidefinite.
    *  Default: NULL, must be set. */
   baum_q_fn *mass;
-  /** Computes the generalized force g, out (size). It includes the velocity terms. Default: NULL,
-   *  must be set. */
+  /** Computes the generalized force g, out (size). It includes the velocity terms of Lagrange's
+   *  equations. Default: NULL, must be set. */
   baum_force_fn *force;
   /** Computes dg/dq, out (size x size). Default: NULL, computed by differences. */
   baum_force_fn *force_q;

@@ -260,7 +260,7 @@ BAUM_API baum_status baum_mechanism_set_spatial_rolling_disc(
  *
  *  Note that the axis of the planar knife edge has the direction of the blade, whereas the axis of
  *  this joint is perpendicular to the blade. Both bodies must have an orientation. The reaction of
- *  the joint is the force and the moment on body_b at this point of the blade. */
+ *  the joint is the force and the moment on body_b at the point of body_a. */
 typedef struct baum_spatial_knife_edge_def {
   size_t struct_size;  /**< Set by baum_spatial_knife_edge_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
