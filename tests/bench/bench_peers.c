@@ -53,7 +53,7 @@ typedef struct peer {
 
 static const peer PEERS[] = {
   {"slider_crank",
-   "free slider-crank, 2 s (other programs: other lengths, masses and speed)",
+   "slider-crank from 10 rad/s, 2 s (other programs: other lengths, masses and speed)",
    {"speed", 10.0},
    2.0,
    PLANAR,
