@@ -326,10 +326,10 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *
  *  The outline consists of closed curves: one around each part of the region, and one around each
  *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from
- *  point to point, the region is to the right. Between two curves there is one point of NaNs. The
- *  points of the outline lie where the spectral radius is equal to `radius`; where an axis bounds
- *  the region, they lie on the axis. The function may miss parts that are smaller than about a
- *  hundredth of the whole region. The call uses 30 kB of stack.
+ *  point to point, the region is to the right. In the arrays, an entry of NaN separates each curve
+ *  from the next one. The points of the outline lie where the spectral radius is equal to `radius`;
+ *  where an axis bounds the region, they lie on the axis. The function may miss parts that are
+ *  smaller than about a hundredth of the whole region. The call uses 30 kB of stack.
  *  @param      integrator  the method
  *  @param      radius      [-] > 0, finite
  *  @param      capacity    [-] size of the arrays; >= 0. A capacity of 2000 is enough for every

@@ -262,10 +262,11 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
 /** Run a study: compute the reference, and then run the entries that are not done. The study first
  *  determines the errors of all entries, beginning with coarse settings; the option `threads` says
  *  how many entries run at a time. Then it measures the CPU times of all entries, one by one.
- *  Finally, if the option `validate` is set, it validates entries. Entries that fail, are refused
- *  or reach the entry limit stay in the study. If a setting reaches the entry limit, the finer
- *  settings of its method are skipped. If a study has been stopped, or if you have added entries,
- *  another call runs the entries that are not done.
+ *  Finally, if the option `validate` is set, it runs the best entries again, over twice the span
+ *  and from perturbed starts. Entries that fail, are refused or reach the entry limit stay in the
+ *  study. If a setting reaches the entry limit, the finer settings of its method are skipped. If a
+ *  study has been stopped, or if you have added entries, another call runs the entries that are not
+ *  done.
  *
  *  If the option `file` is set, the study appends every result to this file as a line of text as
  *  soon as the result is known. When this function returns, all results are on the disk. Another

@@ -227,7 +227,7 @@ class Sweep(Named):
     parameters: a dict from the name of each parameter to its values: an array (n), or (n x size)
         for a vector field.
     status: the Status of each run (n).
-    messages: a dict from the indices of the runs that failed to their messages.
+    messages: a dict from the index of each failed run to its message.
     warnings: for each run, the names of the classes of its warnings (n).
 
     sweep["rod.pose"] contains the samples (n x samples x columns) of a channel. If baum.sweep() was
