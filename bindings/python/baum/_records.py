@@ -426,8 +426,8 @@ class StudyMethod(NamedTuple):
 
 
 class StudyReference(NamedTuple):
-    """How far the reference of a study can be trusted. error, error_q, error_v, error_lambda and
-    energy_error are fields of StudyEntry.
+    """How far the reference of a study can be trusted. The uncertainties below are those of the
+    fields error, error_q, error_v, error_lambda and energy_error of StudyEntry.
 
     origin: Where the reference comes from.
     trusted: False if the study has computed the reference itself, but the runs that compute it
