@@ -821,8 +821,8 @@ typedef struct baum_energy_account {
   double loads;
   double springs; /**< [J] work of springs with a user law. */
   double dampers; /**< [J] work of the dampers of linear springs. */
-  /** [J] work of user forces plus the change of their potential energy: the work that no potential
-   *  explains. */
+  /** [J] the part of the work of user forces that no potential explains: their whole work plus the
+   *  change of their potential energy. */
   double user_forces;
   /** [J] work of the forces of user coordinates, plus the change of their potential energy, plus
    *  the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel.
