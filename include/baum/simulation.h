@@ -821,8 +821,8 @@ typedef struct baum_energy_account {
   double loads;
   double springs; /**< [J] work of springs with a user law. */
   double dampers; /**< [J] work of the dampers of linear springs. */
-  /** [J] work of user forces plus the change of their potential energy: the work that no potential
-   *  explains. */
+  /** [J] the part of the work of user forces that no potential explains: their whole work plus the
+   *  change of their potential energy. */
   double user_forces;
   /** [J] work of the forces of user coordinates, plus the change of their potential energy, plus
    *  the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's equations cancel.
@@ -923,8 +923,8 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  /** The error of the motion is unknown, because the second integration that estimates it failed or
-   *  became too expensive. */
+  /** The error of the motion is unknown, because the second integration, which estimates this
+   *  error, failed or became too expensive. */
   BAUM_WARNING_ERROR_UNKNOWN = 9,
   BAUM_WARNING_BRANCH = 100,    /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101, /**< The constraint violation is too large. */

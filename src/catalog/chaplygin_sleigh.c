@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chaplygin's sleigh: a body on a plane with a blade. The blade is parallel to the x axis of the
- * body, at the distance D behind the centre of mass. The mass of the body is m, and its moment of
- * inertia about the centre of mass is I. The velocity of the blade in its own direction is u, and
- * the angular velocity of the body is w. The equations of motion are
+/* Chaplygin's sleigh: a body with a blade moves on a plane. The blade is parallel to the x axis of
+ * the body, at the distance D behind the centre of mass. The mass of the body is m, and its moment
+ * of inertia about the centre of mass is I. The velocity of the blade in its own direction is u,
+ * and the angular velocity of the body is w. The equations of motion are
  *
  *   m u' = m D w^2,   (I + m D^2) w' = -m D u w
  *

@@ -218,8 +218,8 @@ class EnergyAccount(NamedTuple):
         body.
     springs: [J] work of springs with a user law.
     dampers: [J] work of the dampers of linear springs.
-    user_forces: [J] work of user forces plus the change of their potential energy: the work
-        that no potential explains.
+    user_forces: [J] the part of the work of user forces that no potential explains: their whole
+        work plus the change of their potential energy.
     bodies: [J] work of the forces of user coordinates, plus the change of their potential
         energy, plus the integral of v^T M' v / 2. In this sum the velocity terms of Lagrange's
         equations cancel.
@@ -426,8 +426,8 @@ class StudyMethod(NamedTuple):
 
 
 class StudyReference(NamedTuple):
-    """How far the reference of a study can be trusted. error, error_q, error_v, error_lambda and
-    energy_error are fields of StudyEntry.
+    """How far the reference of a study can be trusted. The uncertainties below are those of the
+    fields error, error_q, error_v, error_lambda and energy_error of StudyEntry.
 
     origin: Where the reference comes from.
     trusted: False if the study has computed the reference itself, but the runs that compute it

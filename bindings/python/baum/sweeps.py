@@ -316,8 +316,8 @@ def sweep(
         use. The file is a pickle; open only files that you trust.
 
     A run that fails does not stop the other runs. Raises KeyError if the element of a parameter
-    does not exist, TypeError if the element does not have this field, and TypeError or ValueError
-    if the values of a parameter have a wrong form.
+    does not exist, TypeError if the element does not have the field of the parameter, and TypeError
+    or ValueError if the values of a parameter have a wrong form.
     """
     columns = _columns(parameters)
     rows = _rows(columns, samples, count)

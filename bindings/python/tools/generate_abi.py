@@ -79,8 +79,9 @@ RECORDS = {
     "error_lambda, the multiplier of row i is multiplied by the norm of row i of the Jacobian. For "
     "this norm, each column of the Jacobian is first multiplied by the scale of its coordinate.",
     "baum_study_method": "Entries of a study with the same integrator, formulation and gains.",
-    "baum_study_reference": "How far the reference of a study can be trusted. error, error_q, "
-    "error_v, error_lambda and energy_error are fields of StudyEntry.",
+    "baum_study_reference": "How far the reference of a study can be trusted. The uncertainties "
+    "below are those of the fields error, error_q, error_v, error_lambda and energy_error of "
+    "StudyEntry.",
     "baum_catalog_parameter": "A number that a mechanism of the catalogue depends on.",
     "baum_catalog_entry": "A mechanism of the catalogue.",
     "baum_catalog_error": "How far a run is from the reference of the catalogue.",
