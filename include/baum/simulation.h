@@ -61,9 +61,10 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *           Formulations: as for baum_dp5() */
 BAUM_API const baum_integrator *baum_rk8(void);
 /** A method that uses past steps. As long as it does not have enough past steps, it takes steps
- *  with a Runge-Kutta method instead. This happens at the start, after baum_simulation_set_state(),
- *  baum_simulation_set_input() and baum_simulation_set_driver(), after a reversal of the direction
- *  in time, and after a requested time that is not on the grid of steps.
+ *  with a Runge-Kutta method instead. This happens at the start, after a requested time that is not
+ *  on the grid of steps, and after each restart (counters.restarts), for example at a break, after
+ *  a reversal of the direction in time, and after baum_simulation_set_state(),
+ *  baum_simulation_set_input() and baum_simulation_set_driver().
  *  @return  two-step Adams-Bashforth method, order 2, fixed step, one evaluation of the
  *           accelerations per step. Formulations: BAUMGARTE (best damping), UNSTABILIZED. The
  *           method does not offer PROJECTION, because past steps cannot be projected */
@@ -914,7 +915,7 @@ typedef enum baum_warning_code {
   /** The option rtol is smaller than the error of derivatives that are computed by finite
    *  differences. */
   BAUM_WARNING_NOISY_DERIVATIVES = 3,
-  /** IDA runs with INDEX3, which is meant only for comparisons. */
+  /** The run uses IDA with INDEX3, which is meant only for comparisons. */
   BAUM_WARNING_INDEX3 = 4,
   /** Ill-conditioned constraint rows make the computed velocities inaccurate. */
   BAUM_WARNING_LOOSE_VELOCITIES = 5,

@@ -428,12 +428,17 @@ typedef struct baum_study_reference {
   /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is
    *  computed. */
   double digits;
-  double uncertainty;        /**< [-] uncertainty of the result `error` of the entries. */
-  double uncertainty_q;      /**< [-] uncertainty of the result error_q of the entries. */
-  double uncertainty_v;      /**< [-] uncertainty of the result error_v of the entries. */
-  double uncertainty_lambda; /**< [-] uncertainty of the result error_lambda of the entries. */
-  double uncertainty_energy; /**< [J] uncertainty of the result energy_error of the entries. */
-  int32_t samples;           /**< [-] number of samples. */
+  /** [-] uncertainty of the reference, measured like `error` of an entry. */
+  double uncertainty;
+  /** [-] uncertainty of the reference, measured like error_q of an entry. */
+  double uncertainty_q;
+  /** [-] uncertainty of the reference, measured like error_v of an entry. */
+  double uncertainty_v;
+  /** [-] uncertainty of the reference, measured like error_lambda of an entry. */
+  double uncertainty_lambda;
+  /** [J] uncertainty of the reference, measured like energy_error of an entry. */
+  double uncertainty_energy;
+  int32_t samples; /**< [-] number of samples. */
   /** A text that says to how many digits the runs that compute the reference agree, or why the
    *  reference is not trusted. */
   const char *text;

@@ -434,11 +434,13 @@ class StudyReference(NamedTuple):
         agree to fewer than three digits or pass near a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
         reference is computed.
-    uncertainty: [-] uncertainty of the result `error` of the entries.
-    uncertainty_q: [-] uncertainty of the result error_q of the entries.
-    uncertainty_v: [-] uncertainty of the result error_v of the entries.
-    uncertainty_lambda: [-] uncertainty of the result error_lambda of the entries.
-    uncertainty_energy: [J] uncertainty of the result energy_error of the entries.
+    uncertainty: [-] uncertainty of the reference, measured like `error` of an entry.
+    uncertainty_q: [-] uncertainty of the reference, measured like error_q of an entry.
+    uncertainty_v: [-] uncertainty of the reference, measured like error_v of an entry.
+    uncertainty_lambda: [-] uncertainty of the reference, measured like error_lambda of an
+        entry.
+    uncertainty_energy: [J] uncertainty of the reference, measured like energy_error of an
+        entry.
     samples: [-] number of samples.
     text: A text that says to how many digits the runs that compute the reference agree, or why
         the reference is not trusted.
