@@ -99,7 +99,8 @@ BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
  *  1/h, beta = sqrt(2)/h. With explicit Euler the spectral radius is 1, so violations do not decay.
  *  With semi-implicit Euler and AB2 to AB4 the spectral radius is greater than 1, so the gains are
  *  unstable and refused. With RK2 these gains are dead-beat. With RK3 the spectral radius is 0.47,
- *  and with RK4 0.37. The accuracy is the same as with baum_gains_deadbeat().
+ *  and with RK4 0.37. The orders of accuracy of Euler and RK2 to RK4 are the same as with
+ *  baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 

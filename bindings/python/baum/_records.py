@@ -110,9 +110,10 @@ class Report(NamedTuple):
 
 
 class Counters(NamedTuple):
-    """What a run has cost since it was created, and how well it has kept the constraints. A joint
-    is a handle or None; after unpickling it is the name of the joint. Phi are the values of the
-    constraints, and Phi' is their time derivative.
+    """What a run has cost since it was created, and how well it has kept the constraints.
+    max_phi_joint and max_phi_rate_joint are handles of joints or None; after unpickling, they are
+    the names of the joints. Phi are the values of the constraints, and Phi' is their time
+    derivative.
 
     steps: [-] accepted steps.
     rejected: [-] steps that were repeated, because an error test or an iteration failed.

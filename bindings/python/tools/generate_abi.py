@@ -67,8 +67,9 @@ RECORDS = {
     "and nc are the numbers of velocities and of constraint rows, and J is the velocity Jacobian "
     "of the constraints.",
     "baum_counters": "What a run has cost since it was created, and how well it has kept the "
-    "constraints. A joint is a handle or None; after unpickling it is the name of the joint. Phi "
-    "are the values of the constraints, and Phi' is their time derivative.",
+    "constraints. max_phi_joint and max_phi_rate_joint are handles of joints or None; after "
+    "unpickling, they are the names of the joints. Phi are the values of the constraints, and Phi' "
+    "is their time derivative.",
     "baum_energy_account": "Where the energy of a run has come from. The page docs/notation.md "
     "explains the symbols.",
     "baum_near_singular": "An interval in which a run was near a singular configuration. branch is "
