@@ -20,7 +20,7 @@ extern "C" {
  *  No step crosses a break time (in short, a break), whether the run goes forward or backward in
  *  time. In a forward run, one step ends just before the break (a few rounding errors earlier), and
  *  the next step begins at the break. In a backward run, one step ends at the break, and the next
- *  step begins just before it. Methods that use past steps restart at the break
+ *  step begins at a slightly smaller time. Methods that use past steps restart at the break
  *  (baum_counters.restarts counts these restarts). If a break is not on the grid of a fixed-step
  *  method, the method shortens the step before the break (baum_counters.short_steps counts such
  *  steps) and begins a new grid at the break. Breaks do not change the times of outputs, with one

@@ -122,9 +122,10 @@ BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
  *  gamma. With semi-implicit Euler, |Phi'| is the same and |Phi| is half as large.
  *
  *  With these gains Runge-Kutta methods lose order, because the gains grow when the step is
- *  reduced: the orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2. Errors are larger than without gains, by
- *  a factor between 800 (RK2) and 4000 (RK4). The Euler methods remain of order 1. The rule is for
- *  fixed steps only. Multistep methods have no dead-beat point and refuse the rule.
+ *  reduced: the orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2. For a particle on a rod of 1 m and steps
+ *  of 0.0025 s, the error is larger than without gains, by a factor of 800 (RK2), 100 (RK3) and
+ *  4000 (RK4). The Euler methods remain of order 1. The rule is for fixed steps only. Multistep
+ *  methods have no dead-beat point and refuse the rule.
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
