@@ -80,8 +80,8 @@ BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input
 BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
                                               baum_joint_coordinate coordinate, double angle);
 
-/** Compute the time derivative of the positions, q' = N(q) v. For bodies whose positions form a
- *  vector, such as planar bodies, q' equals v.
+/** Compute the time derivative of the positions, q' = N(q) v. For planar bodies and generalized
+ *  coordinates, q' equals v.
  *  @param      workspace  a workspace of the mechanism
  *  @param[in]  q          (nq) positions
  *  @param[in]  v          (nv) velocities
@@ -90,8 +90,8 @@ BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_jo
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by the displacement dx. For bodies whose positions form a vector, the result
- *  is q + dx.
+/** Move positions by the displacement dx. For planar bodies and generalized coordinates, the
+ *  result is q + dx.
  *  @param         workspace  a workspace of the mechanism
  *  @param[in]     dx         (nv) the displacement
  *  @param[in,out] q          (nq) the positions
@@ -117,8 +117,8 @@ BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const 
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Evaluate the velocity Jacobian J = (dPhi/dq) N, where N is the matrix in q' = N v. For bodies
- *  whose positions form a vector, N is the identity matrix.
+/** Evaluate the velocity Jacobian J = (dPhi/dq) N, where N is the matrix in q' = N v. For planar
+ *  bodies and generalized coordinates, N is the identity matrix.
  *  @param      workspace      a workspace of the mechanism
  *  @param      t              [s] time
  *  @param[in]  q              (nq) positions

@@ -333,8 +333,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
 /** A coordinate of a joint. Drivers, joint springs, channels and events each refer to one
- *  coordinate of a joint; a coupling refers to one of each of its two joints. The joints have the
- *  following coordinates:
+ *  coordinate of a joint; a coupling refers to one coordinate of each of its two joints. The
+ *  joints have the following coordinates:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
  *  - planar translational joint, pin in a slot: DISPLACEMENT

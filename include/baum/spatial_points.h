@@ -148,10 +148,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
  *  @return  0 success, > 0 retry with a smaller step, < 0 stop */
 typedef int baum_spatial_curve_fn(const double xyz[3], double out[20], void *user);
 
-/** A point of body_b stays on a curve that is fixed in body_a, as a bead on a wire does. The joint
- *  has two rows, the values of F and G at body_b's point [m]. The curve is the intersection of the
- *  surfaces F(x, y, z) = 0 and G(x, y, z) = 0, and the field `curve` is the function that computes
- *  F and G. If a curve is given by a parameter u, such as the helix (r cos u, r sin u, c u),
+/** A point of body_b stays on a curve that is fixed in body_a, as a bead on a wire does. The curve
+ *  is the intersection of the surfaces F(x, y, z) = 0 and G(x, y, z) = 0, and the field `curve` is
+ *  the function that computes F and G. The joint has two rows, the values of F and G at body_b's
+ *  point [m]. If a curve is given by a parameter u, such as the helix (r cos u, r sin u, c u),
  *  eliminate the parameter: F = x - r cos(z / c), G = y - r sin(z / c).
  *
  *  The coordinates x, y and z in F and G are relative to body_a's point and in the axes of body_a.

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A gear differential. The carrier and two wheels rotate about x. A bevel gear, the spider, rotates
  * on the carrier about an axis that is perpendicular to x, and engages with both wheels. Let s be
- * the angle of the carrier, and d half the difference of the angles of the wheels. These angles are
- * then s + d and s - d. The spider rotates relative to the carrier by the angle r d, where r is the
- * number of teeth of a wheel divided by that of the spider. A torque T acts on the carrier, the
- * loads L1 and L2 act on the wheels, and each wheel has a damper with the coefficient c. The
- * kinetic energy is (A s'^2 + B d'^2) / 2, so
+ * the angle of the carrier, and d half the difference of the angles of the wheels. The wheels then
+ * have the angles s + d and s - d. The spider rotates relative to the carrier by the angle r d,
+ * where r is the number of teeth of a wheel divided by that of the spider. A torque T acts on the
+ * carrier, the loads L1 and L2 act on the wheels, and each wheel has a damper with the coefficient
+ * c. The kinetic energy is (A s'^2 + B d'^2) / 2, so
  *
  *   A s'' = T + L1 + L2 - 2 c s',   B d'' = L1 - L2 - 2 c d'
  *   A = I_carrier + m e^2 + I_spider / 2 + 2 I_wheel,   B = 2 I_wheel + r^2 I_spider

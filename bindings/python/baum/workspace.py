@@ -111,8 +111,8 @@ class Workspace(_calls.Closing):
         return out
 
     def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
-        """Return the positions q (nq) moved by a displacement dx (nv). If the positions form a
-        vector, as they do for planar bodies, the result is q + dx."""
+        """Return the positions q (nq) moved by a displacement dx (nv). Without bodies in
+        space, the result is q + dx."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
