@@ -166,8 +166,8 @@ class Adding:
             velocity v.
         difference(a, b): the displacement v from a to b, for which move(1, v, a) is b.
         normalize(q): the point of the configuration manifold that is nearest to q.
-        position_scale: (position_count) how much each position typically changes. `scale` then
-            refers to displacements.
+        position_scale: (position_count) typical change of each position, by default 1. The argument
+            `scale` then gives the typical change of each entry of a displacement.
         """
         return self._add(Body, "coordinates", locals())
 
