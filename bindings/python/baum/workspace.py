@@ -103,8 +103,8 @@ class Workspace(_calls.Closing):
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the time derivative of the positions, q' = N(q) v (nq). If the positions
-        form a vector, as they do for planar bodies, q' is equal to v."""
+        """Return the time derivative of the positions, q' = N(q) v (nq). If N is the identity
+        matrix, as it is for planar bodies, q' is equal to v."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
