@@ -80,8 +80,7 @@ BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input
 BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_joint_id joint,
                                               baum_joint_coordinate coordinate, double angle);
 
-/** Compute the time derivative of the positions, q' = N(q) v. For planar bodies and generalized
- *  coordinates, q' equals v.
+/** Compute the time derivative of the positions, q' = N(q) v. For planar bodies, q' equals v.
  *  @param      workspace  a workspace of the mechanism
  *  @param[in]  q          (nq) positions
  *  @param[in]  v          (nv) velocities
@@ -90,8 +89,7 @@ BAUM_API baum_status baum_workspace_set_angle(baum_workspace *workspace, baum_jo
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by the displacement dx. For planar bodies and generalized coordinates, the
- *  result is q + dx.
+/** Move positions by the displacement dx. For planar bodies, the result is q + dx.
  *  @param         workspace  a workspace of the mechanism
  *  @param[in]     dx         (nv) the displacement
  *  @param[in,out] q          (nq) the positions
@@ -118,7 +116,7 @@ BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, con
                                         double *phi);
 
 /** Evaluate the velocity Jacobian J = (dPhi/dq) N, where N is the matrix in q' = N v. For planar
- *  bodies and generalized coordinates, N is the identity matrix.
+ *  bodies, N is the identity matrix.
  *  @param      workspace      a workspace of the mechanism
  *  @param      t              [s] time
  *  @param[in]  q              (nq) positions

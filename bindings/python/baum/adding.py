@@ -501,8 +501,8 @@ class Adding:
 
         Only `phi` is required. If you do not give the other functions, the library computes them by
         differences, for which it calls `phi` often: for two coordinates, about 150 times in a step
-        of "rk4". If you give `jacobian` and `gamma`, there are 50 calls of all three functions
-        together. A call of a short Python function takes one to two microseconds. If this time
+        of "rk4". If you also give `jacobian` and `gamma`, a step calls the three functions 50 times
+        in total. A call of a short Python function takes one to two microseconds. If this time
         matters, give the derivatives, or give compiled functions, which can be addresses, ctypes
         function pointers, or Numba's cfunc.
 

@@ -103,16 +103,16 @@ class Workspace(_calls.Closing):
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the time derivative of the positions, q' = N(q) v (nq). If the positions
-        form a vector, as they do for planar bodies, q' is equal to v."""
+        """Return the time derivative of the positions, q' = N(q) v (nq). For planar bodies,
+        q' is equal to v."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
         self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
         return out
 
     def move(self, dx: ArrayLike, q: ArrayLike) -> Array:
-        """Return the positions q (nq) moved by a displacement dx (nv). Without bodies in
-        space, the result is q + dx."""
+        """Return the positions q (nq) moved by a displacement dx (nv). For planar bodies,
+        the result is q + dx."""
         dx, moved = self._v(dx), np.array(self._q(q))
         self._call(lib.baum_workspace_move, address(dx), address(moved))
         return moved
