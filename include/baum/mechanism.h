@@ -144,8 +144,8 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 /* ---- a body given by functions --------------------------------------------------------------- */
 
 /** Computes the time derivative of the positions, dq = N(q) v, which must be linear in v. The
- *  configuration manifold is the set of all valid q. The function must also accept a q whose
- *  distance from this manifold is the error of a step. If the result for q is dq, then for every
+ *  configuration manifold is the set of all valid q. The function must also accept a q that the
+ *  local error of a step has moved off this manifold. If the result for q is dq, then for every
  *  number c the result for c q, with the same v, must be c dq. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
@@ -343,10 +343,11 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
  *  - universal joint: ANGLE, ANGLE_B
  *  - spatial planar joint: X, Y, ANGLE
  *
- *  An angle of a planar joint grows continuously over several revolutions. A single configuration
- *  determines an angle of a spatial joint only up to whole revolutions. A run therefore counts the
- *  revolutions. A workspace does not know the past of the motion, so its functions use angles
- *  between -pi and pi, unless baum_workspace_set_angle() has chosen other revolutions. */
+ *  The angle of a planar revolute joint includes whole revolutions, because the angles of planar
+ *  bodies do. A single configuration determines an angle of a spatial joint only up to whole
+ *  revolutions. A run therefore counts the revolutions. A workspace does not know the past of the
+ *  motion, so its functions use angles between -pi and pi, unless baum_workspace_set_angle() has
+ *  chosen other revolutions. */
 typedef enum baum_joint_coordinate {
   /** The first coordinate that the list above gives for the joint. Most joints have only one
    *  coordinate. */

@@ -886,8 +886,9 @@ typedef struct baum_near_singular {
    *  motion, divided by the largest value that the smallest pivot has had at any state of the run
    *  so far. The page "docs/theory/singular.md" defines the smallest pivot. */
   double pivot;
-  /** [-] difference between the velocity after the interval and a smooth continuation of the motion
-   *  before the interval, relative to the size of the velocity. NaN: unknown. */
+  /** [-] difference between the velocity after the interval and the velocity of a smooth
+   *  continuation of the motion before the interval, relative to the size of the velocity. NaN:
+   *  unknown. */
   double jump;
   double jump_error;   /**< [-] estimated error of the field `jump`; NaN: unknown. */
   baum_branch branch;  /**< How the motion continues after the interval. */

@@ -264,8 +264,9 @@ class NearSingular(NamedTuple):
     pivot: [-] the smallest p in the interval. At each state, p is the smallest pivot of the
         equations of motion, divided by the largest value that the smallest pivot has had at any
         state of the run so far. The page "docs/theory/singular.md" defines the smallest pivot.
-    jump: [-] difference between the velocity after the interval and a smooth continuation of
-        the motion before the interval, relative to the size of the velocity. NaN: unknown.
+    jump: [-] difference between the velocity after the interval and the velocity of a smooth
+        continuation of the motion before the interval, relative to the size of the velocity.
+        NaN: unknown.
     jump_error: [-] estimated error of the field `jump`; NaN: unknown.
     branch: How the motion continues after the interval.
     joint: Joint whose rows have the smallest pivot; none if unknown.

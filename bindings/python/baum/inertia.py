@@ -6,9 +6,9 @@
     plate = inertia.box(2.0, 0.3, 0.2, 0.01)
     shaft = inertia.cylinder(0.5, radius=0.02, length=0.4, axis="x")
 
-The density of each solid is uniform. The tensor of a solid is about its centre of mass. The axes of
-the tensor are along the edges of a box. For a cylinder or a rod, the argument `axis` says which
-axis of the tensor is the axis of the solid.
+The density of each solid is uniform. The tensor of a solid is about its centre of mass. For a box,
+the axes of the tensor are parallel to the edges. For a cylinder or a rod, the argument `axis` says
+which axis of the tensor is the axis of the solid.
 
 To compute the tensor of a body that consists of several parts, add the tensors of the parts. Before
 that, use rotate() to rotate the tensor of each part into the axes of the body, and shift() to move

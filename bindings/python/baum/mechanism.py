@@ -110,8 +110,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
     The place of a joint is given by `point` in ground axes, in the design configuration, or by
     `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
     `axis_b`. m["A"] is the handle of the element with the name "A". Functions that you give for an
-    element receive arguments such as (t, q) or (t, q, v), and return their result: t is the time,
-    and q and v are the positions and velocities of the bodies on which the element acts.
+    element receive arguments such as (t, q) or (t, q, v), and return their result. Here t is the
+    time, and q and v are the positions and velocities of the bodies on which the element acts.
     """
 
     handle: int
