@@ -225,7 +225,7 @@ class Sweep(Named):
     """The results of a sweep of n runs.
 
     parameters: a dict from the name of each parameter to its values: an array (n), or (n x size)
-        for a vector field.
+        if the parameter is a vector.
     status: the Status of each run (n).
     messages: a dict from the index of each failed run to its message.
     warnings: for each run, the names of the classes of its warnings (n).
@@ -293,7 +293,7 @@ def sweep(
 
     mechanism: the mechanism, which may be frozen or not.
     parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. Values of a
-        vector field have the shape (n x size).
+        vector have the shape (n x size).
     method: the integrator, such as "rk8".
     times, record, options: as in Mechanism.simulate().
     reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
