@@ -292,8 +292,8 @@ def sweep(
     """Run a mechanism once for each sample of its parameters.
 
     mechanism: the mechanism, which may be frozen or not.
-    parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. Values of a
-        vector have the shape (n x size).
+    parameters: a dict from "element.field" to values, such as {"rod.mass": [0.1, 0.2]}. The values
+        of a parameter that is a vector have the shape (n x size).
     method: the integrator, such as "rk8".
     times, record, options: as in Mechanism.simulate().
     reduce: a function that takes a Run and returns a number, an array or a dict of them. The sweep
