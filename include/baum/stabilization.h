@@ -130,9 +130,9 @@ BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
 /** Gains that suit the speed of the motion. alpha and beta are equal and constant during a run.
- *  They are proportional to the mean angular velocity of the first radians of the motion. This
- *  angular velocity is max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L
- *  is the characteristic length.
+ *  They are proportional to the mean angular velocity over roughly the first 4 rad of the motion.
+ *  This angular velocity is max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations,
+ *  and L is the characteristic length.
  *
  *  The gains are this angular velocity times a factor:
  *

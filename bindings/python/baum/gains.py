@@ -82,8 +82,8 @@ def best_damping() -> Gains:
 def auto() -> Gains:
     """Gains that suit the speed of the motion: alpha = beta = c omega.
 
-    omega is the mean angular velocity of the first radians of the motion. This angular velocity is
-    max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L is the
+    omega is the mean angular velocity over roughly the first 4 rad of the motion. This angular
+    velocity is max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L is the
     characteristic length. The factor c depends on the integrator. It is 0.05 to 0.35, or 0.6 to
     40 if drivers prescribe all degrees of freedom. With these gains the integrator keeps its order.
     """

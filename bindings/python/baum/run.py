@@ -377,8 +377,8 @@ class Run(Strict):
         """Write a page that shows the motion in any browser: one HTML file, which loads no other
         file.
 
-        traces: paths to draw. A path is given as a body or as a channel such as
-            m["rod"].pose_of((0.1, 0)).
+        traces: points whose paths are drawn. A body stands for its centre of mass; a channel such
+            as m["rod"].pose_of((0.1, 0)) gives another point.
         forces: which recorded reactions are shown as arrows. None, the default, shows all. True
             also shows all, but raises ValueError if no reaction was recorded. A list such as
             ["A.reaction"] chooses some, and False shows none.

@@ -218,7 +218,7 @@ class Simulation(_calls.Closing):
         "cvode_bdf" also offer "projection", and "ida" also offers "index2", "ggl" and "index3".
         "rattle" and "generalized_alpha" offer only "index3".
     gains: gain rule for "baumgarte": baum.fixed(alpha, beta), scaled(), frequency(), taylor(),
-        deadbeat(), best_damping() or auto(). None is the default rule of the integrator.
+        deadbeat(), best_damping() or auto(). None means the default rule of the integrator.
     row_gains: factors on alpha and beta, as a dict from joints or their names to a number, or to
         one number for each row of the joint.
     allow_unstable: True accepts gains that are known to be unstable.

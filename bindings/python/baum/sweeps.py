@@ -225,7 +225,7 @@ class Sweep(Named):
     """The results of a sweep of n runs.
 
     parameters: a dict from the name of each parameter to its values: an array (n), or (n x size)
-        for a vector field.
+        if the parameter is a vector.
     status: the Status of each run (n).
     messages: a dict from the index of each failed run to its message.
     warnings: for each run, the names of the classes of its warnings (n).
