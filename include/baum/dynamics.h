@@ -32,7 +32,8 @@ extern "C" {
 typedef struct baum_workspace baum_workspace;
 
 /** Create a workspace. The mechanism stays in memory as long as the workspace exists. This call
- *  also determines the redundant constraint rows, starting from the design configuration at t = 0.
+ *  also determines the redundant constraint rows: it assembles the mechanism at t = 0, starting
+ *  from the design configuration, and examines J there and in configurations near it.
  *  @param      mechanism  frozen
  *  @param[out] out        receives the workspace, NULL on failure; release it with
  *                         baum_workspace_destroy()

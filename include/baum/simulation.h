@@ -272,17 +272,17 @@ typedef struct baum_simulation_options {
   /** [-] > 0, finite; rtol and atol are multiplied by this factor for velocities. Refused with a
    *  fixed step. Default: 1. */
   double tolerance_v;
-  /** [-] > 0; rtol is multiplied by this factor for multipliers. Only IDA with the formulation
-   *  BAUMGARTE or UNSTABILIZED accepts a finite factor. The tolerance of the multiplier of row i is
-   *  tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of the Jacobian J, with each
-   *  column j multiplied by the scale s_j of its coordinate. E is the larger of two numbers: the
-   *  largest present value of |lambda_k| n_k, and the largest value of M_jj s_j^2 r^2, where M is
-   *  the mass matrix and r [1/s] is the rate of the motion at the start. This rate is the largest
-   *  of |v_j| / s_j and sqrt(|a_j| / s_j) over all coordinates j, where v are the velocities and a
-   *  the accelerations. In an equilibrium at rest, r is sqrt(g/L) instead, where g is the
-   *  acceleration of gravity and L the characteristic length. In an equilibrium at rest without
-   *  gravity, r is 1 per second. baum_simulation_explain() reports r together with the tolerances.
-   *  Default: infinity, the error of multipliers is not tested. */
+  /** [-] > 0, may be infinite; rtol is multiplied by this factor for multipliers. A finite factor
+   *  is accepted only by IDA with the formulation BAUMGARTE or UNSTABILIZED. The tolerance of the
+   *  multiplier of row i is tolerance_lambda rtol E / n_i. Here n_i is the norm of row i of the
+   *  Jacobian J, with each column j multiplied by the scale s_j of its coordinate. E is the larger
+   *  of two numbers: the largest present value of |lambda_k| n_k, and the largest value of M_jj
+   *  s_j^2 r^2, where M is the mass matrix and r [1/s] is the rate of the motion at the start. This
+   *  rate is the largest of |v_j| / s_j and sqrt(|a_j| / s_j) over all coordinates j, where v are
+   *  the velocities and a the accelerations. In an equilibrium at rest, r is sqrt(g/L) instead,
+   *  where g is the acceleration of gravity and L the characteristic length. In an equilibrium at
+   *  rest without gravity, r is 1 per second. baum_simulation_explain() reports r together with the
+   *  tolerances. Default: infinity, the error of multipliers is not tested. */
   double tolerance_lambda;
   /** Compute the energy account that baum_simulation_energy_account() returns. The integrator
    *  baum_kinematics() refuses this option. Default: false. */

@@ -6,8 +6,8 @@
  *
  *   y = beside - l1 sin a,  z = above + l1 cos a,  x = sqrt(l2^2 - y^2 - z^2)
  *
- * The universal joint between rod and slider keeps one axis of the rod perpendicular to the
- * slider's line.
+ * One axis of the universal joint between slider and rod is fixed in the slider and parallel to its
+ * line of motion. The other axis, which is fixed in the rod, thus stays perpendicular to this line.
  */
 #include <math.h>
 
