@@ -57,8 +57,8 @@ def _read(struct: Any, function: Any, *arguments: Any) -> list[Any]:
 
 def entry(name: str) -> Entry:
     """Return the entry of that name: a named tuple. Its fields name, title, source and note are
-    texts, and provenance is a text about how the reference was computed and checked. Its field
-    parameters, a dict, gives the unit, meaning and default value of each parameter. The
+    texts, and provenance is a text about how the reference was computed and checked. The field
+    parameters is a dict that gives the unit, meaning and default value of each parameter. The
     reference has sample_count samples from start_time to end_time [s]. digits_q and digits_v are
     the numbers of correct digits of the positions and velocities of the reference. The field exact
     is True if the reference consists of formulas. The field smooth is True if the motion with the

@@ -80,11 +80,12 @@ def best_damping() -> Gains:
 
 
 def auto() -> Gains:
-    """Gains that suit the speed of the motion: alpha = beta = c omega.
+    """Gains that suit the speed of the motion.
 
-    omega is the mean angular velocity over roughly the first 4 rad of the motion. This angular
-    velocity is max(|v|/L, sqrt(|a|/L)), where v are velocities, a are accelerations, and L is the
-    characteristic length. The factor c depends on the integrator. It is 0.05 to 0.35, or 0.6 to
-    40 if drivers prescribe all degrees of freedom. With these gains the integrator keeps its order.
+    The gains are alpha = beta = c omega, where omega is the mean angular velocity over roughly the
+    first 4 rad of the motion. This angular velocity is max(|v|/L, sqrt(|a|/L)), where v are
+    velocities, a are accelerations, and L is the characteristic length. The factor c depends on the
+    integrator. It is 0.05 to 0.35, or 0.6 to 40 if drivers prescribe all degrees of freedom. With
+    these gains the integrator keeps its order.
     """
     return Gains("auto")

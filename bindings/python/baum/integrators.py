@@ -88,7 +88,7 @@ def lookup(value: Any) -> Integrator:
 
 class Amplification(NamedTuple):
     """How one step changes a constraint violation: the violation is a sum of modes, and the step
-    multiplies each mode by a root z.
+    multiplies each mode by a root z of the characteristic equation of the integrator.
 
     stability: "stable", "marginal" or "unstable"; for methods without a region of stability,
         "variable_step" or "without_gains".
