@@ -14,8 +14,8 @@
  *  a size that corresponds to its inertia. Joints and forces are drawn as symbols. You can give
  *  a body outlines (shapes of your own), which replace the shape that the library chooses.
  *
- *  If a function of this header writes a file and a file of this name exists, the new file replaces
- *  the older one as described at baum_study_write(). Drawing does not change the mechanism. */
+ *  If the file that a function of this header writes already exists, the new file replaces it as
+ *  described at baum_study_write(). Drawing does not change the mechanism. */
 #ifndef BAUM_DRAW_H
 #define BAUM_DRAW_H
 

@@ -340,8 +340,8 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  @param[out] beta2_h2    [-] (capacity) (beta h)^2 of each point. May be NULL if capacity is
  *                          0.
  *  @param[out] count       [-] number of points; 0 if the spectral radius is larger than `radius`
- *                          everywhere. If it exceeds the capacity, the arrays receive only the
- *                          first points.
+ *                          everywhere. If the number exceeds the capacity, the arrays receive only
+ *                          the first points.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region) */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                             int32_t capacity, double *alpha_h, double *beta2_h2,
