@@ -134,8 +134,8 @@ class Study(_calls.Closing):
     threads: number of threads, by default the number of processors, but 1 for a mechanism with
         Python functions.
     energy_account: if True, measure the work that stabilization and projection do on the mechanism.
-    validate: True makes further runs that test the entries that may be recommended: over twice the
-        time span, and from perturbed initial states.
+    validate: if True, further runs, over twice the time span and from perturbed initial states,
+        test the entries that may be recommended.
     file: path of a file in which the study keeps its results. A later study can continue from it.
     grid: the settings that run() adds to a study without settings. "quick" takes seconds, or about
         a minute with Python functions. "full" takes about 25 times as long.
