@@ -567,8 +567,9 @@ typedef enum baum_quantity {
    *  and z of the channel's point, and the quaternion of the body (7). Particles and user
    *  coordinates: their part of q. */
   BAUM_BODY_POSE = 8,
-  /** The time derivatives of BAUM_BODY_POSE. For a spatial body: velocity of the channel's point
-   *  and angular velocity, both in ground axes (6). */
+  /** Planar body: the time derivatives of BAUM_BODY_POSE (3). Spatial body: velocity of the
+   *  channel's point and angular velocity, both in ground axes (6). Particles and user coordinates:
+   *  their part of v. */
   BAUM_BODY_VELOCITY = 9,
   /** Force and moment on body_b (3 for planar joints, 6 for spatial joints), see planar.h and
    *  spatial.h. For user constraints, gears and couplings: the generalized force -J^T lambda of

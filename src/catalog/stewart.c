@@ -6,8 +6,8 @@
  *
  *   l = |r + Rz(a) Rx(b) Ry(c) B - F|
  *
- * with the foot F of the leg on the ground, and its ball B on the platform in the axes of the
- * platform. */
+ * where F is the foot of the leg in ground axes, and B is the centre of the leg's spherical joint
+ * in the axes of the platform. */
 #include "catalog/stewart.h"
 
 #include <float.h>
