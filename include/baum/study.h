@@ -378,7 +378,7 @@ typedef struct baum_study_entry {
   baum_gains gains;                  /**< The gain rule, as given in the options. */
   double step;                       /**< [s] fixed step; NaN if the entry has rtol. */
   double rtol;                       /**< [-] tolerance; NaN if the entry has a step. */
-  /** [-] number of the method to which the entry belongs, see baum_study_method_at(). */
+  /** [-] number of the method of this entry, see baum_study_method_at() of the study. */
   int32_t method;
 /** Expands a line of the list. */
 #define BAUM_X(type, name, known, unit, meaning) type name;

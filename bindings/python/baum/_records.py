@@ -296,7 +296,7 @@ class StudyEntry(NamedTuple):
     gains: The gain rule, as given in the options.
     step: [s] fixed step; NaN if the entry has rtol.
     rtol: [-] tolerance; NaN if the entry has a step.
-    method: [-] number of the method to which the entry belongs, see methods.
+    method: [-] number of the method of this entry, see methods of the study.
     state: done, refused, failed, timed_out or waiting
     status: status of the run of the entry
     at_floor: measured error is not above the uncertainty of the reference

@@ -617,8 +617,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         integrator, options: as for simulation(), without progress, row_gains, max_steps and
             start_time. If the FMU is part of a control loop, choose a fixed step.
 
-        Raises ValueError if the mechanism contains functions, because an FMU cannot contain Python
-        functions.
+        Raises ValueError if the mechanism contains functions of yours, which an FMU cannot contain.
         """
         fmu.export(self, path, integrator, outputs, inputs, parameters, options)
 
