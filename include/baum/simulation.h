@@ -302,8 +302,8 @@ typedef struct baum_simulation_options {
    *  the run warns (BAUM_WARNING_ERROR_UNKNOWN). The integrator baum_kinematics() refuses this
    *  option, because it does not integrate.
    *
-   *  Without this option, a fixed-step run starts a second integration only if the sum of its local
-   *  errors becomes large enough to matter. Default: false. */
+   *  Without this option, a fixed-step run starts a second integration only if its step is long, or
+   *  if the sum of its local errors becomes large enough to matter. Default: false. */
   bool error_check;
 } baum_simulation_options;
 

@@ -244,8 +244,8 @@ class Simulation(_calls.Closing):
     error_check: if True, estimate the error of the motion by a second integration. The estimate is
         counters.error_estimate. The run warns if the error is large, or if the second integration
         fails or becomes too expensive, so that the error is unknown. With this option, rtol must be
-        at least 2e-14. Without this option, a run with fixed steps makes a second integration only
-        if the sum of its local errors becomes large enough to matter.
+        at least 2e-14. Without this option, a run with a fixed step makes a second integration only
+        if the step is long, or if the sum of its local errors becomes large enough to matter.
     progress: True shows a bar in a terminal or a notebook, but not for step(), because the end time
         of its steps is not known in advance. If you give a function, the run calls progress(t) with
         the present time t [s] every progress_interval seconds of wall time. The function cancels
