@@ -137,8 +137,8 @@ BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
  *  @return  false for NULL */
 BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
 
-/** Form of the equations of motion and of the constraints. The page "docs/notation.md" lists the
- *  equations (5) and (7). */
+/** Form of the equations of motion and of the constraints. Equations (5) and (7), which the values
+ *  below mention, are on the page "docs/notation.md". */
 typedef enum baum_formulation {
   BAUM_FORMULATION_DEFAULT = 0, /**< The first formulation that the integrator offers. */
   /** Equation (5), with J a = gamma. The constraint violation drifts. */
