@@ -799,8 +799,8 @@ typedef struct baum_report {
   int32_t nodes;
   /** [-] pairs of nodes that are coupled during elimination; 0 if KLU solves the equations. */
   int32_t couplings;
-  /** [-] how many of these couplings only the elimination creates (fill-in); 0 if KLU solves the
-   *  equations. */
+  /** [-] number of these couplings that arise only during elimination (fill-in); 0 if KLU solves
+   *  the equations. */
   int32_t fill;
   /** [-] largest number of couplings that a node has when it is eliminated; 0 if KLU solves the
    *  equations. */

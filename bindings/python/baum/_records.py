@@ -72,7 +72,7 @@ class Report(NamedTuple):
         rows.
     couplings: [-] pairs of nodes that are coupled during elimination; 0 if KLU solves the
         equations.
-    fill: [-] how many of these couplings only the elimination creates (fill-in); 0 if KLU
+    fill: [-] number of these couplings that arise only during elimination (fill-in); 0 if KLU
         solves the equations.
     most_couplings: [-] largest number of couplings that a node has when it is eliminated; 0 if
         KLU solves the equations.
