@@ -822,7 +822,8 @@ typedef struct baum_energy_account {
   /** [J] work of the loads that have an input, a torque or a moment, or that follow their body. */
   double loads;
   double springs; /**< [J] work of springs with a user law. */
-  double dampers; /**< [J] work of the dampers of linear springs. */
+  /** [J] work of the dampers of bushings, and of springs and cables without a user law. */
+  double dampers;
   /** [J] the part of the work of user forces that no potential explains: their whole work plus the
    *  change of their potential energy. */
   double user_forces;
