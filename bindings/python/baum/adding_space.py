@@ -419,8 +419,8 @@ class AddingInSpace:
         offset: Scalar | None = None,
     ) -> Joint:
         """Add a screw joint: body_b rotates about an axis of body_a, and moves along this axis by
-        the pitch per revolution. The joint has five rows: two for the directions of the axes
-        [-] and three for lengths [m].
+        the pitch per revolution. The joint has five rows: two make the axes of both bodies parallel
+        [-], two keep body_b's point on the axis of body_a [m], and one describes the thread [m].
 
         pitch: displacement of body_b per revolution [m]; positive for a right-handed thread.
         offset: displacement at which the angle is 0 [m]; by default the displacement in the design
