@@ -167,13 +167,13 @@ typedef void baum_normalize_fn(double *q, void *user);
 
 /** A body with user coordinates. Functions of yours give its mass matrix and its force.
  *
- *  Usually v is the time derivative of q. If q is not a vector, for example if it is a unit
- *  quaternion, also set the last fields of this struct, from position_scale to position_count; the
- *  time derivative of q is then N(q) v. In this case every function except `rate` and `normalize`
- *  receives a normalized q. Derivatives with respect to q, such as force_q, are then derivatives
- *  along the `size` components of a displacement. This also applies to constraints on these
- *  coordinates: their Jacobian is the product of dPhi/dq and N. The functions rate, move,
- *  difference and normalize report a failure by writing NaN. */
+ *  Usually v is the time derivative of q. If the positions q do not form a vector space, for
+ *  example if they are a unit quaternion, also set the last fields of this struct, from
+ *  position_scale to position_count; the time derivative of q is then N(q) v. In this case every
+ *  function except `rate` and `normalize` receives a normalized q. Derivatives with respect to q,
+ *  such as force_q, are then derivatives along the `size` components of a displacement. This also
+ *  applies to constraints on these coordinates: their Jacobian is the product of dPhi/dq and N.
+ *  The functions rate, move, difference and normalize report a failure by writing NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by baum_coordinates_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */

@@ -763,8 +763,8 @@ typedef struct baum_counters {
    *  long run. NaN if the formulation is not BAUMGARTE, or if the steps are variable. */
   double spectral_radius;
   /** [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with alpha = beta it
-   *  equals alpha. It is infinite for dead-beat gains, and negative if violations grow. NaN if
-   *  spectral_radius is NaN. */
+   *  is approximately alpha. It is infinite for dead-beat gains, and negative if violations grow.
+   *  NaN if spectral_radius is NaN. */
   double damping;
   /** [-] number of intervals in which the run was near a singular configuration. */
   int64_t near_singular_intervals;

@@ -155,8 +155,8 @@ class Counters(NamedTuple):
         a violation in the long run. NaN if the formulation is not "baumgarte", or if the steps
         are variable.
     damping: [1/s] decay rate of violations, -ln(spectral_radius) / h. For small gains with
-        alpha = beta it equals alpha. It is infinite for dead-beat gains, and negative if
-        violations grow. NaN if spectral_radius is NaN.
+        alpha = beta it is approximately alpha. It is infinite for dead-beat gains, and negative
+        if violations grow. NaN if spectral_radius is NaN.
     near_singular_intervals: [-] number of intervals in which the run was near a singular
         configuration.
     branch_warnings: [-] number of near-singular intervals after which the motion is, or may be,

@@ -154,11 +154,11 @@ class Adding:
             False.
         user: passed to compiled functions as the last argument: an address or an object of ctypes.
 
-        If the positions do not form a vector, for example if they are a unit quaternion, also give
-        the arguments below. The positions q and their displacements (small changes of position)
-        then have different numbers of entries: q has `position_count` entries, and a displacement
-        has `size` entries, like v. Derivatives with respect to q, such as force_q, are then
-        derivatives along displacements, so they have `size` columns.
+        If the positions do not form a vector space, for example if they are a unit quaternion, also
+        give the arguments below. The positions q and their displacements (small changes of
+        position) then have different numbers of entries: q has `position_count` entries, and a
+        displacement has `size` entries, like v. Derivatives with respect to q, such as force_q, are
+        then derivatives along displacements, so they have `size` columns.
 
         position_count: number of positions, which is then the length of q.
         rate(q, v): the time derivative of q, N(q) v.

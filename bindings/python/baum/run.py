@@ -339,7 +339,7 @@ class Run(Strict):
         return frame
 
     def plot(self, *channels: ChannelLike, axes: Any = None) -> list[Axes]:
-        """Plot channels over time with Matplotlib, such as run.plot("slider.velocity").
+        """Plot channels over time with Matplotlib, for example by run.plot("slider.velocity").
 
         channels: by default all recorded channels except q and v.
         axes: Matplotlib axes to draw into, one for each unit; by default new axes in a new figure.
