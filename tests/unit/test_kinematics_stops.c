@@ -262,7 +262,7 @@ static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **s
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &scene),
                    BAUM_OK);
   check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                    "kinematics: 1 degree of freedom is left|add a driver for each|such as rk4");
+                    "kinematics: 1 degree of freedom is left|add a driver for each|such as rk8");
   model_destroy(&scene);
   assert_int_equal(model_chain_3(&scene), BAUM_OK);
   check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
