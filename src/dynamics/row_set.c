@@ -35,6 +35,10 @@ static const double FACTOR = 1.25;
 static const double POOR = 0.2;
 static const double RETRY = 3.0;
 
+/* Without suitable pivots, a run searches for other rows when the distance of a kept row by lengths
+ * falls below CLOSE. Between two checks it must not fall to zero. */
+static const double CLOSE = 0.1;
+
 /* ---- well-separated rows ---- */
 
 static void invert(const unsigned char *flags, int count, unsigned char *out)
@@ -74,14 +78,27 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
   return status;
 }
 
+/* Evaluate J, and set the factors of its columns: the scales of the coordinates if `by_lengths` is
+ * true, otherwise 1 / sqrt(M_ii). */
+static baum_status prepare_selection(baum_workspace *w, double t, const double *q, bool by_lengths)
+{
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
+  if (by_lengths) {
+    memcpy(w->work_v, w->mechanism->scale, (size_t)w->mechanism->nv * sizeof *w->work_v);
+    baum_i_rest_fixed_bodies(w->mechanism, w->work_v);
+  } else {
+    baum_i_column_scales(w, w->work_v);
+  }
+  return BAUM_OK;
+}
+
 /* Select the best set of rows whose limit is above `least`. Rows that are kept now are preferred.
  * *found tells whether there is such a set. */
-static baum_status select_apart(baum_workspace *w, double t, const double *q, double least,
-                                bool *found)
+static baum_status select_apart(baum_workspace *w, double t, const double *q, bool by_lengths,
+                                double least, bool *found)
 {
   *found = false;
-  BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  baum_i_column_scales(w, w->work_v);
+  BAUM_I_TRY(prepare_selection(w, t, q, by_lengths));
   double distance = MOST;
   while (!*found && distance > least) {
     BAUM_I_TRY(select_at(w, distance, found));
@@ -90,23 +107,19 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select a well-separated set of rows. This function multiplies the columns of J by the scales of
- * the coordinates. select_apart() multiplies them by 1 / sqrt(M_ii) instead. */
-static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
-                                           bool *found)
+/* Select rows by lengths, with as many kept rows as possible. */
+static baum_status select_near(baum_workspace *w, double t, const double *q, double distance,
+                               bool *found)
 {
-  const baum_mechanism *m = w->mechanism;
   *found = false;
-  BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  memcpy(w->work_v, m->scale, (size_t)m->nv * sizeof *m->scale);
-  baum_i_rest_fixed_bodies(m, w->work_v);
-  return select_at(w, LEAST, found);
+  BAUM_I_TRY(prepare_selection(w, t, q, true));
+  return select_at(w, distance, found);
 }
 
 baum_status baum_i_keep_rows_apart(baum_workspace *w, double t, const double *q)
 {
   bool found = false;
-  baum_status status = select_apart(w, t, q, WORST, &found);
+  baum_status status = select_apart(w, t, q, false, WORST, &found);
   if (found) {
     invert(w->rows.selected, w->mechanism->nc, w->rows.omitted);
   }
@@ -117,9 +130,9 @@ bool baum_i_rows_are_apart(baum_workspace *w, double t, const double *q)
 {
   bool found = false;
   baum_i_kept_message kept = baum_i_message_keep();
-  (void)select_apart_by_lengths(w, t, q, &found);
+  (void)select_near(w, t, q, LEAST, &found);
   if (!found && w->rows.count > 0) {
-    (void)select_apart(w, t, q, LEAST, &found);
+    (void)select_apart(w, t, q, false, LEAST, &found);
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);
   return found;
@@ -212,22 +225,29 @@ void baum_i_clear_omitted_rows(const baum_workspace *w, double *jacobian)
 
 /* ---- choice during a run ---- */
 
-/* Search for a better set of rows and use it. Return true if the rows have changed. */
-static bool exchange_rows(baum_workspace *w, double t, const double *q, double least)
+/* Mark the rows that are not selected, and tell whether they are other rows than those omitted. */
+static bool differs(baum_workspace *w)
 {
-  int nc = w->mechanism->nc;
-  unsigned char *selected = w->rows.selected;
+  invert(w->rows.selected, w->mechanism->nc, w->rows.selected);
+  return memcmp(w->rows.selected, w->rows.omitted, (size_t)w->mechanism->nc) != 0;
+}
+
+/* Search for a better set of rows and use it. Return true if the rows have changed. */
+static bool exchange_rows(baum_workspace *w, double t, const double *q, baum_i_choice choice)
+{
+  double least = choice.well_separated ? LEAST : WORST;
   bool found = false;
-  if (select_apart(w, t, q, least, &found) != BAUM_OK || !found) {
+  if (choice.by_lengths &&
+      (select_near(w, t, q, CLOSE, &found) != BAUM_OK || (found && !differs(w)))) {
     return false;
   }
-  invert(selected, nc, selected);
-  return memcmp(selected, w->rows.omitted, (size_t)nc) != 0 && omit_selected(w) == BAUM_OK;
+  return select_apart(w, t, q, choice.by_lengths, least, &found) == BAUM_OK && found &&
+         differs(w) && omit_selected(w) == BAUM_OK;
 }
 
 /* A failure leaves the rows unchanged. */
 bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double pivot,
-                        bool well_separated)
+                        baum_i_choice choice)
 {
   baum_i_row_set *rows = &w->rows;
   double last = rows->pivot_at_last_selection;
@@ -239,7 +259,7 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
     return false;
   }
   baum_i_kept_message kept = baum_i_message_keep();
-  bool changed = exchange_rows(w, t, q, well_separated ? LEAST : WORST);
+  bool changed = exchange_rows(w, t, q, choice);
   rows->pivot_at_last_selection = changed ? 0.0 : pivot;
   (void)baum_i_message_settle(BAUM_OK, &kept);
   return changed;

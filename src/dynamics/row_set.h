@@ -50,14 +50,24 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
  * of a user function. After a failure, nothing has changed. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
+/* How to look for another set of rows. */
+typedef struct baum_i_choice {
+  /* Accept only a well-separated set. Without this demand, a run next to a singular configuration
+   * would restart again and again. */
+  bool well_separated;
+  /* Multiply the columns of J by the scales of the coordinates, and keep the present rows while
+   * they are well separated. Otherwise the columns are multiplied by 1 / sqrt(M_ii); if moments of
+   * inertia are small, the distances of rows then decrease only shortly before the rows become
+   * dependent. */
+  bool by_lengths;
+} baum_i_choice;
+
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest
- * pivot; a run divides it by the largest pivot of the run so far. If `well_separated` is true, only
- * a well-separated set is accepted. Without this demand, a run next to a singular configuration
- * would restart again and again. Returns true if the rows have changed. The accelerations and
+ * pivot; a run divides it by the largest pivot of the run so far. Returns true if the rows have changed. The accelerations and
  * multipliers computed last are then no longer available. This function allocates memory, but only
  * rarely. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
-                        bool well_separated);
+                        baum_i_choice choice);
 
 /* Check that the accelerations computed last also satisfy the omitted rows at the given velocities
  * and gains. If they do not, the function fails with BAUM_ERR_INCONSISTENT. */

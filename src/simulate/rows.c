@@ -34,13 +34,20 @@ static void project_present(baum_simulation *run)
   }
 }
 
-static const double WHILE = 0.1; /* [rad] motion between two checks of the rows */
+static const double WHILE = 0.02; /* [rad] motion between two checks of the rows */
 
-/* If KLU or QR is the solver, there is no suitable smallest pivot for the check of the rows: pivots
- * of KLU vary irregularly, and pivots of QR become small only very close to a singular
- * configuration. This function returns a number in place of the pivot. It returns 0, which causes a
+/* Tell whether the smallest pivots show that the kept rows become dependent. Pivots of KLU vary
+ * irregularly, and pivots of QR become small only very close to a singular configuration. If
+ * moments of inertia are small, the pivots of the block solver are rounding errors. */
+static bool has_suitable_pivots(const baum_simulation *run)
+{
+  static const double NOISE = 1e-8;
+  return run->workspace->path && run->crossings->usual > NOISE;
+}
+
+/* Return a number in place of a pivot that is not suitable. This function returns a number in place of the pivot. It returns 0, which causes a
  * check, each time the mechanism has moved by WHILE, and otherwise 1. These checks cost little
- * compared with the other work of the two solvers. */
+ * compared with the other work of KLU and QR. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -82,8 +89,10 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   if (!p || p->recent_count == 0 || run->workspace->rows.count == 0) {
     return BAUM_OK;
   }
-  double pivot = run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);
-  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot, true)) {
+  bool suitable = has_suitable_pivots(run);
+  double pivot = suitable ? baum_i_last_knot(p)->pivot : guess_pivot(run);
+  baum_i_choice choice = {.well_separated = true, .by_lengths = !suitable};
+  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot, choice)) {
     return BAUM_OK;
   }
   if (!goes_on(run)) {
@@ -96,7 +105,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 
 void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state)
 {
-  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, true)) {
+  baum_i_choice choice = {.well_separated = true};
+  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, choice)) {
     tell_others(run);
     baum_i_crossings_end(run);
   }

@@ -7,10 +7,11 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Tell whether the configuration of the last solution is singular. If the block solver has refused
- * this configuration, the pivot comes from another solver. Pivots of that solver are larger, so
- * their limit is larger, too. */
-static bool is_in_pose(const baum_simulation *run, double pivot)
+/* Tell whether the configuration of the last solution may be singular. If the block solver has
+ * refused this configuration, the pivot comes from another solver. Pivots of that solver are
+ * larger, so their limit is larger, too. Small moments of inertia cause small pivots in any
+ * configuration, so baum_i_rows_are_apart() decides whether the configuration is singular. */
+static bool may_be_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
   bool refused = w->path && !w->solved_by;
@@ -44,10 +45,11 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
   bool skips = false;
   if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
-    skips = is_in_pose(run, find_pivot(run)); /* projection need not converge there */
+    skips = may_be_in_pose(run, find_pivot(run)); /* projection need not converge there */
   } else if (run->crossings && status == BAUM_OK) {
     skips = is_below_rounding(run, t - run->state.t);
   }
+  skips = skips && !baum_i_rows_are_apart(run->workspace, t, run->spare.q);
   if (skips) {
     baum_i_run_copy(run, &run->spare, trial);
   }
@@ -69,12 +71,13 @@ baum_status baum_i_run_limit_acceleration(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   const baum_i_state *state = &run->state;
-  if (!run->crossings || !is_in_pose(run, find_present_pivot(run))) {
+  if (!run->crossings || !may_be_in_pose(run, find_present_pivot(run))) {
     return BAUM_OK;
   }
   baum_i_probe probe;
   baum_i_probe_begin(&probe, w);
-  if (baum_i_limit_acceleration(&run->problem, state, run->trial.q, run->spare.v)) {
+  if (!baum_i_rows_are_apart(w, state->t, state->q) &&
+      baum_i_limit_acceleration(&run->problem, state, run->trial.q, run->spare.v)) {
     memcpy(run->acceleration, run->spare.v, (size_t)w->mechanism->nv * sizeof *run->spare.v);
   }
   baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
