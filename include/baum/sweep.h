@@ -23,10 +23,11 @@ typedef baum_status baum_sweep_change_fn(baum_mechanism *copy, int64_t run, void
 
 /** The definition of a sweep: what the sweep computes. */
 typedef struct baum_sweep_def {
-  size_t struct_size;           /**< Set by the default function. Do not write. */
-  int64_t count;                /**< [-] > 0, number of runs. Default: 0, must be set. */
-  baum_sweep_change_fn *change; /**< Changes the copy for each run. Default: NULL, must be set. */
-  void *user;                   /**< Passed to the function `change`, not owned. Default: NULL. */
+  size_t struct_size; /**< Set by the default function. Do not write. */
+  int64_t count;      /**< [-] > 0, number of runs. Default: 0, must be set. */
+  /** Changes the copy of the mechanism that a run uses. Default: NULL, must be set. */
+  baum_sweep_change_fn *change;
+  void *user; /**< Passed to the function `change`, not owned. Default: NULL. */
   /** (time_count) [s] times of the samples, monotone. Default: NULL, must be set. */
   const double *times;
   int64_t time_count; /**< [-] > 0, number of times. Default: 0, must be set. */

@@ -339,9 +339,9 @@ class AddingInSpace:
         the curve. For a helix with the radius r and the rise c per radian, F = x - r cos(z / c) and
         G = y - r sin(z / c). Give either `point`, or both point_a and point_b.
 
-        curve(xyz): 20 numbers for the point xyz [m]: F [m] and its partial derivatives F_x, F_y,
-            F_z, F_xx, F_xy, F_xz, F_yy, F_yz, F_zz, and then the same ten numbers of G. The
-            coordinates xyz are in the axes of body_a, with body_a's point as origin.
+        curve(xyz): F [m] and its partial derivatives F_x, F_y, F_z, F_xx, F_xy, F_xz, F_yy, F_yz,
+            F_zz at the point xyz [m], then the same ten numbers of G. The coordinates xyz are in
+            the axes of body_a, with body_a's point as origin.
         point: the origin of the curve in the design configuration, in ground axes [m].
         point_a, point_b: the origin of the curve in the axes of body_a, and the point of body_b in
             the axes of body_b [m].

@@ -96,7 +96,7 @@ def shift(inertia: ArrayLike, mass: Scalar, offset: ArrayLike) -> Array:
 
 
 def rotate(inertia: ArrayLike, orientation: OrientationLike) -> Array:
-    """Return the tensor R I R^T of a part in the axes of the body.
+    """Rotate the inertia tensor of a part into the axes of the body: return R I R^T.
 
     inertia: tensor I in the axes of the part, in any form that spatial_body() accepts.
     orientation: orientation R of the part in the axes of the body, in any form that spatial_body()

@@ -257,9 +257,9 @@ class Simulation(_calls.Closing):
     In a `with` block, the memory of the run is freed at the end of the block. Only one thread at a
     time may use a run, except that any thread may call cancel().
 
-    Errors: TypeError and ValueError for options of a wrong type or unknown words; baum.Error for
-        options that the library refuses, and for a mechanism that is not frozen or cannot be
-        assembled.
+    Errors: TypeError for options of a wrong type; ValueError for unknown words, such as the name of
+        a formulation that does not exist; baum.Error for options that the library refuses, and for
+        a mechanism that is not frozen or cannot be assembled.
     """
 
     mechanism: Mechanism

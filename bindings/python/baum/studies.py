@@ -148,8 +148,8 @@ class Study(_calls.Closing):
 
     In a `with` block, the end of the block frees the memory of the study and closes its file.
 
-    Errors: TypeError and ValueError for arguments of a wrong type or unknown words; baum.Error for
-        values that the library refuses.
+    Errors: TypeError for arguments of a wrong type; ValueError for unknown words, such as the name
+        of a grid that does not exist; baum.Error for values that the library refuses.
     """
 
     mechanism: Mechanism
