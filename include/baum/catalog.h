@@ -49,7 +49,7 @@ typedef struct baum_catalog_entry {
   const char *source; /**< Where the data of the mechanism come from. */
   /** How the reference was computed and checked; "" if the mechanism has no reference. */
   const char *provenance;
-  const char *note;        /**< Advice for simulating the mechanism; may be "". */
+  const char *note;        /**< A remark, such as "one redundant constraint row"; may be "". */
   int32_t parameter_count; /**< [-] number of parameters, see baum_catalog_parameter_at(). */
   int32_t sample_count;    /**< [-] number of sample times; 0 if there is no reference. */
   double start_time;       /**< [s] start of the motion and of its reference. */

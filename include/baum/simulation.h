@@ -255,8 +255,8 @@ typedef struct baum_simulation_options {
    *  steps since its start, or if this is the first check during the run. The checks during the run
    *  call the functions at states near those of the run. If a derivative is wrong there, the run
    *  warns with BAUM_WARNING_WRONG_DERIVATIVE. If a step fails, the derivatives are checked at the
-   *  last good state, even without this option. If one of them is wrong, the message names it.
-   *  Default: true. */
+   *  last good state, even without this option. If a derivative is wrong there, the message of the
+   *  failed call names it. Default: true. */
   bool check_derivatives;
   /** [-] > 0, largest number of steps in one call that advances the run. A call that needs more
    *  steps fails. Default: 1000000000. */

@@ -322,9 +322,9 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
                                          const double beta2_h2[2], int32_t columns, int32_t rows,
                                          double *radius);
 
-/** Trace the outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at
- *  most `radius`. With `radius` = 1, this is the region of stability. With a smaller radius, it is
- *  the region where each step multiplies violations by at most `radius` in the long run.
+/** Trace the outline of the region where the spectral radius is at most `radius`, with alpha h >= 0
+ *  and beta^2 h^2 >= 0. With `radius` = 1, this is the region of stability. With a smaller radius,
+ *  it is the region where each step multiplies violations by at most `radius` in the long run.
  *
  *  The outline consists of closed curves: one around each part of the region, and one around each
  *  hole in it. The last point of a curve is equal to its first point. If you follow a curve from

@@ -12,10 +12,10 @@
  *   u = U tanh s,  w = W / cosh s,  k = m D U / (I + m D^2),  U k = D W^2,  angle' = w
  *
  * The angle is (2 W / k) atan(tanh(s / 2)), plus a constant. The path of the blade is the
- * integral of u (cos angle, sin angle). This integral is computed by Gauss's quadrature with five
- * points in each interval. The integrand has its singularities at the distance pi / 2 from the real
- * s axis, and each interval has at most the length 0.1 in s. The truncation error of the quadrature
- * is therefore below 1e-17.
+ * integral of u (cos angle, sin angle). To compute this integral, the time is divided into equal
+ * intervals, and Gauss's quadrature uses five points in each of them. The integrand has its
+ * singularities at the distance pi / 2 from the real s axis, and each interval has at most the
+ * length 0.1 in s. The truncation error of the quadrature is therefore below 1e-17.
  */
 #include <float.h>
 #include <math.h>

@@ -487,7 +487,7 @@ class CatalogEntry(NamedTuple):
     source: Where the data of the mechanism come from.
     provenance: How the reference was computed and checked; "" if the mechanism has no
         reference.
-    note: Advice for simulating the mechanism; may be "".
+    note: A remark, such as "one redundant constraint row"; may be "".
     parameter_count: [-] number of parameters, see baum.catalog.parameter_at().
     sample_count: [-] number of sample times; 0 if there is no reference.
     start_time: [s] start of the motion and of its reference.

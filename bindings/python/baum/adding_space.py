@@ -494,11 +494,11 @@ class AddingInSpace:
         points that are fixed in bodies. It is attached to the first and the last point, and slides
         over the other points without friction.
 
-        With the stretch s = length - free_length, the tension is stiffness s + damping w(s /
-        transition) (d/dt length) if s and this sum are positive, otherwise 0. The function w(x) =
-        x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1, and w(x) = 1 for x > 1. The tension is
-        therefore continuous when the cable becomes taut. Between two points that coincide, the
-        cable exerts no force.
+        With the stretch s = length - free_length, the tension is the sum of stiffness s and damping
+        w(s / transition) (d/dt length) if s and this sum are positive, otherwise 0. The function
+        w(x) = x^2 (3 - 2 x) grows from 0 at x = 0 to 1 at x = 1, and w(x) = 1 for x > 1. The
+        tension is therefore continuous when the cable becomes taut. Between two points that
+        coincide, the cable exerts no force.
 
         bodies: the body of each point, in the order of the path. The same body may occur several
             times.
