@@ -427,8 +427,8 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  most 1000. With any other ratio, the value of the row depends on the number of revolutions.
  *
  *  The reaction of a coupling is the generalized force -J^T lambda of its row, with one number for
- *  each velocity of the bodies: first those of joint_a, then those of joint_b. A body of both
- *  joints appears once, and ground does not appear. */
+ *  each velocity of the bodies: first those of joint_a, then those of joint_b. A body that belongs
+ *  to both joints appears once, and ground does not appear. */
 typedef struct baum_coupling_def {
   size_t struct_size;    /**< Set by baum_coupling_def_default(). Do not change it. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
