@@ -271,8 +271,8 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /* ---- constraints given by functions ---------------------------------------------------------- */
 
 /** A user constraint: constraints Phi(q, t) = 0 on the coordinates of the listed bodies, given by
- *  functions of yours. The only function that is required is `phi`. In the comments of the fields,
- *  nv is the total number of velocities of the listed bodies.
+ *  functions of yours. For such constraints, the only required function is `phi`. In the comments
+ *  of the fields, nv is the total number of velocities of the listed bodies.
  *
  *  If velocity_level is true, the functions give constraints J(q, t) v = nu(q, t) on the
  *  velocities. Such constraints are not the time derivative of a Phi; they are non-holonomic, like
@@ -427,8 +427,8 @@ typedef int baum_coupling_fn(double x, double f[3], void *user);
  *  most 1000. With any other ratio, the value of the row depends on the number of revolutions.
  *
  *  The reaction of a coupling is the generalized force -J^T lambda of its row, with one number for
- *  each velocity of the bodies: first those of joint_a, then those of joint_b. A body of both
- *  joints appears once, and ground does not appear. */
+ *  each velocity of the bodies: first those of joint_a, then those of joint_b. A body that belongs
+ *  to both joints appears once, and ground does not appear. */
 typedef struct baum_coupling_def {
   size_t struct_size;    /**< Set by baum_coupling_def_default(). Do not change it. */
   const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -760,7 +760,7 @@ typedef struct baum_mobility {
   int32_t position_degrees_of_freedom;
 } baum_mobility;
 
-/** Count degrees of freedom, redundant and conflicting rows and free bodies, in the assembled
+/** Count degrees of freedom, redundant and conflicting rows, and free bodies, in the assembled
  *  initial configuration at t = 0.
  *  @param      mechanism    if it is not frozen, a frozen copy is examined
  *  @param[out] out          filled also when rows conflict

@@ -511,9 +511,9 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
 
-/** Restore a saved run. You can restore it in the run that was saved, or in another run with the
- *  same mechanism and options, which may be in another process. With the same library on the same
- *  kind of processor, the restored run continues bit for bit as the saved run does.
+/** Restore a saved run. `simulation` may be the run that was saved, or another run with the same
+ *  mechanism and options, even in another process. With the same library on the same kind of
+ *  processor, the restored run continues bit for bit as the saved run does.
  *
  *  The library checks that the mechanism of the saved run and the mechanism of this run have the
  *  same elements in the same order, with equal masses, points, stiffnesses and so on. It also

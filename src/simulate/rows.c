@@ -45,9 +45,9 @@ static bool has_suitable_pivots(const baum_simulation *run)
   return run->workspace->path && run->crossings->usual > NOISE;
 }
 
-/* Return a number in place of a pivot that is not suitable. This function returns a number in place of the pivot. It returns 0, which causes a
- * check, each time the mechanism has moved by WHILE, and otherwise 1. These checks cost little
- * compared with the other work of KLU and QR. */
+/* Return a number in place of a pivot that is not suitable: 0, which causes a check of the rows,
+ * each time the mechanism has moved by WHILE, and otherwise 1. These checks cost little compared
+ * with the other work of KLU and QR. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
