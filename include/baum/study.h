@@ -439,8 +439,8 @@ typedef struct baum_study_reference {
   /** [J] uncertainty of the reference, measured like energy_error of an entry. */
   double uncertainty_energy;
   int32_t samples; /**< [-] number of samples. */
-  /** A text that says to how many digits the runs that compute the reference agree, or why the
-   *  reference is not trusted. */
+  /** A text that states the number of digits to which the runs for the reference agree, or the
+ *  reason why the reference is not trusted. */
   const char *text;
 } baum_study_reference;
 

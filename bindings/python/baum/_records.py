@@ -444,8 +444,8 @@ class StudyReference(NamedTuple):
     uncertainty_energy: [J] uncertainty of the reference, measured like energy_error of an
         entry.
     samples: [-] number of samples.
-    text: A text that says to how many digits the runs that compute the reference agree, or why
-        the reference is not trusted.
+    text: A text that states the number of digits to which the runs for the reference agree, or
+        the reason why the reference is not trusted.
     """
 
     origin: str
