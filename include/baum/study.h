@@ -440,7 +440,7 @@ typedef struct baum_study_reference {
   double uncertainty_energy;
   int32_t samples; /**< [-] number of samples. */
   /** A text that states the number of digits to which the runs for the reference agree, or the
- *  reason why the reference is not trusted. */
+   *  reason why the reference is not trusted. */
   const char *text;
 } baum_study_reference;
 
