@@ -532,7 +532,7 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
 /** Find the Pareto front: the entries for which no other entry is both cheaper and more accurate.
- *  Entries whose error is at the uncertainty of the reference count as equally accurate.
+ *  Entries whose error is at or below the uncertainty of the reference count as equally accurate.
  *  @param      study     the study
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] size of `entries`; >= 0
