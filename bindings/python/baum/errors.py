@@ -160,8 +160,8 @@ class SingularityCrossedWarning(Warning):
 
 
 class ErrorUnknownWarning(Warning):
-    """The error of the motion is unknown, because the second integration, which estimates this
-    error, has failed or was too expensive. The run itself is not affected."""
+    """The error of the motion is unknown, because the second integration that estimates this error
+    has failed or was too expensive. The run itself is not affected."""
 
     code = 9
 
