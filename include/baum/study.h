@@ -422,7 +422,7 @@ typedef enum baum_study_origin {
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
   baum_study_origin origin; /**< Where the reference comes from. */
-  /** False if the study has computed the reference itself, but the runs that compute it agree to
+  /** False if the study has computed the reference itself, and the runs for the reference agree to
    *  fewer than three digits or pass near a singular configuration. */
   bool trusted;
   /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is

@@ -432,8 +432,8 @@ class StudyReference(NamedTuple):
     fields error, error_q, error_v, error_lambda and energy_error of StudyEntry.
 
     origin: Where the reference comes from.
-    trusted: False if the study has computed the reference itself, but the runs that compute it
-        agree to fewer than three digits or pass near a singular configuration.
+    trusted: False if the study has computed the reference itself, and the runs for the
+        reference agree to fewer than three digits or pass near a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
         reference is computed.
     uncertainty: [-] uncertainty of the reference, measured like `error` of an entry.
