@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A spatial four-bar (RSSR): a driven crank about the z axis moves a rocker about an axis in
-another direction, through a coupler with a spherical joint at each end. The coupler can rotate
-about its own axis without moving the other bodies. If a massless rod replaces the coupler, no
-degree of freedom remains, and the motion follows from the constraints alone."""
+"""A spatial four-bar (RSSR). A driven crank rotates about the z axis. It moves a rocker through a
+coupler with a spherical joint at each end. The axis of the rocker has another direction. The
+coupler can rotate about its own axis without moving the other bodies. If a massless rod replaces
+the coupler, no degree of freedom remains, and the motion follows from the constraints alone."""
 
 import sys
 

@@ -360,7 +360,8 @@ typedef enum baum_joint_coordinate {
    *  joint. */
   BAUM_COORDINATE_X = 4,
   /** [m] displacement from body_a's point to body_b's point, along the y axis of a spatial planar
-   *  joint, which lies in the plane of the joint and is perpendicular to its x axis. */
+   *  joint. This axis lies in the plane of the joint and is perpendicular to the x axis of the
+   *  joint. */
   BAUM_COORDINATE_Y = 5
 } baum_joint_coordinate;
 

@@ -927,8 +927,8 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ENERGY_ACCOUNT = 6,
   BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
   BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
-  /** The error of the motion is unknown, because the second integration, which estimates this
-   *  error, failed or became too expensive. */
+  /** The error of the motion is unknown, because the second integration that estimates this error
+   *  failed or became too expensive. */
   BAUM_WARNING_ERROR_UNKNOWN = 9,
   BAUM_WARNING_BRANCH = 100,    /**< The motion may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101, /**< The constraint violation is too large. */

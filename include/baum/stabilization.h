@@ -95,12 +95,12 @@ BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 
-/** Gains that follow from a Taylor expansion, equations (10) and (11) of Flores et al.: alpha =
- *  1/h, beta = sqrt(2)/h. With explicit Euler the spectral radius is 1, so violations do not decay.
- *  With semi-implicit Euler and AB2 to AB4 the spectral radius is greater than 1, so the gains are
- *  unstable and refused. With RK2 these gains are dead-beat. With RK3 the spectral radius is 0.47,
- *  and with RK4 0.37. The orders of accuracy of Euler and RK2 to RK4 are the same as with
- *  baum_gains_deadbeat().
+/** Gains for which the Taylor expansion of the violation to second order is zero after one step,
+ *  equations (10) and (11) of Flores et al.: alpha = 1/h, beta = sqrt(2)/h. With explicit Euler the
+ *  spectral radius is 1, so violations do not decay. With semi-implicit Euler and AB2 to AB4 the
+ *  spectral radius is greater than 1, so the gains are unstable and refused. With RK2 these gains
+ *  are dead-beat. With RK3 the spectral radius is 0.47, and with RK4 0.37. The orders of accuracy
+ *  of Euler and RK2 to RK4 are the same as with baum_gains_deadbeat().
  *  @return  the rule */
 BAUM_API baum_gains baum_gains_taylor(void);
 

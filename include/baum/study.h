@@ -422,7 +422,7 @@ typedef enum baum_study_origin {
 typedef struct baum_study_reference {
   size_t struct_size;       /**< Set by baum_study_reference_read(). */
   baum_study_origin origin; /**< Where the reference comes from. */
-  /** False if the study has computed the reference itself, but the runs that compute it agree to
+  /** False if the study has computed the reference itself, and the runs for the reference agree to
    *  fewer than three digits or pass near a singular configuration. */
   bool trusted;
   /** [-] number of digits that can be trusted, -log10(uncertainty). NaN before the reference is
@@ -439,8 +439,8 @@ typedef struct baum_study_reference {
   /** [J] uncertainty of the reference, measured like energy_error of an entry. */
   double uncertainty_energy;
   int32_t samples; /**< [-] number of samples. */
-  /** A text that says to how many digits the runs that compute the reference agree, or why the
-   *  reference is not trusted. */
+  /** A text that states the number of digits to which the runs for the reference agree, or the
+   *  reason why the reference is not trusted. */
   const char *text;
 } baum_study_reference;
 
@@ -532,7 +532,7 @@ BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
 /** Find the Pareto front: the entries for which no other entry is both cheaper and more accurate.
- *  Entries whose error is at the uncertainty of the reference count as equally accurate.
+ *  Entries whose error is at or below the uncertainty of the reference count as equally accurate.
  *  @param      study     the study
  *  @param      cost      how cost is measured
  *  @param      capacity  [-] size of `entries`; >= 0

@@ -432,8 +432,8 @@ class StudyReference(NamedTuple):
     fields error, error_q, error_v, error_lambda and energy_error of StudyEntry.
 
     origin: Where the reference comes from.
-    trusted: False if the study has computed the reference itself, but the runs that compute it
-        agree to fewer than three digits or pass near a singular configuration.
+    trusted: False if the study has computed the reference itself, and the runs for the
+        reference agree to fewer than three digits or pass near a singular configuration.
     digits: [-] number of digits that can be trusted, -log10(uncertainty). NaN before the
         reference is computed.
     uncertainty: [-] uncertainty of the reference, measured like `error` of an entry.
@@ -444,8 +444,8 @@ class StudyReference(NamedTuple):
     uncertainty_energy: [J] uncertainty of the reference, measured like energy_error of an
         entry.
     samples: [-] number of samples.
-    text: A text that says to how many digits the runs that compute the reference agree, or why
-        the reference is not trusted.
+    text: A text that states the number of digits to which the runs for the reference agree, or
+        the reason why the reference is not trusted.
     """
 
     origin: str

@@ -160,8 +160,8 @@ class SingularityCrossedWarning(Warning):
 
 
 class ErrorUnknownWarning(Warning):
-    """The error of the motion is unknown, because the second integration, which estimates this
-    error, has failed or was too expensive. The run itself is not affected."""
+    """The error of the motion is unknown, because the second integration that estimates this error
+    has failed or was too expensive. The run itself is not affected."""
 
     code = 9
 
@@ -197,8 +197,9 @@ class SingularStartWarning(DoubtWarning):
 
 
 class BushingWarning(DoubtWarning):
-    """The rotation of a bushing has passed pi, where its moment jumps. Or a step was too long for a
-    spatial torsion spring whose axes nearly pointed in opposite directions."""
+    """The rotation of a bushing has passed pi, where its moment jumps. Or a step was too long to
+    follow the angle of a spatial torsion spring whose axes nearly pointed in opposite
+    directions."""
 
     code = 105
 

@@ -50,9 +50,9 @@ def scaled(alpha_h: Scalar, beta2_h2: Scalar) -> Gains:
 
 
 def taylor() -> Gains:
-    """Gains that follow from a Taylor expansion: alpha = 1/h and beta = sqrt(2)/h, where h is the
-    step. They need a fixed step. With explicit Euler they are marginally stable, so violations do
-    not decay."""
+    """Gains for which the Taylor expansion of the violation to second order is zero after one step:
+    alpha = 1/h and beta = sqrt(2)/h, where h is the step. They need a fixed step. With explicit
+    Euler they are marginally stable, so violations do not decay."""
     return Gains("taylor")
 
 

@@ -488,8 +488,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
             _calls.interruptible(_calls.make, function, self.handle, *arguments)
 
     def channel(self, value: ChannelLike) -> Channel:
-        """Return the channel with a name, such as "energy" or "B.phi". Raises KeyError if there is
-        no such channel. If the value is a Channel already, return it unchanged."""
+        """Return the channel of the given name, such as "energy" or "B.phi". Raises KeyError if
+        there is no such channel. If the value is a Channel already, return it unchanged."""
         if isinstance(value, Channel):
             return value
         if not isinstance(value, str):
