@@ -159,11 +159,13 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
   memcpy(run->rk.start, state->q, (size_t)run->rk.nq * sizeof *state->q);
   memcpy(run->rk.start + run->rk.nq, state->v, (size_t)run->rk.nv * sizeof *state->v);
   baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
+  if (status == BAUM_OK) {
+    status = baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
+  }
   if (status != BAUM_OK) {
     keep_failure(run, status);
     return fail_with_evaluation(run, 0.0);
   }
-  baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
   baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
   run->unfinished = false;
   return BAUM_OK;

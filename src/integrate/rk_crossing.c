@@ -101,19 +101,23 @@ static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, doubl
   }
 }
 
-void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
-                              const baum_i_problem *problem, double t)
+baum_status baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                     const baum_i_problem *problem, double t)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
   crossing->usual = pivot; /* forget earlier steps */
+  crossing->pivot = 1.0;
   crossing->held = 0;
-  if (pivot < PIVOT_OF_START) {
-    look_further(crossing, rk, problem, t);
+  if (pivot >= PIVOT_OF_START) {
+    return BAUM_OK;
   }
+  look_further(crossing, rk, problem, t);
   crossing->pivot = crossing->usual > 0.0 ? pivot / crossing->usual : 0.0;
   if (crossing->pivot < BAUM_I_PIVOT_IN_POSE) {
     take_limit(rk, problem, t);
   }
+  /* The workspace contains Phi of another configuration, but the run observes Phi of the start. */
+  return baum_i_violation(problem->workspace, t, rk->start, rk->start + rk->nq);
 }
 
 /* Find the time until the singular configuration [s]. The square root of the pivot decreases

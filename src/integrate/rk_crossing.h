@@ -26,9 +26,10 @@ typedef struct baum_i_rk_crossing {
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
-/* Start at t. The rate at t must have been evaluated last. */
-void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
-                              const baum_i_problem *problem, double t);
+/* Start at t. The rate at t must have been evaluated last. Afterwards the workspace contains Phi
+ * and Phi' of the start. */
+baum_status baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                     const baum_i_problem *problem, double t);
 
 /* Prepare a step from t: find `ahead` and `least`. */
 void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
