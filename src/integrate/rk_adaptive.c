@@ -308,7 +308,9 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     double most = baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol;
     most = fmax(1.0, most); /* largest accepted error, in units of the tolerance */
     baum_status status = try_step(run, problem, most, &error);
-    if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
+    if (status == BAUM_OK && error <= most &&
+        baum_i_rk_crossing_may_end(&run->crossing, &run->rk, problem, run->h, run->t_end,
+                                   run->end)) {
       run->forced += error > 1.0;
       accept(run, fmin(error, 1.0), length, state);
       return BAUM_OK;

@@ -45,9 +45,11 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
  * tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* Check the end of a step. This end must have been evaluated last. Returns false if the step must
- * not end there. */
-bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
+/* Check the end (t_end, end) of a step by h. This end must have been evaluated last. Returns false
+ * if the step must not end there. */
+bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                const baum_i_problem *problem, double h, double t_end,
+                                const double *end);
 
 /* Continue after an accepted step. Its end is the start of the next step, which has the length
  * `next`. */
