@@ -113,8 +113,9 @@ struct baum_integrator {
   /* Interpolate positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Restart from a state, in problem->direction. Allocates nothing. NULL for methods that do not
-   * use past steps; not called if baum_i_integrator_remembers() is false. */
+  /* Restart from a state, in problem->direction. Phi and Phi' in the workspace must afterwards be
+   * those of this state, or as before. Allocates nothing. NULL for methods that do not use past
+   * steps; not called if baum_i_integrator_remembers() is false. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
   /* Make the next step restart from its given state and with new pivots, so that nothing depends on
    * earlier steps. Neither evaluates nor allocates. Required if `restart` is given. */

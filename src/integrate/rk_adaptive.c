@@ -159,11 +159,13 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
   memcpy(run->rk.start, state->q, (size_t)run->rk.nq * sizeof *state->q);
   memcpy(run->rk.start + run->rk.nq, state->v, (size_t)run->rk.nv * sizeof *state->v);
   baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
+  if (status == BAUM_OK) {
+    status = baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
+  }
   if (status != BAUM_OK) {
     keep_failure(run, status);
     return fail_with_evaluation(run, 0.0);
   }
-  baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
   baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
   run->unfinished = false;
   return BAUM_OK;
@@ -306,7 +308,9 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     double most = baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol;
     most = fmax(1.0, most); /* largest accepted error, in units of the tolerance */
     baum_status status = try_step(run, problem, most, &error);
-    if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
+    if (status == BAUM_OK && error <= most &&
+        baum_i_rk_crossing_may_end(&run->crossing, &run->rk, problem, run->h, run->t_end,
+                                   run->end)) {
       run->forced += error > 1.0;
       accept(run, fmin(error, 1.0), length, state);
       return BAUM_OK;

@@ -22,7 +22,8 @@ static const double ROUNDING = 1e-9;
 
 /* Limits for the pivot p relative to its usual value. If p is below PIVOT_AHEAD, the method
  * searches for a singular configuration ahead. A step that starts with p above PIVOT_AHEAD must not
- * end with p below PIVOT_POOR, where the error ROUNDING / p is large. */
+ * end near a singular configuration with p below PIVOT_POOR, where the error ROUNDING / p is
+ * large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
 /* [rad] Scaled motion between the two configurations whose pivots find_ahead() extrapolates. */
@@ -101,19 +102,23 @@ static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, doubl
   }
 }
 
-void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
-                              const baum_i_problem *problem, double t)
+baum_status baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                     const baum_i_problem *problem, double t)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
   crossing->usual = pivot; /* forget earlier steps */
+  crossing->pivot = 1.0;
   crossing->held = 0;
-  if (pivot < PIVOT_OF_START) {
-    look_further(crossing, rk, problem, t);
+  if (pivot >= PIVOT_OF_START) {
+    return BAUM_OK;
   }
+  look_further(crossing, rk, problem, t);
   crossing->pivot = crossing->usual > 0.0 ? pivot / crossing->usual : 0.0;
   if (crossing->pivot < BAUM_I_PIVOT_IN_POSE) {
     take_limit(rk, problem, t);
   }
+  /* The workspace contains Phi of another configuration, but the run observes Phi of the start. */
+  return baum_i_violation(problem->workspace, t, rk->start, rk->start + rk->nq);
 }
 
 /* Find the time until the singular configuration [s]. The square root of the pivot decreases
@@ -178,11 +183,17 @@ double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bo
 }
 
 /* A step that began without a search for a singular configuration ahead must not end near a
- * singular configuration. */
-bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
+ * singular configuration. In a short step, or where J keeps its rank, no singular configuration has
+ * made the pivot so small. The measure has jumped, as KLU's estimate does if the order of pivots
+ * changes. A shorter step would not help then. */
+bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                const baum_i_problem *problem, double h, double t_end,
+                                const double *end)
 {
   crossing->pivot_end = see_pivot(crossing, problem);
-  return crossing->pivot < PIVOT_AHEAD || crossing->pivot_end >= PIVOT_POOR;
+  return crossing->pivot < PIVOT_AHEAD || crossing->pivot_end >= PIVOT_POOR ||
+         fabs(h) * find_rate(rk, problem) < SHORT ||
+         baum_i_rows_are_apart(problem->workspace, t_end, end);
 }
 
 void baum_i_rk_crossing_go_on(baum_i_rk_crossing *crossing, const baum_i_rk *rk,

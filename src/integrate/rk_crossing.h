@@ -26,9 +26,10 @@ typedef struct baum_i_rk_crossing {
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
-/* Start at t. The rate at t must have been evaluated last. */
-void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
-                              const baum_i_problem *problem, double t);
+/* Start at t. The rate at t must have been evaluated last. Afterwards the workspace contains Phi
+ * and Phi' of the start. */
+baum_status baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                     const baum_i_problem *problem, double t);
 
 /* Prepare a step from t: find `ahead` and `least`. */
 void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
@@ -44,9 +45,11 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
  * tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* Check the end of a step. This end must have been evaluated last. Returns false if the step must
- * not end there. */
-bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
+/* Check the end (t_end, end) of a step by h. This end must have been evaluated last. Returns false
+ * if the step must not end there. */
+bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                const baum_i_problem *problem, double h, double t_end,
+                                const double *end);
 
 /* Continue after an accepted step. Its end is the start of the next step, which has the length
  * `next`. */

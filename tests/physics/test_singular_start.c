@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "construct.h"
 #include "models.h"
 #include "runs.h"
 
@@ -151,12 +152,49 @@ static void a_run_that_starts_near_a_folded_configuration_needs_few_steps(void *
   model_destroy(&m);
 }
 
+/* ---- set states ---- */
+
+/* The pivots of three almost point-like links in a chain are below 1e-4 in every configuration. At
+ * such a start, rk8 and dp5 also evaluate another configuration. The run must not take the
+ * violation of that configuration for its own. */
+static void a_set_state_with_a_small_pivot_has_its_own_violation(void **state)
+{
+  (void)state;
+  const baum_integrator *const pairs[2] = {baum_rk8(), baum_dp5()};
+  baum_mechanism *m = create_mechanism();
+  baum_body_id last = BAUM_GROUND;
+  for (int k = 0; k < 3; k++) {
+    baum_planar_body_def link = baum_planar_body_def_default();
+    baum_body_id id;
+    link.inertia = 1e-5;
+    link.position[0] = k + 0.5;
+    assert_int_equal(baum_mechanism_add_planar_body(m, &link, &id), BAUM_OK);
+    (void)add_planar_pin(m, NULL, last, id, k, 0.0);
+    last = id;
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  const model chain = {.mechanism = m};
+  for (int k = 0; k < 2; k++) {
+    baum_simulation *first = create(&chain, pairs[k], 1e-8);
+    baum_simulation *second = create(&chain, pairs[k], 1e-8);
+    assert_int_equal(baum_simulation_advance_to(first, 0.5), BAUM_OK);
+    assert_int_equal(
+      baum_simulation_set_state(second, 0.5, baum_simulation_q(first), baum_simulation_v(first)),
+      BAUM_OK);
+    assert_true(counters_of(second).max_phi <= 1e-14);
+    baum_simulation_destroy(first);
+    baum_simulation_destroy(second);
+  }
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_moving_run_follows_the_exact_motion),
     cmocka_unit_test(a_run_from_rest_continues_with_a_warning_or_ends),
     cmocka_unit_test(a_run_that_starts_near_a_folded_configuration_needs_few_steps),
+    cmocka_unit_test(a_set_state_with_a_small_pivot_has_its_own_violation),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
