@@ -407,9 +407,9 @@ BAUM_API baum_status baum_mechanism_set_spatial_screw(baum_mechanism *mechanism,
 /** A constant-velocity joint, such as a Rzeppa joint: two shafts meet at a point and rotate with
  *  equal angular velocities about their axes, at any angle between the axes. The joint has four
  *  rows: three make the points of both bodies coincide [m], and one [-] keeps the twist of body_b
- *  relative to body_a (their relative rotation about the shaft axes) at 0. The angle between the
- *  axes must stay below 180 degrees. The derivatives of the fourth row are proportional to the
- *  cosine of half this angle, so the joint is ill-conditioned close to 180 degrees. */
+ *  relative to body_a (their relative rotation about the shaft axes) at 0. The multiplier of the
+ *  fourth row is the moment about the bisector of the axes. A motion may pass 180 degrees, where
+ *  the axes point in opposite directions; the direction of the bisector is continuous there. */
 typedef struct baum_spatial_constant_velocity_def {
   size_t struct_size; /**< Set by baum_spatial_constant_velocity_def_default(). Do not change it. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */

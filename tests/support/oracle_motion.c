@@ -326,7 +326,8 @@ static int add_thread(const oracle_joint *joint, const motion *bodies, jet *out)
 }
 
 /* Sets the row that keeps the twist of two shafts at 0. The relative angular velocity is normal to
- * z_a + z_b (K. H. Hunt, 1973). */
+ * z_a + z_b (K. H. Hunt, 1973). The row of the library has a gradient of length 1 at every angle
+ * between the shafts, so both expressions are divided by the length of z_a + z_b. */
 static int add_equal_speeds(const oracle_joint *joint, const moving *m, const motion *bodies,
                             jet *out)
 {
@@ -339,9 +340,11 @@ static int add_equal_speeds(const oracle_joint *joint, const moving *m, const mo
     sum[i] = jet_add(m->axes[0][2][i], m->axes[1][2][i]);
     relative[i] = jet_less(w[1][i], w[0][i]);
   }
-  const jet slip = jet_dot(sum, relative);
-  const jet twist =
+  const jet length = jet_root(jet_dot(sum, sum));
+  const jet slip = jet_quotient(jet_dot(sum, relative), length);
+  const jet sine =
     jet_less(jet_dot(m->axes[0][1], m->axes[1][0]), jet_dot(m->axes[0][0], m->axes[1][1]));
+  const jet twist = jet_quotient(sine, length);
   out[0] = (jet){{twist.d[0], slip.d[0], slip.d[1]}};
   return 1;
 }

@@ -444,8 +444,9 @@ class AddingInSpace:
         axis_b: ArrayLike | None = None,
     ) -> Joint:
         """Connect two shafts that meet at a point, so that they rotate with equal angular
-        velocities about their axes. The angle between the axes may have any value below 180
-        degrees. The joint has four rows: three for the points [m] and one for the rotation [-].
+        velocities about their axes. The angle between the axes may have any value. A motion may
+        pass 180 degrees. The joint has four rows: three for the points [m] and one for the
+        rotation [-].
 
         axis, axis_b: directions of the shafts. All arguments are given as in spatial_revolute().
         """

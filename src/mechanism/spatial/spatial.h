@@ -65,6 +65,14 @@ baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_
 void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
                            baum_i_box *box);
 
+/* Writes the orientation of a body with an orientation, or of ground, as a unit quaternion. It is
+ * continuous in the positions q of the body, which must be normalized. The quaternion of a planar
+ * body changes its sign in one revolution. */
+void baum_i_spatial_orientation_at(baum_i_frame_kind kind, const double *q, double p[4]);
+
+/* Writes the orientation of a body in the design configuration. May be called before freeze. */
+void baum_i_spatial_design_orientation(const baum_mechanism *mechanism, int body, double p[4]);
+
 /* Tells whether a point is given. All entries of a point that is not given are NaN. */
 static inline bool baum_i_spatial_is_given(const double point[3])
 {

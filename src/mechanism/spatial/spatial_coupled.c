@@ -1,31 +1,48 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spatial joints whose last row is composed of several products (spatial_rows.h): the screw and the
+/* Spatial joints whose last row is not a product (spatial_rows.h): the screw and the
  * constant-velocity joint. All other rows are products.
  *
  *   screw              Phi = d - offset - pitch angle / (2 pi)
- *   constant velocity  Phi = y_a . x_b - x_a . y_b
+ *   constant velocity  Phi = 2 p_z
  *
  * In the screw, d and the angle are the coordinates of a cylindrical joint. Positions determine the
  * angle only up to whole revolutions, and therefore Phi only up to multiples of the pitch. The
  * value of Phi that is nearest to 0 is used.
  *
- * In the constant-velocity joint, Phi is 4 p_w p_z with the quaternion p of the relative rotation
- * (see spatial_torsion_spring.c). If Phi is 0 because p_z is 0, the axis of the relative rotation
- * is normal to z_a, and the relative angular velocity is normal to z_a + z_b (K. H. Hunt,
- * Constant-velocity shaft couplings: a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed
- * axes therefore rotate with equal angular velocities. Phi is also 0 if p_w is 0, which is the case
- * after one shaft is rotated by pi about its axis; x_a . x_b + y_a . y_b is negative there. */
+ * In the constant-velocity joint, p is the quaternion of the rotation of body_b's joint axes
+ * relative to body_a's joint axes. If p_z is 0, the axis of this rotation is normal to z_a, and the
+ * relative angular velocity is normal to z_a + z_b (K. H. Hunt, Constant-velocity shaft couplings:
+ * a general theory, J. Eng. Ind. 95, 1973). Shafts with fixed axes therefore rotate with equal
+ * angular velocities. Let W_y be the angular velocities of a motion y, in ground axes and constant
+ * in body axes, and let D_y be the derivative along y. With s_y = W_ya + W_yb, d_y = W_yb - W_ya
+ * and no index for the present motion,
+ *
+ *   n       = p_y x_a - p_x y_a + p_w z_a;  z_a + z_b = 2 p_w n if p_z = 0
+ *   D_y Phi = n . d_y
+ *   D_y n   = (s_y x n - p_z d_y) / 2
+ *   gamma   = p_z d . d / 2 + n . (W_a x W_b),   (J w)_y = (D_w n) . d_y
+ *
+ * The length of n is sqrt(1 - p_z^2), so the row is regular at every angle between the shafts. The
+ * product y_a . x_b - x_a . y_b = 4 p_w p_z has the same zeros, but its derivatives vanish if the
+ * shafts point in opposite directions, where p_w = 0. A motion without resistance passes such
+ * configurations, because p_w = 0 is only one condition if p_z is 0. The state determines the sign
+ * of p, because it contains quaternions or angles of planar bodies and not only axes. */
 #include <math.h>
 #include <string.h>
 
 #include "base/message.h"
 #include "mechanism/general/coordinate.h"
 #include "mechanism/spatial/spatial_joint.h"
+#include "mechanism/spatial/spatial_motion.h"
 
 enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* Parameters of a screw, after the points and axes. */
 enum { PITCH = BAUM_I_SPATIAL_NUMBERS, OFFSET, SCREW_COUNT };
+
+/* Parameters of a constant-velocity joint, after the points and axes: the orientations of the joint
+ * axes on body_a and on body_b in body axes, as quaternions. */
+enum { AXES_IN_BODY = BAUM_I_SPATIAL_NUMBERS, SHAFTS_COUNT = AXES_IN_BODY + 8 };
 
 /* ---- rows of both joints ---- */
 
@@ -37,16 +54,13 @@ typedef struct state {
   baum_i_spatial_pair pair;
 } state;
 
-/* The type of a joint whose last row is a sum of two terms. */
+/* The type of a joint whose last row is not a product. */
 typedef struct coupled_type {
   baum_i_spatial_joint_type spatial;
-  /* Evaluate term `number` (0 or 1), multiplied by its factor. */
-  void (*term)(const state *s, int number, baum_i_coordinate *out);
-  /* Compute the second derivatives of this term. w has twelve entries. */
-  void (*term_linearize)(const state *s, int number, const double *w, double lambda,
+  void (*last_row)(const state *s, baum_i_coordinate *out);
+  /* Compute the second derivatives of the last row. w has twelve entries. */
+  void (*last_linearize)(const state *s, const double *w, double lambda,
                          baum_i_coordinate_blocks *out);
-  /* Return Phi. `sum` is the sum of the values of both terms. */
-  double (*phi)(const state *s, double sum);
 } coupled_type;
 
 static const coupled_type *type_of(const baum_i_joint *joint)
@@ -60,16 +74,6 @@ static state state_at(const baum_i_joint *joint, const baum_i_point *point)
   return (state){joint, point, numbers, baum_i_spatial_pair_at(&joint->span, numbers, true, point)};
 }
 
-static void scale(double factor, baum_i_coordinate *c)
-{
-  c->value *= factor;
-  c->rate *= factor;
-  c->gamma *= factor;
-  for (int k = 0; k < COLUMNS; k++) {
-    c->gradient[k] *= factor;
-  }
-}
-
 static void row_at(const state *s, int number, baum_i_coordinate *out)
 {
   const coupled_type *type = type_of(s->joint);
@@ -77,15 +81,7 @@ static void row_at(const state *s, int number, baum_i_coordinate *out)
     baum_i_spatial_row_at(&s->pair, type->spatial.rows[number], out);
     return;
   }
-  baum_i_coordinate other;
-  type->term(s, 0, out);
-  type->term(s, 1, &other);
-  out->value = type->phi(s, out->value + other.value);
-  out->rate += other.rate;
-  out->gamma += other.gamma;
-  for (int k = 0; k < COLUMNS; k++) {
-    out->gradient[k] += other.gradient[k];
-  }
+  type->last_row(s, out);
 }
 
 static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
@@ -123,17 +119,13 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
   baum_i_spatial_linearize_products(&s.pair, type->spatial.rows, last, 1.0, w_wide,
                                     lambda ? lambda + joint->row : NULL, &wide);
-  for (int n = 0; n < 2; n++) {
-    baum_i_coordinate_blocks term;
-    type->term_linearize(&s, n, w_wide, lambda ? lambda[joint->row + last] : 0.0, &term);
-    for (int k = 0; k < COLUMNS; k++) {
-      jw_q[at + k] += term.jw_q[k];
-      gamma_q[at + k] += term.gamma_q[k];
-      gamma_v[at + k] += term.gamma_v[k];
-    }
-    for (int k = 0; k < COLUMNS * COLUMNS; k++) {
-      jtl_q[k] += term.jtl_q[k];
-    }
+  baum_i_coordinate_blocks row;
+  type->last_linearize(&s, w_wide, lambda ? lambda[joint->row + last] : 0.0, &row);
+  memcpy(jw_q + at, row.jw_q, sizeof row.jw_q);
+  memcpy(gamma_q + at, row.gamma_q, sizeof row.gamma_q);
+  memcpy(gamma_v + at, row.gamma_v, sizeof row.gamma_v);
+  for (int k = 0; k < COLUMNS * COLUMNS; k++) {
+    jtl_q[k] += row.jtl_q[k];
   }
   baum_i_columns_pack_blocks(point->mechanism, joint, BAUM_I_SPACE, &wide, blocks);
   return BAUM_OK;
@@ -157,13 +149,12 @@ static baum_status lower_axes(const baum_mechanism *mechanism, const baum_i_join
 }
 
 /* The members that both types set. */
-#define COUPLED(NAME, TITLE, LOWER, ROWS, COUNT, REVERSED, FIELDS)                             \
+#define COUPLED(NAME, TITLE, LOWER, ROWS, COUNT, FIELDS)                                       \
   .definition = {BAUM_I_DEFINITION(NAME, TITLE, FIELDS), .check = baum_i_spatial_check_axes,   \
                  .parameter_count = (COUNT)},                                                  \
   .width = BAUM_I_SPACE, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER),           \
   .extent = baum_i_spatial_extent, .evaluate = baum_i_evaluate_each, .evaluate_one = evaluate, \
-  .linearize = linearize, .place = baum_i_spatial_place, .force_on_b = force_on_b,             \
-  .is_reversed = (REVERSED)
+  .linearize = linearize, .place = baum_i_spatial_place, .force_on_b = force_on_b
 
 /* ---- screw ---- */
 
@@ -195,35 +186,36 @@ static baum_status lower_screw(const baum_mechanism *mechanism, const baum_i_joi
   return BAUM_OK;
 }
 
-/* Return the factor of a term. Term 0 is the displacement, and term 1 is the angle, each multiplied
- * by its factor. */
-static double factor_of(const state *s, int number)
+static void screw_row(const state *s, baum_i_coordinate *out)
 {
-  return number == 0 ? 1.0 : -s->numbers[PITCH] / BAUM_I_REVOLUTION;
-}
-
-static void screw_term(const state *s, int number, baum_i_coordinate *out)
-{
-  const baum_i_joint_coordinate c = {s->joint, number};
-  baum_i_coordinate_near_zero(&c, s->point, out);
-  scale(factor_of(s, number), out);
-}
-
-static void screw_linearize(const state *s, int number, const double *w, double lambda,
-                            baum_i_coordinate_blocks *out)
-{
-  const double factor = factor_of(s, number);
-  baum_i_spatial_coordinate_linearize(s->joint, number, s->point, w, factor * lambda, out);
+  const double pitch = s->numbers[PITCH], factor = -pitch / BAUM_I_REVOLUTION;
+  const baum_i_joint_coordinate displacement = {s->joint, 0}, angle = {s->joint, 1};
+  baum_i_coordinate turned;
+  baum_i_coordinate_near_zero(&displacement, s->point, out);
+  baum_i_coordinate_near_zero(&angle, s->point, &turned);
+  out->value = remainder(out->value + factor * turned.value - s->numbers[OFFSET], pitch);
+  out->rate += factor * turned.rate;
+  out->gamma += factor * turned.gamma;
   for (int k = 0; k < COLUMNS; k++) {
-    out->jw_q[k] *= factor;
-    out->gamma_q[k] *= factor;
-    out->gamma_v[k] *= factor;
+    out->gradient[k] += factor * turned.gradient[k];
   }
 }
 
-static double screw_phi(const state *s, double sum)
+static void screw_linearize(const state *s, const double *w, double lambda,
+                            baum_i_coordinate_blocks *out)
 {
-  return remainder(sum - s->numbers[OFFSET], s->numbers[PITCH]);
+  const double factor = -s->numbers[PITCH] / BAUM_I_REVOLUTION;
+  baum_i_coordinate_blocks turned;
+  baum_i_spatial_coordinate_linearize(s->joint, 0, s->point, w, lambda, out);
+  baum_i_spatial_coordinate_linearize(s->joint, 1, s->point, w, factor * lambda, &turned);
+  for (int k = 0; k < COLUMNS; k++) {
+    out->jw_q[k] += factor * turned.jw_q[k];
+    out->gamma_q[k] += factor * turned.gamma_q[k];
+    out->gamma_v[k] += factor * turned.gamma_v[k];
+  }
+  for (int k = 0; k < COLUMNS * COLUMNS; k++) {
+    out->jtl_q[k] += turned.jtl_q[k];
+  }
 }
 
 static const baum_i_def_field screw_fields[] = {
@@ -234,8 +226,8 @@ static const baum_i_def_field screw_fields[] = {
 };
 
 static const coupled_type screw = {
-  {{COUPLED(spatial_screw, "spatial screw", lower_screw, 5, SCREW_COUNT, baum_i_spatial_is_reversed,
-            screw_fields),
+  {{COUPLED(spatial_screw, "spatial screw", lower_screw, 5, SCREW_COUNT, screw_fields),
+    .is_reversed = baum_i_spatial_is_reversed,
     .coordinates = {BAUM_COORDINATE_DISPLACEMENT, BAUM_COORDINATE_ANGLE},
     .coordinate = baum_i_spatial_coordinate,
     .coordinate_linearize = baum_i_spatial_coordinate_linearize},
@@ -247,46 +239,163 @@ static const coupled_type screw = {
                        {{BAUM_I_Y_A, BAUM_I_X_B}, {BAUM_I_X_A, BAUM_I_X_B}}},
    .directed_count = 1,
    .directed = {{BAUM_I_Z_A, BAUM_I_Z_B}}},
-  .term = screw_term,
-  .term_linearize = screw_linearize,
-  .phi = screw_phi,
+  .last_row = screw_row,
+  .last_linearize = screw_linearize,
 };
 
 BAUM_I_DEFINE(joint, spatial_screw, screw.spatial.type)
 
 /* ---- constant-velocity joint ---- */
 
-static const baum_i_spatial_row TWIST[2] = {{BAUM_I_Y_A, BAUM_I_X_B}, {BAUM_I_X_A, BAUM_I_Y_B}};
-
-static void twist_term(const state *s, int number, baum_i_coordinate *out)
+/* Compute p from the orientations of both bodies, which are unit quaternions. */
+static void relative_rotation(const double *numbers, double body[2][4], double p[4])
 {
-  baum_i_spatial_row_at(&s->pair, TWIST[number], out);
-  scale(number == 0 ? 1.0 : -1.0, out);
+  double joint[2][4];
+  for (int k = 0; k < 2; k++) {
+    baum_i_quaternion_product(body[k], numbers + AXES_IN_BODY + (ptrdiff_t)4 * k, joint[k]);
+  }
+  const double back[4] = {joint[0][0], -joint[0][1], -joint[0][2], -joint[0][3]};
+  baum_i_quaternion_product(back, joint[1], p);
 }
 
-static void twist_linearize(const state *s, int number, const double *w, double lambda,
-                            baum_i_coordinate_blocks *out)
+/* Store the orientations of the joint axes in body axes, as quaternions. Their signs are such that
+ * p_w > 0 in the design configuration. */
+static baum_status lower_shafts(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                double *parameters)
 {
-  const double sign = number == 0 ? 1.0 : -1.0;
-  baum_i_spatial_row_linearize(&s->pair, TWIST[number], w, sign * lambda, out);
-  for (int k = 0; k < COLUMNS; k++) {
-    out->jw_q[k] *= sign;
-    out->gamma_q[k] *= sign;
-    out->gamma_v[k] *= sign;
+  double body[2][4], p[4];
+  BAUM_I_TRY(lower_axes(mechanism, joint, parameters));
+  for (int k = 0; k < 2; k++) {
+    const double *axes =
+      parameters + (k == 0 ? (int)BAUM_I_SPATIAL_AXES_A : (int)BAUM_I_SPATIAL_AXES_B);
+    double columns[9];
+    for (int i = 0; i < 9; i++) {
+      columns[i] = axes[3 * (i % 3) + i / 3];
+    }
+    baum_i_quaternion_of(columns, parameters + AXES_IN_BODY + (ptrdiff_t)4 * k);
+    baum_i_spatial_design_orientation(mechanism, joint->span.bodies[k], body[k]);
+  }
+  relative_rotation(parameters, body, p);
+  for (int i = 4; p[0] < 0.0 && i < 8; i++) {
+    parameters[AXES_IN_BODY + i] *= -1.0;
+  }
+  return BAUM_OK;
+}
+
+/* The numbers from which the row and its derivatives are computed, see the head of this file. */
+typedef struct shafts {
+  baum_i_spatial_motion motion;
+  double p[4];
+  double n[3];
+} shafts;
+
+static shafts shafts_at(const state *s)
+{
+  shafts out = {.motion = baum_i_spatial_motion_at(s->pair.frame[0], s->pair.frame[1])};
+  double body[2][4];
+  for (int k = 0; k < 2; k++) {
+    const baum_i_body_place *place = &s->point->mechanism->places[s->joint->span.bodies[k]];
+    baum_i_spatial_orientation_at((baum_i_frame_kind)place->kind, s->point->q + place->q, body[k]);
+  }
+  relative_rotation(s->numbers, body, out.p);
+  baum_i_add_scaled3(out.p[2], s->pair.axes[0], out.n);
+  baum_i_add_scaled3(-out.p[1], s->pair.axes[0] + 3, out.n);
+  baum_i_add_scaled3(out.p[0], s->pair.axes[0] + 6, out.n);
+  return out;
+}
+
+/* Return a . (b x c). */
+static double triple(const double a[3], const double b[3], const double c[3])
+{
+  double normal[3];
+  baum_i_cross(b, c, normal);
+  return baum_i_dot3(a, normal);
+}
+
+/* Set d = b - a. */
+static void subtract(const double b[3], const double a[3], double d[3])
+{
+  for (int i = 0; i < 3; i++) {
+    d[i] = b[i] - a[i];
   }
 }
 
-static double twist_phi(const state *s, double sum)
+/* Compute D_y n for the motion y. */
+static void normal_along(const shafts *x, const baum_i_spatial_motion *y, double out[3])
 {
-  (void)s;
-  return sum;
+  double half_sum[3], d[3];
+  subtract(y->w[1], y->w[0], d);
+  for (int i = 0; i < 3; i++) {
+    half_sum[i] = 0.5 * (y->w[0][i] + y->w[1][i]);
+  }
+  baum_i_cross(half_sum, x->n, out);
+  baum_i_add_scaled3(-0.5 * x->p[3], d, out);
 }
 
-static bool is_half_turned(const baum_i_joint *joint, const baum_i_point *point)
+/* Write the twelve numbers g with g w = c . d_w for all motions w. */
+static void spread(const state *s, const double c[3], double g[COLUMNS])
 {
-  const state s = state_at(joint, point);
-  const baum_i_spatial_row x = {BAUM_I_X_A, BAUM_I_X_B}, y = {BAUM_I_Y_A, BAUM_I_Y_B};
-  return baum_i_spatial_product(&s.pair, x) + baum_i_spatial_product(&s.pair, y) < 0.0;
+  memset(g, 0, COLUMNS * sizeof *g);
+  for (int k = 0; k < 2; k++) {
+    const double moment[3] = {k == 0 ? -c[0] : c[0], k == 0 ? -c[1] : c[1], k == 0 ? -c[2] : c[2]};
+    baum_i_turn_back(s->pair.frame[k]->axes, moment, g + (ptrdiff_t)BAUM_I_SPACE * k + 3);
+  }
+}
+
+static void shafts_row(const state *s, baum_i_coordinate *out)
+{
+  const shafts x = shafts_at(s);
+  double d[3];
+  subtract(x.motion.w[1], x.motion.w[0], d);
+  *out = (baum_i_coordinate){.value = 2.0 * x.p[3],
+                             .rate = baum_i_dot3(x.n, d),
+                             .gamma = 0.5 * x.p[3] * baum_i_dot3(d, d) +
+                                      triple(x.n, x.motion.w[0], x.motion.w[1])};
+  spread(s, x.n, out->gradient);
+}
+
+/* Compute the derivatives of gamma along y: with respect to positions, D_y W_k is W_yk x W_k; with
+ * respect to velocities, it is W_yk. */
+static void gamma_along(const shafts *x, const baum_i_spatial_motion *y, double *gamma_q,
+                        double *gamma_v)
+{
+  const double(*w)[3] = x->motion.w;
+  double turned[2][3], d[3], d_y[3], d_turned[3], n_y[3];
+  baum_i_cross(y->w[0], w[0], turned[0]);
+  baum_i_cross(y->w[1], w[1], turned[1]);
+  subtract(w[1], w[0], d);
+  subtract(y->w[1], y->w[0], d_y);
+  subtract(turned[1], turned[0], d_turned);
+  normal_along(x, y, n_y);
+  *gamma_q = 0.25 * baum_i_dot3(x->n, d_y) * baum_i_dot3(d, d) +
+             x->p[3] * baum_i_dot3(d, d_turned) + triple(n_y, w[0], w[1]) +
+             triple(x->n, turned[0], w[1]) + triple(x->n, w[0], turned[1]);
+  *gamma_v =
+    x->p[3] * baum_i_dot3(d, d_y) + triple(x->n, y->w[0], w[1]) + triple(x->n, w[0], y->w[1]);
+}
+
+static void shafts_linearize(const state *s, const double *w, double lambda,
+                             baum_i_coordinate_blocks *out)
+{
+  const shafts x = shafts_at(s);
+  const baum_i_spatial_motion along =
+    baum_i_spatial_motion_of(s->pair.frame[0], s->pair.frame[1], w);
+  double change[3];
+  *out = (baum_i_coordinate_blocks){.jw_q = {0.0}};
+  normal_along(&x, &along, change);
+  spread(s, change, out->jw_q);
+  normal_along(&x, &x.motion, change);
+  spread(s, change, out->rate_q);
+  for (int i = 0; i < COLUMNS; i++) {
+    const baum_i_spatial_motion unit =
+      baum_i_spatial_unit_motion(s->pair.frame[0], s->pair.frame[1], i);
+    gamma_along(&x, &unit, &out->gamma_q[i], &out->gamma_v[i]);
+    normal_along(&x, &unit, change);
+    for (int k = 0; k < 3; k++) {
+      change[k] *= lambda;
+    }
+    spread(s, change, out->jtl_q + (ptrdiff_t)COLUMNS * i);
+  }
 }
 
 static const baum_i_def_field shaft_fields[] = {
@@ -295,14 +404,13 @@ static const baum_i_def_field shaft_fields[] = {
 };
 
 static const coupled_type constant_velocity = {
-  {{COUPLED(spatial_constant_velocity, "spatial constant-velocity joint", lower_axes, 4,
-            BAUM_I_SPATIAL_NUMBERS, is_half_turned, shaft_fields)},
+  {{COUPLED(spatial_constant_velocity, "spatial constant-velocity joint", lower_shafts, 4,
+            SHAFTS_COUNT, shaft_fields)},
    .rows = {{BAUM_I_X_GROUND, BAUM_I_APART},
             {BAUM_I_Y_GROUND, BAUM_I_APART},
             {BAUM_I_Z_GROUND, BAUM_I_APART}}},
-  .term = twist_term,
-  .term_linearize = twist_linearize,
-  .phi = twist_phi,
+  .last_row = shafts_row,
+  .last_linearize = shafts_linearize,
 };
 
 BAUM_I_DEFINE(joint, spatial_constant_velocity, constant_velocity.spatial.type)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The spatial frames of bodies. */
+#include <math.h>
 #include <string.h>
 
 #include "mechanism/spatial/spatial.h"
@@ -33,17 +34,39 @@ baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const doubl
   return frame;
 }
 
-baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int index)
+/* Read the positions of a body in the design configuration. Returns the kind of its frame. */
+static baum_i_frame_kind design_positions(const baum_mechanism *mechanism, int index, double q[7])
 {
   const baum_i_body *body = mechanism->bodies[index];
-  baum_i_frame_kind kind = baum_i_frame_of(body);
-  double q[7] = {0.0};
+  const baum_i_frame_kind kind = baum_i_frame_of(body);
   double v[6];
   bool held;
+  memset(q, 0, 7 * sizeof *q);
   if (kind != BAUM_I_FRAME_NONE && kind != BAUM_I_FRAME_GROUND) {
     body->type->design(body->element.def, q, v, &held);
   }
+  return kind;
+}
+
+baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int index)
+{
+  double q[7];
+  const baum_i_frame_kind kind = design_positions(mechanism, index, q);
   return baum_i_spatial_frame_at(kind, q, NULL);
+}
+
+void baum_i_spatial_orientation_at(baum_i_frame_kind kind, const double *q, double p[4])
+{
+  const double half = kind == BAUM_I_FRAME_BODY ? 0.5 * q[2] : 0.0;
+  const double planar[4] = {cos(half), 0.0, 0.0, sin(half)};
+  memcpy(p, kind == BAUM_I_FRAME_SPATIAL_BODY ? q + 3 : planar, sizeof planar);
+}
+
+void baum_i_spatial_design_orientation(const baum_mechanism *mechanism, int index, double p[4])
+{
+  double q[7];
+  const baum_i_frame_kind kind = design_positions(mechanism, index, q);
+  baum_i_spatial_orientation_at(kind, q, p);
 }
 
 void baum_i_point_set_spatial(baum_i_point *point)
