@@ -29,8 +29,8 @@ extern "C" {
  *
  *  Positions and velocities stay continuous at a break. If the law of a driver jumps, the state
  *  therefore violates the constraint of this driver after the break. baum_simulation_set_driver()
- *  describes how each formulation handles such a violation. baum_kinematics() is an exception: with
- *  this method, the velocities jump to the values that the law prescribes.
+ *  describes how each formulation handles such a violation. With baum_kinematics(), however, the
+ *  velocities do not stay continuous: they jump to the values that the law prescribes.
  *  @param     mechanism  not frozen; unchanged on failure
  *  @param[in] times      (count) [s] new break times, finite, in any order. They are added to the
  *                        break times of earlier calls. Copied. May be NULL if count is 0.

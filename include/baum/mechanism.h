@@ -785,7 +785,8 @@ typedef struct baum_report {
   int32_t degrees_of_freedom;
   int32_t redundant_rows; /**< [-] redundant rows, which the solver always omits. */
   int32_t constant_rows;  /**< [-] rows that do not depend explicitly on time. */
-  /** [-] groups of bodies connected with each other by joints. Fixed bodies do not count. */
+  /** [-] groups of bodies connected with each other by joints. Fixed bodies belong to no group and
+   *  connect no bodies. */
   int32_t islands;
   /** [-] bodies welded to ground. The equations of these bodies are solved only if multipliers are
    *  requested. */

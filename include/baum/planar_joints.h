@@ -234,10 +234,10 @@ BAUM_API baum_status baum_mechanism_set_planar_curve(baum_mechanism *mechanism, 
 
 /** A blade that is fixed in body_a slides on body_b, but not sideways. Examples are a skate, and a
  *  wheel seen from above. The blade touches body_b at one point, which moves relative to body_b
- *  only in the direction of the blade. The joint has one row of velocity level [m/s], the velocity
- *  of this point relative to body_b across the blade, positive to the left of `axis`. This row does
- *  not restrict positions. A mechanism with such a row therefore has more degrees of freedom of
- *  position than of velocity (see baum_mobility).
+ *  only in the direction of the blade. The joint has one row of velocity level [m/s]: the component
+ *  across the blade of the velocity of this point relative to body_b, positive to the left of
+ *  `axis`. This row does not restrict positions. A mechanism with such a row therefore has more
+ *  degrees of freedom of position than of velocity (see baum_mobility).
  *
  *  Both bodies must have an angle. The reaction of the joint is the force and the moment on body_b
  *  at the point where the blade touches it. */

@@ -59,8 +59,8 @@ class Report(NamedTuple):
     degrees_of_freedom: [-] nv minus the rank of J; -1 if the mechanism cannot be assembled.
     redundant_rows: [-] redundant rows, which the solver always omits.
     constant_rows: [-] rows that do not depend explicitly on time.
-    islands: [-] groups of bodies connected with each other by joints. Fixed bodies do not
-        count.
+    islands: [-] groups of bodies connected with each other by joints. Fixed bodies belong to no
+        group and connect no bodies.
     fixed_bodies: [-] bodies welded to ground. The equations of these bodies are solved only if
         multipliers are requested.
     constant_mass: True if the mass matrix is constant; it is then inverted only once.

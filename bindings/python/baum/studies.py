@@ -489,8 +489,8 @@ class Study(_calls.Closing):
         return self._answer(lib.baum_study_recommend, *given)
 
     def recommend_budget(self, seconds: Scalar) -> Recommendation:
-        """Return the most accurate setting whose run takes at most this CPU time [s] on this
-        machine. Raises baum.Error if no setting is fast enough."""
+        """Return the most accurate setting whose run takes at most `seconds` of CPU time on
+        this machine. Raises baum.Error if no setting is fast enough."""
         return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
 
     def _answer(self, function: Any, *arguments: Any) -> Recommendation:
