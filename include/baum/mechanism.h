@@ -772,8 +772,9 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
                                              size_t caller_size);
 
 /** The result of baum_mechanism_report(): what an evaluation of the accelerations costs in a run,
- *  and which work the evaluation skips because the mechanism does not need it. The counts follow
- *  from the structure of the mechanism. They do not include the cost of user functions. */
+ *  and which work the evaluation skips because the mechanism does not need it. The counts in this
+ *  struct follow from the structure of the mechanism. They do not include the cost of user
+ *  functions. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] number of bodies, not counting ground. */

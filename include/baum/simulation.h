@@ -394,7 +394,8 @@ BAUM_API baum_status baum_simulation_set_time_limit(baum_simulation *simulation,
  *  positions q determine angles of spatial joints only up to whole revolutions. Each such angle
  *  takes the possible value that is nearest to its last value. There is one exception: if a driver
  *  prescribes the angle, and t differs from the time of the run, the angle takes the possible value
- *  that is nearest to the value of the driver. baum_simulation_set_angle() chooses another value.
+ *  that is nearest to the value of the driver. To choose another possible value, call
+ *  baum_simulation_set_angle() afterwards.
  *  @param     simulation  unchanged on failure
  *  @param     t           [s] finite
  *  @param[in] q           (nq) finite
@@ -521,9 +522,10 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  gains, row_gains, step, tolerances, max_step, solver, energy_account and error_check. Events
  *  must therefore be added before the run is restored. The library cannot check user functions.
  *  They must be the same, and if they keep a state of their own, this state is not saved. The
- *  choice of redundant rows comes from the saved run, and so do the gains if a rule chooses them.
- *  Restoring allocates memory in three cases only: drivers were set in the saved run, the saved run
- *  has longer schedules than this run, or the two runs omit different redundant rows.
+ *  choice of the redundant rows that are omitted comes from the saved run, and so do the gains if a
+ *  rule chooses them. Restoring allocates memory in three cases only: drivers were set in the saved
+ *  run, the saved run has longer schedules than this run, or the two runs omit different redundant
+ *  rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote

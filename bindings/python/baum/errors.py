@@ -92,7 +92,7 @@ class Warning(UserWarning):
     code: the number of this kind of warning, which stays the same in later versions.
     doubts_motion: whether the result may be wrong by far more than its tolerance. This is true for
         every DoubtWarning.
-    joint: the name of the joint, or None.
+    joint: the name of the joint that the first warning names, or None.
     first, last: times of the first and the last warning [s].
     count: number of warnings.
     """
