@@ -240,7 +240,7 @@ static baum_status check_gains(const char *call, double alpha, double beta)
 static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
 {
   bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;
-  return solved && baum_i_choose_rows(w, t, q, baum_i_smallest_pivot(w, NULL), false);
+  return solved && baum_i_choose_rows(w, t, q, baum_i_smallest_pivot(w, NULL), BAUM_I_ROWS_BEST);
 }
 
 static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,

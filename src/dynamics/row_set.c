@@ -74,14 +74,24 @@ static baum_status select_at(baum_workspace *w, double distance, bool *found)
   return status;
 }
 
+/* Writes the factors (nv) of the columns of J: the scales of the coordinates, or 1 / sqrt(M_ii)
+ * (baum_i_column_scales). */
+typedef void column_factors(const baum_workspace *w, double *factors);
+
+static void length_scales(const baum_workspace *w, double *factors)
+{
+  memcpy(factors, w->mechanism->scale, (size_t)w->mechanism->nv * sizeof *factors);
+  baum_i_rest_fixed_bodies(w->mechanism, factors);
+}
+
 /* Select the best set of rows whose limit is above `least`. Rows that are kept now are preferred.
  * *found tells whether there is such a set. */
-static baum_status select_apart(baum_workspace *w, double t, const double *q, double least,
-                                bool *found)
+static baum_status select_apart(baum_workspace *w, double t, const double *q,
+                                column_factors *factors, double least, bool *found)
 {
   *found = false;
   BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  baum_i_column_scales(w, w->work_v);
+  factors(w, w->work_v);
   double distance = MOST;
   while (!*found && distance > least) {
     BAUM_I_TRY(select_at(w, distance, found));
@@ -90,23 +100,20 @@ static baum_status select_apart(baum_workspace *w, double t, const double *q, do
   return *found ? select_at(w, distance / (STEP * FACTOR), found) : BAUM_OK;
 }
 
-/* Select a well-separated set of rows. This function multiplies the columns of J by the scales of
- * the coordinates. select_apart() multiplies them by 1 / sqrt(M_ii) instead. */
+/* Select a well-separated set of rows, with one limit only. */
 static baum_status select_apart_by_lengths(baum_workspace *w, double t, const double *q,
                                            bool *found)
 {
-  const baum_mechanism *m = w->mechanism;
   *found = false;
   BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  memcpy(w->work_v, m->scale, (size_t)m->nv * sizeof *m->scale);
-  baum_i_rest_fixed_bodies(m, w->work_v);
+  length_scales(w, w->work_v);
   return select_at(w, LEAST, found);
 }
 
 baum_status baum_i_keep_rows_apart(baum_workspace *w, double t, const double *q)
 {
   bool found = false;
-  baum_status status = select_apart(w, t, q, WORST, &found);
+  baum_status status = select_apart(w, t, q, baum_i_column_scales, WORST, &found);
   if (found) {
     invert(w->rows.selected, w->mechanism->nc, w->rows.omitted);
   }
@@ -119,7 +126,7 @@ bool baum_i_rows_are_apart(baum_workspace *w, double t, const double *q)
   baum_i_kept_message kept = baum_i_message_keep();
   (void)select_apart_by_lengths(w, t, q, &found);
   if (!found && w->rows.count > 0) {
-    (void)select_apart(w, t, q, LEAST, &found);
+    (void)select_apart(w, t, q, baum_i_column_scales, LEAST, &found);
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);
   return found;
@@ -212,22 +219,28 @@ void baum_i_clear_omitted_rows(const baum_workspace *w, double *jacobian)
 
 /* ---- choice during a run ---- */
 
-/* Search for a better set of rows and use it. Return true if the rows have changed. */
-static bool exchange_rows(baum_workspace *w, double t, const double *q, double least)
+/* Search for a better set of rows and use it. Return true if the rows have changed. A failure
+ * leaves the rows unchanged. */
+static bool exchange_rows(baum_workspace *w, double t, const double *q, baum_i_row_demand demand)
 {
   int nc = w->mechanism->nc;
   unsigned char *selected = w->rows.selected;
+  column_factors *factors =
+    demand == BAUM_I_ROWS_OF_KINEMATICS ? length_scales : baum_i_column_scales;
+  double least = demand == BAUM_I_ROWS_WELL_SEPARATED ? LEAST : WORST;
   bool found = false;
-  if (select_apart(w, t, q, least, &found) != BAUM_OK || !found) {
-    return false;
+  bool changed = false;
+  baum_i_kept_message kept = baum_i_message_keep();
+  if (select_apart(w, t, q, factors, least, &found) == BAUM_OK && found) {
+    invert(selected, nc, selected);
+    changed = memcmp(selected, w->rows.omitted, (size_t)nc) != 0 && omit_selected(w) == BAUM_OK;
   }
-  invert(selected, nc, selected);
-  return memcmp(selected, w->rows.omitted, (size_t)nc) != 0 && omit_selected(w) == BAUM_OK;
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  return changed;
 }
 
-/* A failure leaves the rows unchanged. */
 bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double pivot,
-                        bool well_separated)
+                        baum_i_row_demand demand)
 {
   baum_i_row_set *rows = &w->rows;
   double last = rows->pivot_at_last_selection;
@@ -238,10 +251,8 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
   if (pivot > last / RETRY && pivot < last * RETRY) {
     return false;
   }
-  baum_i_kept_message kept = baum_i_message_keep();
-  bool changed = exchange_rows(w, t, q, well_separated ? LEAST : WORST);
+  bool changed = exchange_rows(w, t, q, demand);
   rows->pivot_at_last_selection = changed ? 0.0 : pivot;
-  (void)baum_i_message_settle(BAUM_OK, &kept);
   return changed;
 }
 

@@ -50,14 +50,23 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
  * of a user function. After a failure, nothing has changed. */
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
+/* Which rows baum_i_choose_rows() accepts instead of the present rows. */
+typedef enum baum_i_row_demand {
+  BAUM_I_ROWS_BEST,
+  /* only a well-separated set; otherwise, a run next to a singular configuration would restart
+   * again and again */
+  BAUM_I_ROWS_WELL_SEPARATED,
+  /* the best set for J v = nu, which does not contain masses: the scales of the coordinates replace
+   * the masses */
+  BAUM_I_ROWS_OF_KINEMATICS,
+} baum_i_row_demand;
+
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest
- * pivot; a run divides it by the largest pivot of the run so far. If `well_separated` is true, only
- * a well-separated set is accepted. Without this demand, a run next to a singular configuration
- * would restart again and again. Returns true if the rows have changed. The accelerations and
- * multipliers computed last are then no longer available. This function allocates memory, but only
- * rarely. */
+ * pivot; a run divides it by the largest pivot of the run so far. Returns true if the rows have
+ * changed. The accelerations and multipliers computed last are then no longer available. This
+ * function allocates memory, but only rarely. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
-                        bool well_separated);
+                        baum_i_row_demand demand);
 
 /* Check that the accelerations computed last also satisfy the omitted rows at the given velocities
  * and gains. If they do not, the function fails with BAUM_ERR_INCONSISTENT. */

@@ -83,7 +83,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
     return BAUM_OK;
   }
   double pivot = run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);
-  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot, true)) {
+  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot, BAUM_I_ROWS_WELL_SEPARATED)) {
     return BAUM_OK;
   }
   if (!goes_on(run)) {
@@ -96,7 +96,9 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 
 void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state)
 {
-  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, true)) {
+  baum_i_row_demand demand =
+    run->crossings ? BAUM_I_ROWS_WELL_SEPARATED : BAUM_I_ROWS_OF_KINEMATICS;
+  if (baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, demand) && run->crossings) {
     tell_others(run);
     baum_i_crossings_end(run);
   }
