@@ -58,7 +58,7 @@ typedef struct baum_i_choice {
   /* Multiply the columns of J by the scales of the coordinates, and keep the present rows while
    * they are well separated. Otherwise the columns are multiplied by 1 / sqrt(M_ii); if moments of
    * inertia are small, the distances of rows then decrease only shortly before the rows become
-   * dependent. */
+   * dependent. Kinematics uses lengths, because J v = nu does not contain masses. */
   bool by_lengths;
 } baum_i_choice;
 

@@ -40,6 +40,10 @@ static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
 /* The longest step, relative to 1/rate, for a mechanism at rest. */
 static const double LONGEST = 1e6;
+/* [1/rad] The rotation in the next step times this number replaces the pivot of
+ * baum_i_choose_rows(). Other rows are then searched for before steps of less than 0.05 rad, which
+ * are shorter than usual steps and than a first step. */
+static const double ROWS_PER_TURN = 4.0;
 /* A configuration is treated as singular if |J^-1| is above this number. When a run stops at a fold
  * because no shorter step is possible, |J^-1| is about 1e5. */
 static const double SINGULAR_GAIN = 1e3;
@@ -355,11 +359,25 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
 
 /* ---- the next step ---- */
 
+/* Omit other redundant rows if the next step is short, because the reason may be that the active
+ * rows alone are nearly dependent. No restart is necessary: a configuration contains all rows of J,
+ * so the next step compares the new rows at both of its ends. */
+static void choose_rows(const kinematics_run *run, baum_workspace *w)
+{
+  const baum_i_configuration *at = run->right;
+  double rate = baum_i_state_rate(w->mechanism, at->v, at->a);
+  if (rate > 0.0) {
+    double pivot = ROWS_PER_TURN * rate * run->h;
+    (void)baum_i_choose_rows(w, at->t, at->q, pivot, (baum_i_choice){.by_lengths = true});
+  }
+}
+
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   kinematics_run *run = self;
   const baum_mechanism *m = problem->workspace->mechanism;
   BAUM_I_TRY(run->forgotten ? restart(self, problem, state) : BAUM_OK);
+  choose_rows(run, problem->workspace);
   double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
   h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
   double left = problem->stops ? fabs(problem->stop - run->right->t) : (double)INFINITY;

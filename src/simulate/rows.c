@@ -105,8 +105,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 
 void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state)
 {
-  baum_i_choice choice = {.well_separated = true};
-  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, choice)) {
+  baum_i_choice choice = {.well_separated = run->crossings != NULL, .by_lengths = !run->crossings};
+  if (baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, choice) && run->crossings) {
     tell_others(run);
     baum_i_crossings_end(run);
   }

@@ -351,7 +351,8 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 /* Check the omitted redundant rows at the present state, where the next step begins. If the active
  * rows have become ill-conditioned, omit other rows. A method that cannot keep its history then
- * restarts. Returns the statuses of baum_i_run_restart(). Does nothing for kinematics. */
+ * restarts. Returns the statuses of baum_i_run_restart(). Does nothing for kinematics, which
+ * chooses rows itself. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
 /* Choose the omitted rows for a given state. If the run is crossing a singular configuration, this

@@ -75,8 +75,8 @@ static void a_run_survives_every_failing_allocation(void **state)
   if (!heap_is_ours()) {
     skip();
   }
-  const drive motor = {.angle = 0.4, .rate = 1.0};
-  baum_mechanism *mechanism = parallelogram_make(&motor);
+  const drive motor = {.angle = 0.4, .rate = 6.0};
+  baum_mechanism *mechanism = parallelogram_make_of(&motor, 1.5, 0.1); /* exchanges rows */
   fail_every_allocation(simulate, mechanism);
   baum_mechanism_destroy(mechanism);
 }

@@ -12,6 +12,7 @@
 #include "construct.h"
 
 static const double HALF_PI = 1.5707963267948966;
+static const double ROD_MASS = 0.2; /* [kg] */
 
 /* ---- parts ---- */
 
@@ -23,19 +24,30 @@ static baum_mechanism *begin(void)
 
 /* Adds a rod that begins at the point `from` and has the given length and angle. Its centre of mass
  * is in the middle. */
-static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
-                            double length, double angle)
+static baum_body_id add_rod_of(baum_mechanism *mechanism, const char *name, const double from[2],
+                               double length, double angle, double inertia)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
   baum_body_id id;
   def.name = name;
-  def.mass = 0.2;
-  def.inertia = def.mass * length * length / 12.0;
+  def.mass = ROD_MASS;
+  def.inertia = inertia;
   def.position[0] = from[0] + 0.5 * length * cos(angle);
   def.position[1] = from[1] + 0.5 * length * sin(angle);
   def.angle = angle;
   check(baum_mechanism_add_planar_body(mechanism, &def, &id));
   return id;
+}
+
+static double slender_inertia(double length)
+{
+  return ROD_MASS * length * length / 12.0;
+}
+
+static baum_body_id add_rod(baum_mechanism *mechanism, const char *name, const double from[2],
+                            double length, double angle)
+{
+  return add_rod_of(mechanism, name, from, length, angle, slender_inertia(length));
 }
 
 static void add_motor(baum_mechanism *mechanism, baum_joint_id pin, const drive *motor)
@@ -194,7 +206,7 @@ baum_mechanism *four_bar_make(const drive *motor)
 
 /* ---- parallelogram ---- */
 
-baum_mechanism *parallelogram_make(const drive *motor)
+baum_mechanism *parallelogram_make_of(const drive *motor, double above, double inertia)
 {
   static const char *const CRANKS[3] = {"first", "second", "third"};
   static const char *const FEET[3] = {"foot 1", "foot 2", "foot 3"};
@@ -203,9 +215,9 @@ baum_mechanism *parallelogram_make(const drive *motor)
   const double tip[2] = {cos(motor->angle), sin(motor->angle)};
   baum_body_id coupler = add_rod(mechanism, "coupler", tip, 2.0, 0.0);
   for (int k = 0; k < 3; k++) {
-    const double foot[2] = {k, 0.0};
-    const double head[2] = {k + tip[0], tip[1]};
-    baum_body_id crank = add_rod(mechanism, CRANKS[k], foot, 1.0, motor->angle);
+    const double foot[2] = {k, k == 2 ? above : 0.0};
+    const double head[2] = {foot[0] + tip[0], foot[1] + tip[1]};
+    baum_body_id crank = add_rod_of(mechanism, CRANKS[k], foot, 1.0, motor->angle, inertia);
     baum_joint_id pin = add_planar_pin(mechanism, FEET[k], BAUM_GROUND, crank, foot[0], foot[1]);
     (void)add_planar_pin(mechanism, HEADS[k], crank, coupler, head[0], head[1]);
     if (k == 0) {
@@ -213,4 +225,9 @@ baum_mechanism *parallelogram_make(const drive *motor)
     }
   }
   return freeze(mechanism);
+}
+
+baum_mechanism *parallelogram_make(const drive *motor)
+{
+  return parallelogram_make_of(motor, 0.0, slender_inertia(1.0));
 }

@@ -58,5 +58,9 @@ double four_bar_rocker(double angle);
 enum { PARALLELOGRAM_NV = 12 };
 
 baum_mechanism *parallelogram_make(const drive *motor);
+/* The same, but the pins of the third crank are `above` higher, and the cranks have the given
+ * moment of inertia. If `above` is not 0, the mechanism has no singular configurations. Whichever
+ * row is omitted, however, the other rows are dependent in some configurations. */
+baum_mechanism *parallelogram_make_of(const drive *motor, double above, double inertia);
 
 #endif
