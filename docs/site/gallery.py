@@ -247,7 +247,7 @@ class Gallery:
                 body += f"| `{p.name}` | {p.value:g} {p.unit} | {p.meaning} |\n"
             first = next(iter(entry.parameters))
             body += f'\nTo build a variant, set parameters by name, as in `baum.catalog.build("{entry.name}", {first}=...)`.'
-        body += "\n[A table](../docs/mechanisms.md) compares references with published values.\n"
+        body += "\nThe page [Mechanisms whose motion is known](../docs/mechanisms.md) compares references with published values.\n"
         source = source_of(entry)
         body += c_program(source, "How the catalogue builds it, in C", folded=True)
         name = f"known_{entry.name}"

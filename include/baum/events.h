@@ -69,7 +69,7 @@ typedef struct baum_event_def {
    *  those where it falls; 0: all of them. Default: 0. */
   int32_t direction;
   bool terminal; /**< True if the run stops at the event (BAUM_STOP_EVENT). Default: true. */
-  /** [s] > 0, accuracy of the time of the event. Default: NaN, the rounding error of the time. */
+  /** [s] > 0, accuracy of the time of the event. Default: NaN, 4 rounding errors of the time. */
   double tolerance;
   void *user; /**< Passed to `function`. Not owned. Default: NULL. */
   /** [-] coordinate of `joint` that the event observes. Default: BAUM_COORDINATE_FIRST. */

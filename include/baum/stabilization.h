@@ -53,7 +53,8 @@ typedef enum baum_gain_rule {
   /** Dead-beat gains, for which both roots z of the characteristic equation of the integrator are
    *  zero; fixed step only. */
   BAUM_GAINS_DEADBEAT = 5,
-  /** alpha = beta, proportional to the angular velocity of the motion, but not above a limit. */
+  /** alpha = beta, proportional to the mean angular velocity of the motion, but with a fixed step
+   *  not above a limit; see baum_gains_auto(). */
   BAUM_GAINS_AUTO = 6,
   BAUM_GAINS_BEST_DAMPING = 7 /**< Gains of least spectral radius; fixed step only. */
 } baum_gain_rule;

@@ -543,8 +543,8 @@ class AddingInSpace:
         about the axis, as in the swing-twist decomposition: the smallest rotation that makes axis_b
         parallel to axis is removed, and a rotation about the axis remains. The angle of this
         rotation is 0 in the design configuration. During a run it is continuous over several
-        revolutions. All other arguments are as in torsion_spring(). For the angle of a joint, use
-        joint_spring().
+        revolutions. All other arguments are as in torsion_spring(). If the spring should act on a
+        coordinate of a joint, use joint_spring() instead.
         """
         return self._add(Force, "spatial_torsion_spring", locals())
 

@@ -522,7 +522,7 @@ class Simulation(_calls.Closing):
             Status.STOP_EVENT, and the next call continues the run. False only records the event in
             `events`.
         name: name of the event in messages and in `events`, by default "event 0", "event 1", ...
-        tolerance: accuracy of the time of the event [s], by default the rounding error of the time.
+        tolerance: accuracy of the time of the event [s], by default 4 rounding errors of the time.
         coordinate: which coordinate of `joint`, as in Mechanism.driver().
         """
         if not (name is None or isinstance(name, str)):

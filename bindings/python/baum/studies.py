@@ -450,8 +450,8 @@ class Study(_calls.Closing):
         """Return the indices of the entries on the Pareto front, from the cheapest to the most
         accurate. No other entry is both cheaper and more accurate than an entry on the front.
 
-        cost: "work" counts evaluations, factorizations and iterations of implicit methods, and is
-            the same on every machine. "cpu" is the CPU time.
+        cost: "work" counts evaluations, factorizations and, for implicit methods, iterations, and
+            is the same on every machine. "cpu" is the CPU time.
         """
         entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
@@ -463,8 +463,8 @@ class Study(_calls.Closing):
         """Return what a method costs for a given error [-].
 
         method: index of the method in `methods`.
-        cost: "work" gives the number of evaluations, factorizations and iterations of implicit
-            methods; "cpu" gives the CPU time [s].
+        cost: "work" gives the number of evaluations plus factorizations and, for implicit methods,
+            iterations; "cpu" gives the CPU time [s].
         """
         out = ctypes.c_double()
         given = integer(method, "method"), number(error, "error"), word(COSTS, cost, "cost")
