@@ -435,7 +435,7 @@ BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
 
 /** Change an input from the present time on. If the input has a schedule, this call ends the
  *  schedule. The input keeps the value until it is changed again; baum_simulation_set_state() does
- *  not change it. If the input already has this value, the motion does not change.
+ *  not change it. If the input already has the new value, the run does not restart.
  *
  *  Variable-step methods restart with small steps (counters.restarts counts this). For control
  *  loops, use a fixed step. If you know the changes in advance, use
@@ -518,11 +518,11 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *
  *  The library checks that the mechanism of the saved run and the mechanism of this run have the
  *  same elements in the same order, with equal masses, points, stiffnesses and so on. It also
- *  checks that the two runs have the same events, and the same options integrator, formulation,
- *  gains, row_gains, step, tolerances, max_step, solver, energy_account and error_check. Events
- *  must therefore be added before the run is restored. The library cannot check user functions.
- *  They must be the same, and if they keep a state of their own, this state is not saved. The
- *  choice of the redundant rows that are omitted comes from the saved run, and so do the gains if a
+ *  checks that the two runs have the same events, and that the following options are equal:
+ *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver, energy_account
+ *  and error_check. Events must therefore be added before the run is restored. The library cannot
+ *  check user functions. They must be the same, and if they keep a state of their own, this state
+ *  is not saved. The omitted redundant rows are those of the saved run, and so are the gains if a
  *  rule chooses them. Restoring allocates memory in three cases only: drivers were set in the saved
  *  run, the saved run has longer schedules than this run, or the two runs omit different redundant
  *  rows.

@@ -145,7 +145,8 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *    matrices of these implicit methods include the gains, so large gains do not limit their steps.
  *
  *  - With explicit methods at variable steps the factor is 0.1, because variable steps are usually
- *    longer than fixed steps. If drivers prescribe the whole motion, the factor is 2.
+ *    longer than fixed steps, and alpha h should stay small. If drivers prescribe the whole motion,
+ *    the factor is 2.
  *
  *  With a fixed step, the gains are limited: alpha h is at most 0.3, and at most half of the
  *  stability limit of the method. With this limit, the gains are always stable. With variable

@@ -18,7 +18,7 @@ class Gains:
     """A gain rule and its numbers. Functions such as baum.fixed() and baum.auto() make such rules.
 
     name: the name of the function that made the rule.
-    values: the arguments of this function by name.
+    values: the arguments of this function, as a dict from their names to their values.
     """
 
     __slots__ = ("name", "values", "struct")
