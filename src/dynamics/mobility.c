@@ -55,6 +55,20 @@ static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
   return BAUM_OK;
 }
 
+static void report_counts(const baum_mechanism *m, baum_mobility *report)
+{
+  say(report, "%d %s, %d velocities, %d constraint rows.", report->degrees_of_freedom,
+      report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
+  if (report->degrees_of_freedom == 0 && baum_i_has_constant_constraints(m)) {
+    say(report, " The mechanism cannot move.");
+  }
+  if (m->velocity_row_count > 0) {
+    say(report, " %d %s of velocity level; degrees of freedom: %d of velocity, %d of position.",
+        m->velocity_row_count, m->velocity_row_count == 1 ? "row" : "rows",
+        report->degrees_of_freedom, report->position_degrees_of_freedom);
+  }
+}
+
 static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility *report)
 {
   const baum_mechanism *m = w->mechanism;
@@ -65,13 +79,7 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
   baum_status status = BAUM_OK;
-  say(report, "%d %s, %d velocities, %d constraint rows.", report->degrees_of_freedom,
-      report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
-  if (m->velocity_row_count > 0) {
-    say(report, " %d %s of velocity level; degrees of freedom: %d of velocity, %d of position.",
-        m->velocity_row_count, m->velocity_row_count == 1 ? "row" : "rows",
-        report->degrees_of_freedom, report->position_degrees_of_freedom);
-  }
+  report_counts(m, report);
   if (r->count > 0) {
     char names[512] = "";
     BAUM_I_TRY(baum_i_position_stage(w, 0.0, q));

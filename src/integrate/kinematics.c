@@ -418,7 +418,7 @@ static baum_status check_freedom(const baum_workspace *w)
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "kinematics: %d constraint %s of velocity level, so the motion does not "
                        "follow from Phi(q, t) = 0 alone; choose an integrator of the equations of "
-                       "motion, such as rk4 or cvode_adams",
+                       "motion, such as rk8",
                        w->mechanism->velocity_row_count,
                        w->mechanism->velocity_row_count == 1 ? "row is" : "rows are");
   }
@@ -429,7 +429,7 @@ static baum_status check_freedom(const baum_workspace *w)
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
     "kinematics: %d %s left, so the motion does not follow from Phi(q, t) = 0 alone; add a driver "
-    "for each, or choose an integrator of the equations of motion, such as rk4 or cvode_adams",
+    "for each, or choose an integrator of the equations of motion, such as rk8",
     degrees_of_freedom,
     degrees_of_freedom == 1 ? "degree of freedom is" : "degrees of freedom are");
 }

@@ -116,6 +116,15 @@ bool baum_i_has_constant_force(const baum_mechanism *mechanism)
   return constant;
 }
 
+bool baum_i_has_constant_constraints(const baum_mechanism *mechanism)
+{
+  bool constant = true;
+  for (int k = 0; k < mechanism->joint_count; k++) {
+    constant = constant && mechanism->joints[k]->type->scleronomic;
+  }
+  return constant;
+}
+
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
                                               const baum_i_body_blocks *blocks)
 {

@@ -60,6 +60,8 @@ baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *for
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential);
 /* Tell whether the force on every body depends only on parameters. */
 bool baum_i_has_constant_force(const baum_mechanism *mechanism);
+/* Tell whether no constraint depends on time, so that no driver moves the mechanism. */
+bool baum_i_has_constant_constraints(const baum_mechanism *mechanism);
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
                                               const baum_i_body_blocks *blocks);
 baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double *w,

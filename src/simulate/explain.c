@@ -17,6 +17,20 @@ static const char *const FORMULATIONS[] = {
   [BAUM_FORMULATION_INDEX3] = "Phi = 0 kept by the method itself",
 };
 
+static void explain_lack_of_freedom(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  if (baum_i_has_constant_constraints(m)) {
+    say(run, "              no degree of freedom is left, and no driver moves the mechanism: it "
+             "stays at rest\n");
+    return;
+  }
+  bool suggests = !run->integrator->without_freedom && m->velocity_row_count == 0;
+  say(run,
+      "              no degree of freedom is left: the motion follows from the drivers alone%s\n",
+      suggests ? "; kinematics gives it exactly, without integration" : "");
+}
+
 static void explain_mechanism(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -37,11 +51,7 @@ static void explain_mechanism(baum_simulation *run)
         r->count == 1 ? "row" : "rows");
   }
   if (m->nv == rank) {
-    say(run,
-        "              no degree of freedom is left: the motion follows from the drivers alone%s\n",
-        run->integrator->without_freedom || m->velocity_row_count > 0
-          ? ""
-          : "; kinematics gives it exactly, without integration");
+    explain_lack_of_freedom(run);
   }
   say(run, "scale         %.6g m, and 1 rad\n", m->length);
 }

@@ -22,13 +22,20 @@ static const double VIOLATED = 1e-3;
  * ago, in units of 1/rate. */
 static const double RECENT = 10.0;
 
-static const char *advice_for(baum_status status)
+/* Kinematics has neither a step nor a tolerance. */
+static const char *advice_for(const baum_simulation *run, baum_status status)
 {
+  bool is_kinematics = run->integrator->without_freedom;
   switch ((int)status) {
   case BAUM_ERR_SINGULAR:
-    return "a run with another step may pass an isolated singular configuration; no step passes a "
-           "dead end";
-  case BAUM_ERR_CONVERGENCE: return "take a smaller step or tolerance";
+    return is_kinematics ? "another integrator, such as rk8, may take the mechanism past an "
+                           "isolated singular configuration; none passes a dead end"
+                         : "a run with another step may pass an isolated singular configuration; "
+                           "no step passes a dead end";
+  case BAUM_ERR_CONVERGENCE:
+    return is_kinematics                    ? "take a smaller max_step"
+           : baum_i_run_has_fixed_step(run) ? "take a smaller step"
+                                            : "take another rtol";
   case BAUM_ERR_STEP: return "check what acts there, or take a larger rtol";
   case BAUM_ERR_NOT_FINITE:
     return "check functions and numbers there; if the motion grows without bound, take a smaller "
@@ -138,7 +145,7 @@ static void append_place(baum_simulation *run, const baum_i_state *at, char *tex
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
                                        const baum_i_state *at)
 {
-  const char *help = advice_for(status);
+  const char *help = advice_for(run, status);
   if (!help) {
     return status;
   }

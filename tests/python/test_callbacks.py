@@ -381,6 +381,9 @@ class Compiled(unittest.TestCase):
             TypeError, "phi: a function or the address of one is wanted, not 'x'"
         ):
             pendulum("x")
+        for number in (-1, 0, 3, 4095):  # no addresses of functions: calling them would crash
+            with self.assertRaisesRegex(TypeError, f"the address of one is wanted, not {number}$"):
+                pendulum(number)
 
 
 if __name__ == "__main__":

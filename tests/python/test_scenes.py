@@ -364,6 +364,15 @@ class CommandTest(FileTest):
         self.assertEqual(code, 1)
         self.assertIn("missing.json", err)
         self.assertNotIn("Traceback", err)
+        code, out, err = call("run", self.path, "--method", "rk8", "--rtol", 1e-9, "--samples", 1)
+        self.assertEqual(code, 1)
+        self.assertIn("--samples is 1, must be at least 2", err)
+
+    def test_a_run_without_a_method_is_refused(self):
+        err = io.StringIO()
+        with contextlib.redirect_stderr(err), self.assertRaises(SystemExit):
+            main(["run", str(self.path)])
+        self.assertIn("required: --method", err.getvalue())
 
 
 if __name__ == "__main__":

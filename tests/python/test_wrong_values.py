@@ -114,6 +114,16 @@ class Attributes(unittest.TestCase):
         free["u"].set(initial=2)
         free.ground.outline = [[0, 0], [1, 0], [0, 1]]
 
+    def test_elements_name_where_their_definitions_can_be_read(self):
+        bob = rod_pendulum()["bob"]
+        message = r"no attribute 'mass'; definition\['mass'\] of body 'bob' has this value$"
+        with self.assertRaisesRegex(AttributeError, message):
+            bob.mass
+        with self.assertRaisesRegex(AttributeError, "'Body' object has no attribute 'masss'$"):
+            bob.masss
+        self.assertEqual(bob.definition["mass"], 1)
+        self.assertEqual(copy.copy(bob), bob)
+
     def test_other_objects_name_what_can_be_set(self):
         m = rod_pendulum()
         self.refuses(m, "gravty", "there are: characteristic_length, gravity; did you mean 'gravity'")

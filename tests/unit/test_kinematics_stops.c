@@ -262,7 +262,7 @@ static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **s
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &scene),
                    BAUM_OK);
   check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
-                    "kinematics: 1 degree of freedom is left|add a driver for each|such as rk4");
+                    "kinematics: 1 degree of freedom is left|add a driver for each|such as rk8");
   model_destroy(&scene);
   assert_int_equal(model_chain_3(&scene), BAUM_OK);
   check_run_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
@@ -420,6 +420,32 @@ static void kinematics_is_explained_and_other_integrators_suggest_it(void **stat
   close_run(run, mechanism);
 }
 
+/* Two fixed pins hold the bar, and no driver moves it. */
+static void a_mechanism_that_cannot_move_is_reported(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = create_mechanism();
+  baum_planar_body_def bar = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &bar, &pin.body_b), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    pin.point[0] = k;
+    pin.point[1] = 0.0;
+    assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(mechanism, &mobility, sizeof mobility), BAUM_OK);
+  assert_non_null(
+    strstr(mobility.text, "4 constraint rows. The mechanism cannot move. 1 redundant"));
+  baum_simulation *run = open_run(mechanism);
+  const char *text = baum_simulation_explain(run);
+  assert_non_null(strstr(text, "no driver moves the mechanism: it stays at rest"));
+  assert_null(strstr(text, "follows from the drivers"));
+  close_run(run, mechanism);
+}
+
 /* Configurations are available at both ends of the last step and inside it. Other times are
  * refused. */
 static void configurations_are_returned_inside_the_last_step_only(void **state)
@@ -472,6 +498,7 @@ int main(void)
     cmocka_unit_test(a_singular_state_cannot_be_set),
     cmocka_unit_test(a_singular_start_is_refused),
     cmocka_unit_test(kinematics_is_explained_and_other_integrators_suggest_it),
+    cmocka_unit_test(a_mechanism_that_cannot_move_is_reported),
     cmocka_unit_test(configurations_are_returned_inside_the_last_step_only),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

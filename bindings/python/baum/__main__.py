@@ -37,6 +37,8 @@ def _write_csv(run: Run, path: str) -> None:
 def _run(options: argparse.Namespace) -> None:
     chosen: dict[str, Any] = {name: getattr(options, name) for name in ("rtol", "step")}
     given = {name: value for name, value in chosen.items() if value is not None}
+    if options.samples < 2:
+        raise ValueError(f"--samples is {options.samples}, must be at least 2")
     times = np.linspace(0.0, options.until, options.samples)
     mechanism = _scene(options).freeze()
     failure = None
@@ -92,15 +94,16 @@ def _parser() -> argparse.ArgumentParser:
         return command
 
     run = add("run", _run, "Simulate a scene and explain the run.")
-    run.add_argument("--method", help="the integrator, for example rk8")
+    run.add_argument("--method", required=True, help="the integrator, such as rk8")
     run.add_argument("--rtol", type=float, help="tolerance of methods with variable steps")
     run.add_argument("--step", type=float, help="step [s] of methods with fixed steps")
-    run.add_argument("--record", action="append", default=[], help="a channel, such as energy")
+    channel = "a channel, such as energy; this option may be repeated"
+    run.add_argument("--record", action="append", default=[], help=channel)
     run.add_argument("--out", help="a CSV file for the samples")
     run.add_argument("--page", help="an HTML file that shows the motion")
     compare = add("study", _study, "Compare methods on a scene: errors, costs, recommendations.")
     compare.add_argument("--page", help="an HTML, CSV, JSON or text file for the report")
-    compare.add_argument("--grid", default="quick", help="which settings to run, default quick")
+    compare.add_argument("--grid", default="quick", help="quick (the default) or full")
     for command in (run, compare):
         command.add_argument("--until", type=float, default=1.0, help="end time [s], default 1")
     run.add_argument("--samples", type=int, default=201, help="number of samples, default 201")

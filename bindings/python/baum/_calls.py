@@ -294,12 +294,11 @@ class Handle:
 
     def _in_use(self) -> str:
         instead = (
-            "; its functions must use their arguments t, q and v instead, and "
+            "; functions must use their arguments t, q and v instead, and "
             "acceleration(t, q, v) of a baum.Workspace for multipliers"
         )
-        return f"this {self._what} is in use by another call" + instead * (
-            self._what == "simulation"
-        )
+        user = "another call, of another thread or of one of your functions"
+        return f"this {self._what} is in use by {user}" + instead * (self._what == "simulation")
 
 
 class Closing(Strict):

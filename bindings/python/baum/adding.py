@@ -448,7 +448,7 @@ class Adding:
         - Revolute joints have "angle".
         - Translational joints, pins in a slot, prismatic joints and points on a line have
           "displacement".
-        - A cylindrical joint has "displacement" and "angle".
+        - A cylindrical joint and a screw have "displacement" and "angle".
         - A universal joint has "angle" and "angle_b".
         - A planar joint in space has "x", "y" and "angle".
         """

@@ -278,6 +278,11 @@ SHELLS: dict[Any, Callable[..., Shell]] = {
 SHELLS_BY_FIELD: dict[str, Callable[..., Shell]] = {"difference": _shell_difference}
 
 
+# No operating system places functions in the first page of the memory. A smaller number is not the
+# address of a function, but for example a constant force.
+LOWEST_ADDRESS = 4096
+
+
 def address_of(function: Any) -> int | None:
     """Return the address of a compiled function, or None for a Python function."""
     if isinstance(function, int) and not isinstance(function, bool):
@@ -307,9 +312,9 @@ def wrap(
     inputs: indices of the inputs that a force function receives.
     """
     address = address_of(function)
-    if address is not None:
+    if address is not None and address >= LOWEST_ADDRESS:
         return kind(address)
-    if not callable(function):
+    if not callable(function) or address is not None:
         raise TypeError(f"{label}: a function or the address of one is wanted, not {function!r}")
     takes_inputs = inputs and kind is _abi.baum_force_fn
     usual = _shell_force_of(inputs) if takes_inputs else SHELLS[kind]

@@ -71,11 +71,24 @@ class Element(Strict):
     def __repr__(self) -> str:
         return f"<{self.kind.name if self.kind else self.family} {self.name!r}>"
 
+    if not TYPE_CHECKING:  # type checkers would otherwise accept every attribute
+
+        def __getattr__(self, name: str) -> Any:
+            # Python calls this method only for attributes that do not exist.
+            what = f"{type(self).__name__!r} object has no attribute {name!r}"
+            if not name.startswith("_") and name in self._fields():
+                what += f"; definition[{name!r}] of {self.family} {self.name!r} has this value"
+            raise AttributeError(what)
+
+    def _fields(self) -> list[str]:
+        """Return the names of the fields of the definition, without the name of the element."""
+        if self.kind is None:
+            return ["initial"] if self.family == "input" else []
+        names = Definition(self.kind, "", self.mechanism.find).names
+        return [field for field in names if field != "name"]
+
     def _refusal(self, name: str) -> str:
-        fields = ["initial"] if self.family == "input" else []
-        if self.kind is not None:
-            names = Definition(self.kind, "", self.mechanism.find).names
-            fields = [field for field in names if field != "name"]
+        fields = self._fields()
         what = f'{self.family} "{self.name}" has no attribute {name!r} that can be set'
         if fields:
             known = f"{name if name in fields else 'field'}=..."
