@@ -332,8 +332,8 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 
 /* ---- coordinates of joints ------------------------------------------------------------------- */
 
-/** A coordinate of a joint. Drivers, joint springs, channels and events each refer to one
- *  coordinate of a joint; a coupling refers to one coordinate of each of its two joints. The
+/** A coordinate of a joint. Drivers, joint springs, joint loads, channels and events each refer to
+ *  one coordinate of a joint; a coupling refers to one coordinate of each of its two joints. The
  *  joints have the following coordinates:
  *
  *  - planar revolute joint, spatial revolute joint: ANGLE
@@ -584,11 +584,50 @@ BAUM_API baum_status baum_mechanism_get_joint_spring(const baum_mechanism *mecha
 BAUM_API baum_status baum_mechanism_set_joint_spring(baum_mechanism *mechanism, baum_force_id id,
                                                      const baum_joint_spring_def *def);
 
+/* ---- loads of joints ------------------------------------------------------------------------- */
+
+/** A force or a torque that acts on a coordinate of a joint, such as the torque of a motor. It acts
+ *  on body_b of the joint in the positive direction of the coordinate, and with the opposite sign
+ *  on body_a. The effort is constant, or it is multiplied by the value of an input. A joint load
+ *  has no potential energy; the energy account counts its work as work of loads. */
+typedef struct baum_joint_load_def {
+  size_t struct_size;  /**< Set by baum_joint_load_def_default(). Do not change it. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_joint_id joint; /**< A joint with a coordinate. Default: none, must be set. */
+  /** [-] the coordinate on which the load acts. Default: BAUM_COORDINATE_FIRST. */
+  baum_joint_coordinate coordinate;
+  /** [N m or N] torque on an angle, or force on a displacement. It drives the coordinate in its
+   *  positive direction if it is positive. Default: 0. */
+  double effort;
+  baum_input_id input; /**< An input whose value multiplies the effort. Default: none. */
+} baum_joint_load_def;
+
+/** @copydoc baum_coordinates_def_init() */
+BAUM_API void baum_joint_load_def_init(baum_joint_load_def *def, size_t caller_size);
+/** @copydoc baum_coordinates_def_default() */
+static inline baum_joint_load_def baum_joint_load_def_default(void)
+{
+  baum_joint_load_def def;
+  baum_joint_load_def_init(&def, sizeof def);
+  return def;
+}
+/** @copydoc baum_mechanism_add_coordinates() */
+BAUM_API baum_status baum_mechanism_add_joint_load(baum_mechanism *mechanism,
+                                                   const baum_joint_load_def *def,
+                                                   baum_force_id *id);
+/** @copydoc baum_mechanism_get_coordinates() */
+BAUM_API baum_status baum_mechanism_get_joint_load(const baum_mechanism *mechanism,
+                                                   baum_force_id id, baum_joint_load_def *out,
+                                                   size_t caller_size);
+/** @copydoc baum_mechanism_set_coordinates() */
+BAUM_API baum_status baum_mechanism_set_joint_load(baum_mechanism *mechanism, baum_force_id id,
+                                                   const baum_joint_load_def *def);
+
 /* ---- inputs ---------------------------------------------------------------------------------- */
 
 /** Add an input. An input is a number that your program sets during a run, such as the torque of a
  *  motor. If the definition of a load names an input, the load is multiplied by the value of this
- *  input (planar.h). All force functions receive the values of all inputs. Runs and workspaces
+ *  input. All force functions receive the values of all inputs. Runs and workspaces
  *  begin with the initial value and keep it until baum_simulation_set_input() or
  *  baum_workspace_set_input() changes it.
  *  @param      mechanism  not frozen; unchanged on failure

@@ -320,7 +320,7 @@ void baum_i_draw_point_on_line(const baum_i_symbol *s)
 
 /* ---- drivers ---- */
 
-void baum_i_draw_guide_arrow(const baum_i_symbol *s)
+void baum_i_draw_guide_arrow(const baum_i_symbol *s, baum_i_style style)
 {
   static const double arrow[5][2] = {{-4.0, 3.0}, {4.0, 3.0}, {3.0, 3.6}, {4.0, 3.0}, {3.0, 2.4}};
   guide g;
@@ -331,5 +331,5 @@ void baum_i_draw_guide_arrow(const baum_i_symbol *s)
   } else {
     baum_i_find_free_side(s, up);
   }
-  baum_i_symbol_line(&g.symbol, BAUM_I_DRIVER, 0, 0.0, 5, arrow, s->place->axis[0], up);
+  baum_i_symbol_line(&g.symbol, style, 0, 0.0, 5, arrow, s->place->axis[0], up);
 }

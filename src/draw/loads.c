@@ -195,8 +195,31 @@ void baum_i_draw_bushing(const baum_i_symbol *s)
   baum_i_draw_anchor(s, 0);
 }
 
-/* Draws a driver as an arc about its axis if it prescribes an angle, and as an arrow along its axis
- * if it prescribes a displacement. */
+/* Draws a driver or a load of a joint as an arc about the axis of the joint if it acts on an angle,
+ * and as an arrow along this axis if it acts on a displacement. */
+static void draw_effort(const baum_i_symbol *s, baum_i_style style, baum_joint_id id,
+                        baum_joint_coordinate which, bool backward)
+{
+  const baum_i_place *place = baum_i_place_of(s, id);
+  if (!place) {
+    return;
+  }
+  baum_i_place at = *place;
+  const int side = which == BAUM_COORDINATE_ANGLE_B ? 1 : 0;
+  const double sign = backward ? -1.0 : 1.0;
+  for (int i = 0; i < 3; i++) {
+    at.axis[side][i] *= sign;
+  }
+  const baum_i_symbol symbol = {s->drawing, s->number, s->element, &at};
+  double x[3], y[3];
+  baum_i_complete_axes(at.axis[side], x, y);
+  if (is_angle(s, id, which)) {
+    draw_arc(&symbol, style, side, x, y);
+  } else {
+    baum_i_draw_guide_arrow(&symbol, style);
+  }
+}
+
 void baum_i_draw_driver(const baum_i_symbol *s)
 {
   const bool spline = s->element->definition == baum_i_spline_driver_definition;
@@ -204,18 +227,14 @@ void baum_i_draw_driver(const baum_i_symbol *s)
   const baum_driver_def *by_law = s->element->def;
   const baum_joint_id id = spline ? by_spline->joint : by_law->joint;
   const baum_joint_coordinate which = spline ? by_spline->coordinate : by_law->coordinate;
-  const baum_i_place *place = baum_i_place_of(s, id);
-  if (!place) {
-    return;
-  }
-  const baum_i_symbol driven = {s->drawing, s->number, s->element, place};
-  double x[3], y[3];
-  baum_i_complete_axes(place->axis[0], x, y);
-  if (is_angle(s, id, which)) {
-    draw_arc(&driven, BAUM_I_DRIVER, 0, x, y);
-    return;
-  }
-  baum_i_draw_guide_arrow(&driven);
+  draw_effort(s, BAUM_I_DRIVER, id, which, false);
+}
+
+/* Draws the arrow in the direction in which a positive input drives the coordinate. */
+void baum_i_draw_joint_load(const baum_i_symbol *s)
+{
+  const baum_joint_load_def *def = s->element->def;
+  draw_effort(s, BAUM_I_LOAD, def->joint, def->coordinate, def->effort < 0.0);
 }
 
 /* Draws user constraints and forces as a dot on each of their bodies. */

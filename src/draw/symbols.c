@@ -137,6 +137,7 @@ static const kind KINDS[] = {
   {&baum_i_spatial_torsion_spring_definition, baum_i_draw_spatial_torsion, 0},
   {&baum_i_spatial_bushing_definition, baum_i_draw_bushing, 0},
   {&baum_i_joint_spring_definition, baum_i_draw_joint_spring, 0},
+  {&baum_i_joint_load_definition, baum_i_draw_joint_load, 0},
   {&baum_i_user_force_definition, baum_i_draw_user, 0},
 };
 

@@ -88,7 +88,7 @@ void baum_i_draw_cylinder(const baum_i_symbol *s);
 void baum_i_draw_slide(const baum_i_symbol *s);
 void baum_i_draw_point_on_line(const baum_i_symbol *s);
 /* Draw an arrow beside a guide. */
-void baum_i_draw_guide_arrow(const baum_i_symbol *s);
+void baum_i_draw_guide_arrow(const baum_i_symbol *s, baum_i_style style);
 
 void baum_i_draw_spring(const baum_i_symbol *s);
 void baum_i_draw_cable(const baum_i_symbol *s);
@@ -99,6 +99,7 @@ void baum_i_draw_planar_load(const baum_i_symbol *s);
 void baum_i_draw_spatial_load(const baum_i_symbol *s);
 void baum_i_draw_coupling(const baum_i_symbol *s);
 void baum_i_draw_joint_spring(const baum_i_symbol *s);
+void baum_i_draw_joint_load(const baum_i_symbol *s);
 void baum_i_draw_driver(const baum_i_symbol *s);
 void baum_i_draw_user(const baum_i_symbol *s);
 

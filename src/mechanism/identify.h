@@ -47,6 +47,17 @@ baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input
 /* Return the initial inputs (input_count), or NULL if there are none. */
 const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
 
+static inline bool baum_i_has_input(baum_input_id id)
+{
+  return id.index1 != 0 || id.tag != 0;
+}
+
+/* Return the present value of the input that multiplies a load, or 1 if the load has no input. */
+static inline double baum_i_input_factor(const baum_i_point *point, baum_input_id id)
+{
+  return baum_i_has_input(id) ? point->inputs[id.index1 - 1] : 1.0;
+}
+
 /* Check that a mechanism is not frozen. Returns BAUM_OK, BAUM_ERR_ARGUMENT if the mechanism is
  * NULL, or BAUM_ERR_STATE if it is frozen. */
 baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call);

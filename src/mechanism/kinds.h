@@ -49,6 +49,7 @@
   KIND(force, spatial_torsion_spring)    \
   KIND(force, spatial_bushing)           \
   KIND(force, joint_spring)              \
+  KIND(force, joint_load)                \
   KIND(force, user_force)
 
 #define BAUM_I_DECLARE_DEFINITION(FAMILY, NAME) \

@@ -326,6 +326,7 @@ static void coordinates_that_joints_do_not_have_are_refused(void **state)
     {"joint_spring", "coordinate",
      "coordinate is \"x\", but joint |\"sleeve\", a spatial "
      "cylindrical joint, has \"displacement\", \"angle\""},
+    {"joint_load", "coordinate", "\"thrust\": coordinate is \"x\", but joint |\"sleeve\""},
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     assert_true(refuses(&parts, kind_of(bad[k].kind), bad[k].field, &x, bad[k].message));
@@ -333,6 +334,9 @@ static void coordinates_that_joints_do_not_have_are_refused(void **state)
   assert_true(refuses(&parts, kind_of("joint_spring"), "joint", &parts.clamp,
                       "joint is joint |\"clamp\", a spatial fixed joint, which has no coordinate "
                       "for a spring"));
+  assert_true(refuses(&parts, kind_of("joint_load"), "joint", &parts.clamp,
+                      "joint is joint |\"clamp\", a spatial fixed joint, which has no coordinate "
+                      "for a load"));
   assert_true(refuses(&parts, kind, "joint_b", &parts.socket,
                       "joint_b is joint |\"socket\", a spatial spherical joint, which has no "
                       "coordinate to couple"));

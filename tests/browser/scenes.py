@@ -205,6 +205,15 @@ def joint_spring(m):
 
 
 @scene(PLANE)
+def joint_load(m):
+    block = m.planar_body("block", mass=1, inertia=0.1, position=(1, 0))
+    guide = m.translational("guide", m.ground, block, point_a=(0, 0), point_b=(0, 0))
+    pin = m.revolute("pin", block, arm(m, start=(1, 0), end=(1.2, 1.5)), point=(1, 0))
+    m.joint_load("force", guide, effort=1)
+    m.joint_load("torque", pin, effort=-1)
+
+
+@scene(PLANE)
 def planar_load(m):
     a = arm(m)
     m.revolute("pin", m.ground, a, point=(0, 0))
@@ -359,6 +368,15 @@ def spatial_joint_springs(m):
     slide = m.prismatic("slide", m.ground, b, point_a=(0, 2, 0), point_b=(0, 0, -0.5), axis=(1, 0, 0))
     m.joint_spring("spiral", hinge, stiffness=1)
     m.joint_spring("coil", slide, stiffness=1)
+
+
+@scene(SPACE)
+def spatial_joint_loads(m):
+    a, b = arm(m, "a", (0, 0, 0), (1, 0, 0)), arm(m, "b", (1, 2, 0), (1, 2, 1))
+    hinge = m.spatial_revolute("hinge", m.ground, a, point=(0, 0, 0), axis=(0, 0, 1))
+    slide = m.prismatic("slide", m.ground, b, point_a=(0, 2, 0), point_b=(0, 0, -0.5), axis=(1, 0, 0))
+    m.joint_load("torque", hinge, effort=1)
+    m.joint_load("force", slide, effort=-1)
 
 
 @scene(SPACE)

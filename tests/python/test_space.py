@@ -486,6 +486,32 @@ class Coordinates(unittest.TestCase):
         height = -2 * 9.81 / 100 * (1 - np.cos(50**0.5 * 1.5))
         self.assertAlmostEqual(run.get("sleeve.displacement")[0], height, places=6)
 
+    def test_loads(self):
+        m, sleeve = self.nut()
+        m.joint_load("thrust", sleeve, effort=2 * 9.81)
+        u = m.input("u", 0.5)
+        motor = m.joint_load("motor", "sleeve", coordinate="angle", effort=2, input=u)
+        self.assertEqual(motor.definition["coordinate"], "angle")
+        self.assertEqual(motor.definition["joint"], sleeve)
+        self.assertEqual(motor.definition["effort"], 2)
+        run = m.freeze().simulation("rk8", rtol=1e-10, energy_account=True)
+        run.advance_to(1)
+        run.set_input("u", -1)
+        run.advance_to(2)
+        self.assertAlmostEqual(run.get("sleeve.displacement")[0], 0)
+        self.assertAlmostEqual(run.get("sleeve.angle")[0], 0.5 + 1 - 1)
+        self.assertAlmostEqual(run.energy_account.loads, 1 * 0.5 - 2 * 0)
+        again = baum.parse(m.scene())
+        self.assertEqual(m, again)
+        self.assertEqual(again["motor"].definition["input"].name, "u")
+        self.assertEqual(m.copy(motor=dict(effort=3))["motor"].definition["effort"], 3)
+
+    def test_a_load_does_not_keep_the_orientation(self):
+        m, sleeve = self.nut()
+        m.joint_load("motor", sleeve, coordinate="angle", effort=2)
+        turned = m.freeze().copy(nut=dict(orientation=(HALF, 0, 0, HALF)))
+        self.assertEqual(turned["motor"].definition["effort"], 2)
+
     def test_names(self):
         m, sleeve = self.nut()
         with self.assertRaisesRegex(ValueError, "no coordinate 'turn'; there are: first, disp"):

@@ -183,6 +183,11 @@ static void add_loads(maker *make)
   keep(make, baum_mechanism_add_planar_load(make->m, &load, NULL));
   load.follows_body = true;
   keep(make, baum_mechanism_add_planar_load(make->m, &load, NULL));
+  baum_joint_load_def motor = baum_joint_load_def_default();
+  motor.joint = make->pins[1];
+  motor.effort = -0.8;
+  motor.input = input;
+  keep(make, baum_mechanism_add_joint_load(make->m, &motor, NULL));
   baum_user_force_def user = baum_user_force_def_default();
   user.bodies = &make->links[1];
   user.body_count = 1;

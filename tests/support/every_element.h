@@ -22,7 +22,8 @@
  *   a top in a socket of the shaft and on a table of the ram
  *   a tube in a sleeve, with a cap clamped to it
  *   a ball on a wire of the yoke and on a strut of the cap
- *   a coil (spring), a push (load) and a winding (joint spring of the sleeve)
+ *   a coil (spring), a push (load), a winding and a thrust (joint spring and joint load of the
+ *   sleeve)
  *   a twirl (torsion spring of the top) and a rubber (bushing of the cap)
  *
  * The last elements are a sled in the plane on a blade (knife edge), a coin that rolls (rolling
@@ -123,7 +124,8 @@ typedef struct every_element {
   baum_force_id twirl;
   baum_force_id rubber;
   baum_force_id rope;
-  /* The input of the loads `load` and `push`; its initial value is 1. */
+  baum_force_id thrust;
+  /* The input of the loads `load`, `push` and `thrust`; its initial value is 1. */
   baum_input_id throttle;
   every_fault *fault;            /* the `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* arrays for the definitions */
@@ -187,7 +189,7 @@ typedef struct element_fields {
 
 element_fields element_fields_of(const element_kind *kind);
 
-enum { ELEMENT_KINDS = 43 };
+enum { ELEMENT_KINDS = 44 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 24 };

@@ -45,6 +45,7 @@ void good_spatial_constant_velocity(const every_element *parts, any_def *to);
 void good_spatial_torsion_spring(const every_element *parts, any_def *to);
 void good_spatial_bushing(const every_element *parts, any_def *to);
 void good_joint_spring(const every_element *parts, any_def *to);
+void good_joint_load(const every_element *parts, any_def *to);
 void good_planar_knife_edge(const every_element *parts, any_def *to);
 void good_spatial_rolling_disc(const every_element *parts, any_def *to);
 void good_spatial_curve(const every_element *parts, any_def *to);

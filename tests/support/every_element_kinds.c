@@ -126,6 +126,7 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(joint, spatial_curve, "spatial point on a curve", spiral),
   KIND(joint, spatial_knife_edge, "spatial knife edge", runner),
   KIND(force, spatial_cable, "spatial cable", rope),
+  KIND(force, joint_load, "joint load", thrust),
 };
 
 /* ---- fields of a definition, read from the library's table ---- */

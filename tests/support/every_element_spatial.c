@@ -227,6 +227,17 @@ GOOD(joint_spring)
   return def;
 }
 
+GOOD(joint_load)
+{
+  baum_joint_load_def def = baum_joint_load_def_default();
+  def.name = "thrust";
+  def.joint = parts->sleeve;
+  def.coordinate = BAUM_COORDINATE_DISPLACEMENT;
+  def.effort = 0.1;
+  def.input = parts->throttle;
+  return def;
+}
+
 baum_status every_element_add_coin(every_element *parts)
 {
   baum_spatial_body_def def = baum_spatial_body_def_default();

@@ -370,6 +370,27 @@ static void curve(baum_mechanism *m)
   check(baum_mechanism_add_planar_curve(m, &def, NULL));
 }
 
+static void load_joint(baum_mechanism *m, baum_joint_id joint, double effort, baum_input_id input)
+{
+  baum_joint_load_def def = baum_joint_load_def_default();
+  def.joint = joint;
+  def.effort = effort;
+  def.input = input;
+  check(baum_mechanism_add_joint_load(m, &def, NULL));
+}
+
+/* Makes a block that slides on a swinging beam. Loads act on the angle of the beam and on the
+ * displacement of the block. */
+static void joint_load(baum_mechanism *m)
+{
+  const baum_input_id none = {0, 0};
+  baum_input_id throttle;
+  translational(m);
+  check(baum_mechanism_add_input(m, "throttle", -1.5, &throttle));
+  load_joint(m, baum_mechanism_joint_at(m, 0), 2.0, throttle);
+  load_joint(m, baum_mechanism_joint_at(m, 1), 3.0, none);
+}
+
 const joint_scene joint_scenes[JOINT_SCENES] = {
   {"revolute", revolute, 2, true, false},
   {"translational", translational, 2, true, false},
@@ -387,6 +408,7 @@ const joint_scene joint_scenes[JOINT_SCENES] = {
   {"point on a curve", curve, 2, true, false},
   {"spline driver", spline_driver, 1, false, false},
   {"user constraint of velocity level", velocity_level, 3, true, true},
+  {"joint load", joint_load, 2, false, false},
 };
 
 baum_mechanism *joint_scene_make(const joint_scene *scene)

@@ -10,11 +10,11 @@ typedef struct joint_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism); /* fails the test if a call fails */
   int degrees_of_freedom;
-  bool conservative;  /* whether the energy is constant, as it is without drivers */
+  bool conservative;  /* whether the energy is constant, as it is without drivers and loads */
   bool of_velocities; /* whether it has rows of velocity level, which rattle refuses */
 } joint_scene;
 
-enum { JOINT_SCENES = 16, JOINT_SCENE_SIZE_MAX = 12 }; /* largest nv and nc */
+enum { JOINT_SCENES = 17, JOINT_SCENE_SIZE_MAX = 12 }; /* largest nv and nc */
 extern const joint_scene joint_scenes[JOINT_SCENES];
 
 /* Returns the frozen mechanism, which the caller destroys. */

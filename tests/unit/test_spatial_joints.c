@@ -130,11 +130,50 @@ static void add_joint_springs(const spatial_scene *s)
   }
 }
 
-static void check_springs(const spatial_element *e, int a, int b)
+/* Adds a load on every coordinate of the first joint. An input multiplies the loads. */
+static void add_joint_loads(const spatial_scene *s)
+{
+  const baum_joint_coordinate *all = s->mechanism->joints[0]->type->coordinates;
+  baum_joint_load_def def = baum_joint_load_def_default();
+  check(baum_mechanism_add_input(s->mechanism, NULL, -1.5, &def.input));
+  for (int k = 0; all[k] != BAUM_COORDINATE_FIRST; k++) {
+    def.joint = baum_mechanism_joint_at(s->mechanism, 0);
+    def.coordinate = k > 0 ? all[k] : BAUM_COORDINATE_FIRST;
+    def.effort = 2.0 + k;
+    check(baum_mechanism_add_joint_load(s->mechanism, &def, NULL));
+  }
+}
+
+/* Checks that the power of each load of a joint is g^T v. */
+static void check_powers(test_point *p)
+{
+  for (int k = 0; k < p->mechanism->force_count; k++) {
+    const baum_i_force *load = p->mechanism->forces[k];
+    const baum_i_force_group alone = {load->type, 1, &load};
+    double force[TEST_SIZE_MAX] = {0.0};
+    double power[BAUM_I_POWERS] = {0.0};
+    double product = 0.0;
+    double size = 0.0;
+    check(load->type->force(&alone, &p->point, force));
+    check(load->type->power(load, &p->point, power));
+    for (int i = 0; i < p->nv; i++) {
+      product += force[i] * p->v[i];
+      size += fabs(force[i] * p->v[i]);
+    }
+    assert_true(size > 0.0);
+    assert_true(fabs(power[BAUM_I_POWER_LOADS] - product) <= 1e-14 * size); /* rounding */
+  }
+}
+
+static void check_coordinates(const spatial_element *e, int a, int b, bool loads)
 {
   spatial_scene s = spatial_scene_make(true);
   e->add(&s, a, b);
-  add_joint_springs(&s);
+  if (loads) {
+    add_joint_loads(&s);
+  } else {
+    add_joint_springs(&s);
+  }
   if (s.mechanism->force_count == 0) {
     baum_mechanism_destroy(s.mechanism);
     return;
@@ -145,6 +184,10 @@ static void check_springs(const spatial_element *e, int a, int b)
   for (int i = 0; i < STATES; i++) {
     find_smooth(&p, 1, &seed);
     check_force_derivatives(&p);
+    if (loads) {
+      check_powers(&p);
+      continue;
+    }
     check_coordinate_derivatives(&p);
     check_potential_gradient(&p);
   }
@@ -181,7 +224,8 @@ static void check_pair(const spatial_element *e, int a, int b)
   }
   test_point_close(&p);
   if (!e->force) {
-    check_springs(e, a, b);
+    check_coordinates(e, a, b, false);
+    check_coordinates(e, a, b, true);
   }
 }
 

@@ -190,6 +190,17 @@ class baum_joint_spring_def(Structure):
     ]
 
 
+class baum_joint_load_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint", baum_joint_id),
+        ("coordinate", c_int),
+        ("effort", c_double),
+        ("input", baum_input_id),
+    ]
+
+
 class baum_mobility(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1385,6 +1396,16 @@ PROTOTYPES = {
     "baum_mechanism_set_joint_spring": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_joint_spring_def),
     ]),
+    "baum_joint_load_def_init": (None, [POINTER(baum_joint_load_def), c_size_t]),
+    "baum_mechanism_add_joint_load": (c_int, [
+        c_void_p, POINTER(baum_joint_load_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_joint_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_joint_load_def), c_size_t,
+    ]),
+    "baum_mechanism_set_joint_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_joint_load_def),
+    ]),
     "baum_mechanism_add_input": (c_int, [c_void_p, c_char_p, c_double, POINTER(baum_input_id)]),
     "baum_mechanism_get_input": (c_int, [c_void_p, baum_input_id, c_void_p]),
     "baum_mechanism_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
@@ -2040,6 +2061,7 @@ DEFAULTS = {
     baum_coupling_def: "baum_coupling_def_init",
     baum_user_force_def: "baum_user_force_def_init",
     baum_joint_spring_def: "baum_joint_spring_def_init",
+    baum_joint_load_def: "baum_joint_load_def_init",
     baum_simulation_options: "baum_simulation_options_init",
     baum_channel: "baum_channel_init",
     baum_outline: "baum_outline_init",
@@ -2098,6 +2120,7 @@ STRUCTS = [
     baum_coupling_def,
     baum_user_force_def,
     baum_joint_spring_def,
+    baum_joint_load_def,
     baum_mobility,
     baum_report,
     baum_gains,

@@ -617,6 +617,25 @@ class Adding:
         """
         return self._add(Force, "joint_spring", locals())
 
+    def joint_load(
+        self,
+        name: str | None,
+        joint: JointLike,
+        *,
+        coordinate: Coordinate = "first",
+        effort: Scalar = 0.0,
+        input: InputLike | None = None,
+    ) -> Force:
+        """Add a force or a torque on a coordinate of a joint, in the plane or in space, such as the
+        torque of a motor. It acts on body_b of the joint, and with the opposite sign on body_a.
+
+        coordinate: which coordinate of the joint, as in driver().
+        effort: torque on an angle [N m] or force on a displacement [N]. It drives the coordinate in
+            its positive direction if it is positive.
+        input: an input of the mechanism, see input(). Its value multiplies the effort.
+        """
+        return self._add(Force, "joint_load", locals())
+
     def load(
         self,
         name: str | None,

@@ -133,6 +133,7 @@ KINDS = {
         Kind("spatial_torsion_spring", "force"),
         Kind("spatial_bushing", "force"),
         Kind("joint_spring", "force"),
+        Kind("joint_load", "force"),
         Kind("user_force", "force"),
     )
 }

@@ -410,9 +410,11 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
                 yield element.name, taken
 
     def _used_angles(self) -> Iterator[Joint]:
-        """Return the joints whose angles are used by drivers, couplings or springs."""
+        """Return the joints whose angles are used by drivers, couplings or springs. The effort of a
+        joint load does not depend on the angle."""
         for element in self:
-            values = element.definition if element.family in ("joint", "force") else {}
+            uses = element.family in ("joint", "force") and element.kind.name != "joint_load"
+            values = element.definition if uses else {}
             for end in ("", "_a", "_b"):
                 joint = values.get(f"joint{end}")
                 if joint and joint.kind.coordinate(values[f"coordinate{end}"]).startswith("angle"):

@@ -69,11 +69,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return particle ? check_on_particle(def, label) : BAUM_OK;
 }
 
-static bool has_input(const baum_planar_load_def *def)
-{
-  return def->input.index1 != 0 || def->input.tag != 0;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
@@ -102,7 +97,7 @@ typedef struct load {
 static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
                                const baum_i_frame *frame, const double *numbers, double f[2])
 {
-  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  double scale = baum_i_input_factor(point, def->input);
   f[0] = scale * numbers[FORCE];
   f[1] = scale * numbers[FORCE + 1];
   if (def->follows_body) {
@@ -121,7 +116,7 @@ static load load_at(const baum_i_force *element, const baum_i_point *point)
   load l = {
     .at = baum_i_marker_on(frame, numbers + POINT),
     .follows_body = def->follows_body,
-    .has_potential = !def->follows_body && numbers[TORQUE] == 0.0 && !has_input(def),
+    .has_potential = !def->follows_body && numbers[TORQUE] == 0.0 && !baum_i_has_input(def->input),
   };
   l.torque = numbers[TORQUE] * set_force(def, point, frame, numbers, l.force);
   return l;

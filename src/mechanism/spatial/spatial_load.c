@@ -54,11 +54,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
                            : BAUM_OK;
 }
 
-static bool has_input(const baum_spatial_load_def *def)
-{
-  return def->input.index1 != 0 || def->input.tag != 0;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
                          double *parameters)
 {
@@ -99,12 +94,13 @@ static load load_at(const baum_i_force *element, const baum_i_point *point)
 {
   const baum_spatial_load_def *def = element->element.def;
   const double *numbers = point->parameters + element->element.parameter;
-  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  double scale = baum_i_input_factor(point, def->input);
   load l = {
     .frame = &point->spatial[element->span.bodies[0]],
     .point = numbers + POINT,
     .follows_body = def->follows_body,
-    .has_potential = !def->follows_body && is_zero(numbers + MOMENT) && !has_input(def),
+    .has_potential =
+      !def->follows_body && is_zero(numbers + MOMENT) && !baum_i_has_input(def->input),
   };
   set_both(l.frame, numbers + FORCE, scale, def->follows_body, l.force);
   set_both(l.frame, numbers + MOMENT, scale, def->follows_body, l.moment);
