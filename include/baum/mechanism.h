@@ -43,7 +43,7 @@
  *
  *  Definitions: each kind K of element has a struct baum_K_def and five functions:
  *  baum_K_def_default(), baum_K_def_init(), baum_mechanism_add_K(), baum_mechanism_get_K() and
- *  baum_mechanism_set_K(). These functions do the same for every kind. The comments of
+ *  baum_mechanism_set_K(). Each of the five functions does the same for every kind. The comments of
  *  baum_coordinates_def_init() and of the other four functions for user coordinates describe them.
  *  The words "Default: NULL, zeros" in the comment of a field mean that the field is NULL by
  *  default, and that NULL stands for zeros.
