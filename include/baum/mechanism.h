@@ -59,10 +59,10 @@
  *  cannot detect that an object has already been destroyed.
  *
  *  Callbacks are functions of yours that the library calls. Their arguments q and v hold the
- *  coordinates of the bodies that the definition names, one body after the other. Matrices are
- *  dense and row-major. The library sets outputs to zero before the call. A callback returns 0 on
- *  success, a positive number to ask for a smaller step, and a negative number to stop the run. If
- *  threads share the mechanism, callbacks must be reentrant.
+ *  positions and velocities of the bodies that the definition names, one body after the other.
+ *  Matrices are dense and row-major. The library sets outputs to zero before the call. A callback
+ *  returns 0 on success, a positive number to ask for a smaller step, and a negative number to stop
+ *  the run. If threads share the mechanism, callbacks must be reentrant.
  *
  *  A callback may call the library, but it must not use the workspace or the run that is calling
  *  it. If it does, functions that return a status fail with BAUM_ERR_STATE, and the function that
