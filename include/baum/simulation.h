@@ -520,12 +520,12 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  same elements in the same order, with equal masses, points, stiffnesses and so on. It also
  *  checks that the two runs have the same events, and that the following options are equal:
  *  integrator, formulation, gains, row_gains, step, tolerances, max_step, solver, energy_account
- *  and error_check. Events must therefore be added before the run is restored. The library cannot
- *  check user functions. They must be the same, and if they keep a state of their own, this state
- *  is not saved. The omitted redundant rows are those of the saved run, and so are the gains if a
- *  rule chooses them. Restoring allocates memory in three cases only: drivers were set in the saved
- *  run, the saved run has longer schedules than this run, or the two runs omit different redundant
- *  rows.
+ *  and error_check. Therefore add the events of the saved run to this run before restoring. The
+ *  library cannot check user functions. They must be the same, and if they keep a state of their
+ *  own, this state is not saved. The omitted redundant rows are those of the saved run, and so are
+ *  the gains if a rule chooses them. Restoring allocates memory in three cases only: drivers were
+ *  set in the saved run, the saved run has longer schedules than this run, or the two runs omit
+ *  different redundant rows.
  *  @param     simulation  unchanged on failure
  *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote

@@ -35,7 +35,7 @@
 extern "C" {
 #endif
 
-/** An integration method; simulation.h lists them. */
+/** An integration method; simulation.h lists all methods. */
 typedef struct baum_integrator baum_integrator;
 
 /** Rules that choose the gains. */

@@ -24,8 +24,8 @@ ROUNDING = 1e4 * float(np.finfo(float).eps)  # assumed rounding error of a resul
 
 
 class Sensitivities(Named):
-    """The derivatives of results with respect to the p numbers in the parameters. A parameter is a
-    number or a vector of numbers.
+    """The derivatives of results with respect to all numbers in the parameters. A parameter is a
+    number or a vector of numbers. In the shapes below, p is the count of all these numbers.
 
     parameters: the names of these numbers. A vector has one name for each of its numbers,
         such as "rod.position[0]".
