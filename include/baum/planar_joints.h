@@ -125,9 +125,9 @@ BAUM_API baum_status baum_mechanism_set_planar_rack_and_pinion(
  *  internal teeth, and both wheels rotate in the same direction. The motion depends only on the
  *  ratio of the radii, so you may give numbers of teeth instead of radii. Other joints, such as
  *  pins, must keep the wheels on the carrier. A planetary gear consists of two of these joints, one
- *  between sun and planet and one between planet and ring. The carrier of both joints is the arm of
- *  the planets. If the ring does not move, give BAUM_GROUND as the ring. All bodies must have an
- *  angle.
+ *  between sun and planet and one between planet and ring. In both joints, the carrier is the arm
+ *  that carries the planets. If the ring does not move, give BAUM_GROUND as the ring. All bodies
+ *  must have an angle.
  *
  *  The reaction of a gear pair is the generalized force -J^T lambda of its row, with one number for
  *  each velocity of body_a, body_b and the carrier; ground is omitted. It contains only torques:

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slider-crank. Crank 1 rotates about the origin, slider 3 moves on the line y = e, where e is the
- * eccentricity, and rod 2 connects them. The centres of mass of crank and rod are at half their
+/* A slider-crank. Crank 1 rotates about the origin, slider 3 moves on the line y = e, where e is
+ * the eccentricity, and rod 2 connects them. The centres of mass of crank and rod are at half their
  * lengths. With the lengths l1 and l2 and the angles a1 and a2 of crank and rod, and the position
  * x3 of the slider, the constraints are
  *
