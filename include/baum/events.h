@@ -4,9 +4,9 @@
  *  passes a value.
  *
  *  Detection: after every step, the run evaluates its event functions at the end of the step, and
- *  after a quarter, a half and three quarters of the step. It also evaluates them at the times of
- *  outputs. If the sign of a function has changed, the run searches for the time of the event. The
- *  search needs states inside the step. The run computes these states in the same way as outputs:
+ *  at a quarter, a half and three quarters of it. It also evaluates them at the times of outputs.
+ *  If the sign of a function has changed, the run searches for the time of the event. The search
+ *  needs states inside the step. The run computes these states in the same way as outputs:
  *  variable-step methods interpolate the step, and fixed-step methods take shorter steps from the
  *  start of the step. A joint coordinate may pass the value of its event and return between two
  *  evaluations. The run usually detects both of these events, because it also knows the rate of the

@@ -812,8 +812,8 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  The account costs additional evaluations of the equations of motion in each step. With a fixed
  *  step, most methods need 3 additional evaluations per step. dp5 needs 18 and rk8 needs 48,
  *  because they subdivide the step for the account. With variable steps, most methods need 4; rk8
- *  needs 7, including the evaluations for its interpolant. With BAUMGARTE, 2 to 4 more evaluations
- *  are needed. */
+ *  needs 7, including the evaluations for its interpolant. With BAUMGARTE, add 2 to 4 evaluations
+ *  per step to each of these numbers. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] present kinetic energy v^T M v / 2. */

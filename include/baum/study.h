@@ -400,7 +400,7 @@ BAUM_API baum_status baum_study_entry_at(const baum_study *study, int32_t k, bau
                                          size_t caller_size);
 
 /** Read the options of an entry. You can pass them to baum_simulation_create(). The study owns the
- *  array row_gains.
+ *  array row_gains of the options.
  *  @param      study        the study
  *  @param      k            0 to baum_study_entry_count() - 1
  *  @param[out] out          filled

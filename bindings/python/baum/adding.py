@@ -149,7 +149,8 @@ class Adding:
         scale: (size) typical change of each position. Tolerances are relative to this change.
         constant_mass: True if M is constant.
         held: True if assembly must not move these coordinates.
-        inputs: inputs whose values force, force_q and force_v receive as further arguments after v.
+        inputs: inputs whose values are passed to force, force_q and force_v as further arguments
+            after v.
         depends_on_velocity: False if force() does not read v. The integrator "rattle" requires
             False.
         user: passed to compiled functions as the last argument: an address or an object of ctypes.
