@@ -381,7 +381,7 @@ typedef struct baum_driver_def {
   /** A law that replaces value, rate and acceleration, which must then be 0. Default: NULL. */
   baum_law_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** [-] coordinate of the joint that the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of the joint the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_driver_def;
 
