@@ -968,8 +968,8 @@ typedef struct baum_warning {
   char text[400];
 } baum_warning;
 
-/** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
- *  warnings.
+/** Read the warnings of one kind. A run keeps one entry per kind, in the order in which the kinds
+ *  first occurred.
  *  @param      simulation   the run
  *  @param      k            number of the kind, 0 to counters.warnings - 1
  *  @param[out] out          filled

@@ -278,7 +278,7 @@ def parse(text: str, functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from the text of a scene. The mechanism is not frozen.
 
     functions: a dict from each name of a function or `user` object in the scene to this function or
-    object, such as {"drag": drag} or globals().
+        object, such as {"drag": drag} or globals().
 
     Raises baum.Error if the text is not a scene; the message names the line. Raises KeyError if a
     function is missing.
