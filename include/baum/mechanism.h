@@ -381,7 +381,7 @@ typedef struct baum_driver_def {
   /** A law that replaces value, rate and acceleration, which must then be 0. Default: NULL. */
   baum_law_fn *law;
   void *user; /**< Passed to law. Not owned. Default: NULL. */
-  /** [-] coordinate of the joint that the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of the joint the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_driver_def;
 
@@ -703,8 +703,8 @@ BAUM_API baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism,
 
 /** Set the characteristic length. Tolerances and errors of positions are relative to it.
  *  @param mechanism  not frozen
- *  @param length     [m] > 0. Default of a mechanism: the size of its design configuration, which
- *                    is determined when the mechanism is frozen.
+ *  @param length     [m] > 0. If no length is set, freezing sets it to the size of the design
+ *                    configuration.
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen) */
 BAUM_API baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism,
                                                               double length);

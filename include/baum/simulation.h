@@ -824,7 +824,7 @@ typedef struct baum_energy_account {
   /** [J] work of the loads that have an input, a torque or a moment, or that follow their body. */
   double loads;
   double springs; /**< [J] work of springs with a user law. */
-  /** [J] work of the dampers of bushings, and of springs and cables without a user law. */
+  /** [J] work of the dampers in bushings, and in springs and cables without a user law. */
   double dampers;
   /** [J] the part of the work of user forces that no potential explains: their whole work plus the
    *  change of their potential energy. */
@@ -939,9 +939,9 @@ typedef enum baum_warning_code {
   BAUM_WARNING_ACCURACY = 103, /**< The estimated error of the motion is large. */
   /** Several motions may start from the initial configuration. */
   BAUM_WARNING_SINGULAR_START = 104,
-  /** The rotation of a bushing passed pi, where its moment jumps. Or the axes of a spatial torsion
-   *  spring nearly pointed in opposite directions, and a step was too long to follow the angle of
-   *  the spring. */
+  /** The rotation of a bushing passed pi, where its moment jumps. The run also warns if the axes of
+   *  a spatial torsion spring nearly pointed in opposite directions, and a step was too long to
+   *  follow the angle of the spring. */
   BAUM_WARNING_BUSHING = 105,
   /** A user function returned a wrong derivative at a state of the run. */
   BAUM_WARNING_WRONG_DERIVATIVE = 106
@@ -968,8 +968,8 @@ typedef struct baum_warning {
   char text[400];
 } baum_warning;
 
-/** Read the warnings of one kind. A run keeps one entry per kind, in the order of the first
- *  warnings.
+/** Read the warnings of one kind. A run keeps one entry per kind, in the order in which the kinds
+ *  first occurred.
  *  @param      simulation   the run
  *  @param      k            number of the kind, 0 to counters.warnings - 1
  *  @param[out] out          filled

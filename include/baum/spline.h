@@ -29,7 +29,7 @@ typedef struct baum_spline_driver_def {
   /** True for a periodic spline, which repeats; the first and the last value must then be equal.
    *  Default: false, a natural spline. */
   bool periodic;
-  /** [-] coordinate of the joint that the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
+  /** [-] which coordinate of the joint the driver prescribes. Default: BAUM_COORDINATE_FIRST. */
   baum_joint_coordinate coordinate;
 } baum_spline_driver_def;
 

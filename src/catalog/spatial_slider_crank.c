@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A spatial slider-crank. The slider moves on the x axis. The crank rotates about a line parallel
- * to the x axis, whose y and z are the parameters `beside` and `above`. Let a be the angle of the
- * crank, (0, y, z) the position of its tip, and (x, 0, 0) the position of the slider. With the
- * lengths l1 of the crank and l2 of the rod, the constraints give
+ * to the x axis; the y and z of this line are the parameters `beside` and `above`. Let a be the
+ * angle of the crank, (0, y, z) the position of its tip, and (x, 0, 0) the position of the slider.
+ * With the lengths l1 of the crank and l2 of the rod, the constraints give
  *
  *   y = beside - l1 sin a,  z = above + l1 cos a,  x = sqrt(l2^2 - y^2 - z^2)
  *

@@ -218,7 +218,7 @@ class EnergyAccount(NamedTuple):
     loads: [J] work of the loads that have an input, a torque or a moment, or that follow their
         body.
     springs: [J] work of springs with a user law.
-    dampers: [J] work of the dampers of bushings, and of springs and cables without a user law.
+    dampers: [J] work of the dampers in bushings, and in springs and cables without a user law.
     user_forces: [J] the part of the work of user forces that no potential explains: their whole
         work plus the change of their potential energy.
     bodies: [J] work of the forces of user coordinates, plus the change of their potential

@@ -443,7 +443,7 @@ class Adding:
         law(t): the value of the coordinate, its first and its second derivative at the time t [s].
             The law replaces value, rate and acceleration, which must then be 0.
         user: passed to a compiled function as its last argument.
-        coordinate: the coordinate of the joint that the driver prescribes. The list below gives the
+        coordinate: which coordinate of the joint the driver prescribes. The list below gives the
             names for each type of joint, and "first" stands for the first of these names.
 
         - Revolute joints have "angle".

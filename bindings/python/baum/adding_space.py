@@ -24,13 +24,13 @@ class AddingInSpace:
     """The methods of a Mechanism that add an element in space. The class Adding describes what all
     methods that add elements have in common.
 
-    A point is given by its coordinates x, y, z [m]. The place of a joint is given by `point` in
-    ground axes, in the design configuration, or by `point_a` and `point_b` in the axes of the
-    bodies. `axis` is a direction on body_a, and `axis_b` is the corresponding direction on body_b.
-    These two vectors may have any length except 0. They are in ground axes if `point` is given,
-    otherwise in the axes of the bodies. By default, `axis_b` coincides with `axis` in the design
-    configuration. Spatial joints and springs can also connect planar bodies and planar particles,
-    which stay in the plane z = 0.
+    A point is given by its coordinates x, y, z [m]. The place of a joint is given either by
+    `point`, in ground axes and in the design configuration, or by `point_a` and `point_b`, in the
+    axes of the bodies. `axis` is a direction on body_a, and `axis_b` is the corresponding direction
+    on body_b. These two vectors may have any length except 0. They are in ground axes if `point` is
+    given, otherwise in the axes of the bodies. By default, `axis_b` coincides with `axis` in the
+    design configuration. Spatial joints and springs can also connect planar bodies and planar
+    particles, which stay in the plane z = 0.
     """
 
     if TYPE_CHECKING:

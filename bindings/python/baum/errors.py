@@ -197,9 +197,9 @@ class SingularStartWarning(DoubtWarning):
 
 
 class BushingWarning(DoubtWarning):
-    """The rotation of a bushing has passed pi, where its moment jumps. Or a step was too long to
-    follow the angle of a spatial torsion spring whose axes nearly pointed in opposite
-    directions."""
+    """The rotation of a bushing has passed pi, where its moment jumps. The run also warns if a
+    step was too long to follow the angle of a spatial torsion spring whose axes nearly pointed in
+    opposite directions."""
 
     code = 105
 

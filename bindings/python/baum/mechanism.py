@@ -107,10 +107,10 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
 
     You may use any consistent set of units. Angles are in radians.
 
-    The place of a joint is given by `point` in ground axes, in the design configuration, or by
-    `point_a` and `point_b` in the axes of the bodies. Most joints in space also have `axis` and
-    `axis_b`. m["A"] is the handle of the element with the name "A". Functions that you give for an
-    element receive arguments such as (t, q) or (t, q, v), and return their result. Here t is the
+    The place of a joint is given either by `point`, in ground axes and in the design configuration,
+    or by `point_a` and `point_b`, in the axes of the bodies. Most joints in space also have `axis`
+    and `axis_b`. m["A"] is the handle of the element with the name "A". Functions that you give for
+    an element receive arguments such as (t, q) or (t, q, v), and return their result. Here t is the
     time, and q and v are the positions and velocities of the bodies on which the element acts.
     """
 

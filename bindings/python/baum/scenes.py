@@ -277,8 +277,8 @@ def _set_functions(mechanism: Mechanism, own: Element, element: Any, functions: 
 def parse(text: str, functions: Functions | None = None) -> Mechanism:
     """Create a mechanism from the text of a scene. The mechanism is not frozen.
 
-    functions: a dict that contains a function or an object for each name of a function or object
-        in the scene, such as {"drag": drag} or globals().
+    functions: a dict from each name of a function or `user` object in the scene to this function or
+        object, such as {"drag": drag} or globals().
 
     Raises baum.Error if the text is not a scene; the message names the line. Raises KeyError if a
     function is missing.
