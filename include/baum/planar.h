@@ -145,7 +145,7 @@ BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanis
 /** A slider (translational joint): body_b slides along an axis that is fixed in body_a, and does
  *  not rotate relative to body_a. The axis passes through body_a's point. The joint has two rows.
  *  The first is the distance of body_b's point from the axis [m], and the second is angle_b -
- *  angle_a - angle [rad]. */
+ *  angle_a minus the field `angle` [rad]. */
 typedef struct baum_planar_translational_def {
   size_t struct_size;  /**< Set by baum_planar_translational_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -230,7 +230,7 @@ BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanis
 
 /** A weld (fixed joint): the points of both bodies coincide, and the relative angle of the bodies
  *  is constant. The joint has three rows: x and y of the vector from body_b's point to body_a's
- *  point [m], and angle_b - angle_a - angle [rad]. */
+ *  point [m], and angle_b - angle_a minus the field `angle` [rad]. */
 typedef struct baum_planar_fixed_def {
   size_t struct_size;  /**< Set by baum_planar_fixed_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */

@@ -244,8 +244,8 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         return struct
 
     def kept_objects(self) -> Iterator[tuple[int, tuple[Any, tuple[int, ...]]]]:
-        """Return the functions and `user` objects of all definitions, each with its address. A
-        function also has the indices of the inputs whose values it receives."""
+        """Return the functions and `user` objects of all definitions, each with its address. For
+        each function, also return the indices of the inputs whose values it receives."""
         for kept in self._keep:
             wrapped, value, inputs = kept if isinstance(kept, tuple) else (kept, kept, ())
             try:
