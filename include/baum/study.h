@@ -378,7 +378,7 @@ typedef struct baum_study_entry {
   baum_gains gains;                  /**< The gain rule, as given in the options. */
   double step;                       /**< [s] fixed step; NaN if the entry has rtol. */
   double rtol;                       /**< [-] tolerance; NaN if the entry has a step. */
-  /** [-] number of the method of this entry, see baum_study_method_at() of the study. */
+  /** [-] number of the method of this entry among all methods of the study, counted from 0. */
   int32_t method;
 /** Expands a line of the list. */
 #define BAUM_X(type, name, known, unit, meaning) type name;
