@@ -2,9 +2,9 @@
 /** @file
  *  Functions that find the elements of a mechanism, by name or by number. Elements are numbered in
  *  the order in which they were added. The mechanism may be frozen or not. Use these functions for
- *  mechanisms that another program has built, such as the mechanisms of the catalogue. For these
- *  functions, ground does not count as a body, and drivers, couplings and user constraints count as
- *  joints.
+ *  mechanisms that your program has not built itself, such as the mechanisms of the catalogue. For
+ *  these functions, ground does not count as a body, and drivers, couplings and user constraints
+ *  count as joints.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H

@@ -52,8 +52,9 @@
  *  tells the library which fields a program knows. A program that was compiled with an older
  *  version passes a smaller struct; the fields that it does not know then have their defaults. Any
  *  other size is refused (BAUM_ERR_STRUCT), such as 0 in an all-zero struct, or the larger size of
- *  a newer version. A function that fills a struct writes at most caller_size bytes, and at most
- *  the size that the struct has in the library. It sets struct_size to the number of bytes written.
+ *  a newer version. A function that fills a struct writes at most as many bytes as its argument
+ *  `caller_size` says, and at most the size that the struct has in the library. It sets struct_size
+ *  to the number of bytes written.
  *
  *  Elements cannot be removed from a mechanism. Destroy every object only once, because the library
  *  cannot detect that an object has already been destroyed.

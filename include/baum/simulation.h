@@ -500,8 +500,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  process. It also contains a format version, its size, a checksum, and fingerprints of the
  *  mechanism and of the options. A library with another format version refuses the buffer.
  *  @param      simulation  the run
- *  @param[out] buffer      (capacity) of any alignment. If it is NULL, the function writes only
- *                          `size`, and does not change the run.
+ *  @param[out] buffer      (capacity) bytes, with any alignment. If it is NULL, the function writes
+ *                          only `size`, and does not change the run.
  *  @param      capacity    [byte] at least the size that a call with NULL returns. This size is
  *                          constant during a run, except that every scheduled change of an input
  *                          adds 32 bytes.
@@ -527,7 +527,7 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  set in the saved run, the saved run has longer schedules than this run, or the two runs omit
  *  different redundant rows.
  *  @param     simulation  unchanged on failure
- *  @param[in] buffer      (size) of any alignment; bytes after the saved run are ignored
+ *  @param[in] buffer      (size) bytes, with any alignment; bytes after the saved run are ignored
  *  @param     size        [byte] at least the size that baum_simulation_save() wrote
  *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (truncated, damaged, not a saved run, or of
  *           another version, mechanism or options; the message says which), BAUM_ERR_MEMORY */

@@ -307,10 +307,10 @@ typedef enum baum_study_state {
 /** Name of a state. @param state  any value @return such as "done"; NULL for unknown values */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The last
- *  fields of baum_study_entry, the study file, the reports in CSV and JSON, and the class
- *  StudyEntry of the Python package are generated from this list. Results marked DONE are known
- *  only if the entry is done.
+/** The list of the results of an entry. Each line is X(type, name, known, unit, meaning). The study
+ *  file, the reports in CSV and JSON, the class StudyEntry of the Python package, and the last
+ *  fields of baum_study_entry are generated from this list. Results marked DONE are known only if
+ *  the entry is done.
  *
  *  Each error against the reference is the largest value over all samples, with two exceptions:
  *  fields with `final` in their names contain the error at the last sample, and error_half covers
@@ -378,7 +378,7 @@ typedef struct baum_study_entry {
   baum_gains gains;                  /**< The gain rule, as given in the options. */
   double step;                       /**< [s] fixed step; NaN if the entry has rtol. */
   double rtol;                       /**< [-] tolerance; NaN if the entry has a step. */
-  /** [-] number of the method of this entry, see baum_study_method_at() of the study. */
+  /** [-] number of the method of this entry among all methods of the study, counted from 0. */
   int32_t method;
 /** Expands a line of the list. */
 #define BAUM_X(type, name, known, unit, meaning) type name;

@@ -296,7 +296,8 @@ class StudyEntry(NamedTuple):
     gains: The gain rule, as given in the options.
     step: [s] fixed step; NaN if the entry has rtol.
     rtol: [-] tolerance; NaN if the entry has a step.
-    method: [-] number of the method of this entry, see methods of the study.
+    method: [-] number of the method of this entry among all methods of the study, counted from
+        0.
     state: done, refused, failed, timed_out or waiting
     status: status of the run of the entry
     at_floor: measured error is not above the uncertainty of the reference

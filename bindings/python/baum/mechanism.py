@@ -361,7 +361,7 @@ class Mechanism(Adding, AddingInSpace, Scenes, Strict):
         one mass.
 
         The copy is frozen if this mechanism is frozen. A handle of one of the two mechanisms
-        is also valid in the other one until elements are added.
+        is also valid in the other one, until elements are added to one of the two.
 
         If you change the position, angle or orientation of a body, the copy has another design
         configuration, but is otherwise the same mechanism. Joints and forces keep their points and

@@ -103,7 +103,7 @@ class Workspace(_calls.Closing):
         return q, v
 
     def rate(self, q: ArrayLike, v: ArrayLike) -> Array:
-        """Return the time derivative of the positions, q' = N(q) v (nq). For planar bodies,
+        """Return the time derivative of the positions (nq), q' = N(q) v. For planar bodies,
         q' is equal to v."""
         out: Array = np.empty(self._sizes.nq)
         q, v = self._q(q), self._v(v)
