@@ -535,8 +535,8 @@ class PlanarBodies(unittest.TestCase):
         m.spatial_spring("spring", bead, bob, point_a=(0, 0, 0), point_b=(0, 0, 0), stiffness=9)
         self.m = m
 
-    def run_to(self, m, record):
-        return m.freeze().simulate(np.linspace(0, 1, 5), "rk8", rtol=1e-10, record=record)
+    def run_to(self, m, record, rtol=1e-10):
+        return m.freeze().simulate(np.linspace(0, 1, 5), "rk8", rtol=rtol, record=record)
 
     def test_scenes_and_saved_runs_continue_identically(self):
         again = baum.parse(self.m.scene())
@@ -561,7 +561,8 @@ class PlanarBodies(unittest.TestCase):
     def test_user_functions_see_both_kinds(self):
         self.m.constraint("tie", ["bead", "bob"], 1, lambda t, q: [q[0] - q[2] - 0.8])
         self.m.force("wind", ["crank", "bob"], lambda t, q, v: [0, 1, 0, 0, 0, 2, 0, 0, 0])
-        run = self.run_to(self.m, ["bead.pose", "bob.pose"])
+        # The derivatives of "tie" are differences, whose errors are too large for a smaller rtol.
+        run = self.run_to(self.m, ["bead.pose", "bob.pose"], rtol=1e-8)
         apart = run["bead.pose"][:, 0] - run["bob.pose"][:, 0]
         np.testing.assert_allclose(apart, 0.8, atol=1e-9)
 
