@@ -101,8 +101,8 @@ BAUM_API const baum_integrator *baum_cvode_adams(void);
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** A method for stiff forces, and for comparisons of formulations. Use INDEX3 only for such
  *  comparisons: with INDEX3, errors are far above the tolerance.
- *  @return  SUNDIALS IDA, BDF of variable order for the unknowns y = (q, v, lambda), or
- *           y = (q, v, lambda, mu) with GGL, with rtol. Formulations: GGL, BAUMGARTE (auto),
+ *  @return  SUNDIALS IDA with rtol: BDF of variable order for the unknowns y = (q, v, lambda), or
+ *           y = (q, v, lambda, mu) with GGL. Formulations: GGL, BAUMGARTE (auto),
  *           UNSTABILIZED, INDEX2, INDEX3 */
 BAUM_API const baum_integrator *baum_ida(void);
 /** A method for mechanisms whose drivers prescribe all degrees of freedom, so that Phi(q, t) = 0

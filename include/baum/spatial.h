@@ -301,9 +301,10 @@ BAUM_API baum_status baum_mechanism_set_spatial_torsion_spring(
  *
  *  - d is the vector from body_a's point to body_b's point [m];
  *  - theta is the rotation vector of body_b relative to body_a [rad]. Its direction is the axis of
- *    the rotation, and its length is the angle. theta is 0 in the design configuration, unless
- *    axis_b differs from axis there. The angle must stay below pi, because theta and the moment
- *    jump at pi. If the angle passes pi in a run, the run warns with BAUM_WARNING_BUSHING.
+ *    the rotation, and its length is the angle. theta is 0 in the design configuration, unless the
+ *    fields axis and axis_b have different directions there. The angle must stay below pi, because
+ *    theta and the moment jump at pi. If the angle passes pi in a run, the run warns with
+ *    BAUM_WARNING_BUSHING.
  *
  *  The potential energy is x^T stiffness x / 2, and the dissipated power is x'^T damping x'. */
 typedef struct baum_spatial_bushing_def {

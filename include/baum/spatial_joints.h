@@ -117,10 +117,11 @@ BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechani
 /** A universal joint (Hooke's joint): a cross connects the bodies. The cross rotates relative to
  *  body_a about `axis`, and body_b rotates relative to the cross about `axis_b`. The joint has four
  *  rows: three make the points of both bodies coincide [m], and one keeps the two axes
- *  perpendicular [-]. The axes must not be parallel in the design configuration. The coordinates of
- *  the joint are two angles [rad], which are both 0 in the design configuration:
- *  BAUM_COORDINATE_ANGLE is the angle of the cross relative to body_a about `axis`, and
- *  BAUM_COORDINATE_ANGLE_B is the angle of body_b relative to the cross about `axis_b`. */
+ *  perpendicular [-]. If the axes are not perpendicular in the design configuration, assembly
+ *  rotates the bodies; parallel axes are refused. The coordinates of the joint are two angles
+ *  [rad], which are both 0 in the design configuration: BAUM_COORDINATE_ANGLE is the angle of the
+ *  cross relative to body_a about `axis`, and BAUM_COORDINATE_ANGLE_B is the angle of body_b
+ *  relative to the cross about `axis_b`. */
 typedef struct baum_spatial_universal_def {
   size_t struct_size;  /**< Set by baum_spatial_universal_def_default(). Do not change it. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
