@@ -241,8 +241,12 @@ static bool exchange_rows(baum_workspace *w, double t, const double *q, baum_i_c
       (select_near(w, t, q, CLOSE, &found) != BAUM_OK || (found && !differs(w)))) {
     return false;
   }
-  return select_apart(w, t, q, choice.by_lengths, least, &found) == BAUM_OK && found &&
-         differs(w) && omit_selected(w) == BAUM_OK;
+  baum_status status = select_apart(w, t, q, choice.by_lengths, least, &found);
+  if (status == BAUM_OK && choice.by_lengths && !found) {
+    /* In a large mechanism, lengths make the rows of two points close together look dependent. */
+    status = select_apart(w, t, q, false, least, &found);
+  }
+  return status == BAUM_OK && found && differs(w) && omit_selected(w) == BAUM_OK;
 }
 
 /* A failure leaves the rows unchanged. */

@@ -50,7 +50,7 @@ struct baum_simulation {
   double origin;
   double start_energy;
   double largest_gamma; /* largest |gamma_i| (in J a = gamma) of all rows i and all steps */
-  /* [s] time of the last check of the redundant rows if KLU or QR is the solver; see rows.c */
+  /* [s] time of the last check of the redundant rows without suitable pivots; see rows.c */
   double rows_looked_at;
   double judged_phi; /* max_phi when it was last compared with its limit */
   /* max_phi_rate when it was last compared with the limit for non-holonomic rows */

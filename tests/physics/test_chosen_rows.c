@@ -240,6 +240,60 @@ static void rows_of_almost_points_are_exchanged_in_time(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* ---- a large mechanism ---- */
+
+static baum_body_id add_bar(baum_mechanism *m, double x, double z)
+{
+  baum_body_id bar;
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  def.position[0] = x;
+  def.position[2] = z;
+  def.inertia[0] = def.inertia[1] = def.inertia[2] = 0.1;
+  check(baum_mechanism_add_spatial_body(m, &def, &bar));
+  return bar;
+}
+
+static void add_hinge(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double z)
+{
+  baum_spatial_revolute_def def = baum_spatial_revolute_def_default();
+  const double point[3] = {x, 0.0, z};
+  const double axis[3] = {0.0, 1.0, 0.0};
+  def.body_a = a;
+  def.body_b = b;
+  memcpy(def.point, point, sizeof point);
+  memcpy(def.axis, axis, sizeof axis);
+  check(baum_mechanism_add_spatial_revolute(m, &def, NULL));
+}
+
+/* Two hinges 0.3 m apart join two bars. A pendulum that hangs far away makes the characteristic
+ * length so large that this distance is small in comparison. The rows must be exchanged anyway. */
+static void rows_are_exchanged_in_a_large_mechanism(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  check(baum_mechanism_create(&m));
+  baum_body_id first = add_bar(m, 0.5, 0.0);
+  baum_body_id second = add_bar(m, 1.5, 0.0);
+  baum_body_id far = add_bar(m, 9.0, -1.0);
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, -9.81));
+  add_hinge(m, BAUM_GROUND, first, 0.0, 0.0);
+  add_hinge(m, first, second, 1.0, 0.0);
+  add_hinge(m, first, second, 1.0, 0.3);
+  add_hinge(m, BAUM_GROUND, far, 9.0, 0.0);
+  check(baum_mechanism_freeze(m));
+  for (int k = 0; k < SOLVER_COUNT; k++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = baum_rattle();
+    o.step = STEP;
+    o.solver = SOLVERS[k];
+    baum_simulation *run = create_run(m, &o);
+    check(baum_simulation_advance_to(run, 1.5));
+    assert_true(counters_of(run).max_phi_rate < 1e-10);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -247,6 +301,7 @@ int main(void)
     cmocka_unit_test(index_3_methods_make_several_revolutions),
     cmocka_unit_test(a_restored_run_omits_the_same_rows_as_the_saved_run),
     cmocka_unit_test(rows_of_almost_points_are_exchanged_in_time),
+    cmocka_unit_test(rows_are_exchanged_in_a_large_mechanism),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
