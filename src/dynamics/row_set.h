@@ -65,7 +65,7 @@ typedef struct baum_i_choice {
 /* Omit other rows if the pivot is poor and another set of rows is better. `pivot` is the smallest
  * pivot; a run divides it by the largest pivot of the run so far. Returns true if the rows have
  * changed. The accelerations and multipliers computed last are then no longer available. This
- * function allocates memory, but only rarely. */
+ * function allocates memory if it searches for rows. */
 bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot,
                         baum_i_choice choice);
 
