@@ -206,9 +206,8 @@ static void draw_effort(const baum_i_symbol *s, baum_i_style style, baum_joint_i
   }
   baum_i_place at = *place;
   const int side = which == BAUM_COORDINATE_ANGLE_B ? 1 : 0;
-  const double sign = backward ? -1.0 : 1.0;
-  for (int i = 0; i < 3; i++) {
-    at.axis[side][i] *= sign;
+  for (int i = 0; backward && i < 3; i++) {
+    at.axis[side][i] *= -1.0;
   }
   const baum_i_symbol symbol = {s->drawing, s->number, s->element, &at};
   double x[3], y[3];

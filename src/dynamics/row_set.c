@@ -225,11 +225,21 @@ void baum_i_clear_omitted_rows(const baum_workspace *w, double *jacobian)
 
 /* ---- choice during a run ---- */
 
-/* Mark the rows that are not selected, and tell whether they are other rows than those omitted. */
-static bool differs(baum_workspace *w)
+/* Tell whether other rows are selected than those that are kept now. */
+static bool has_other_rows(const baum_workspace *w)
 {
-  invert(w->rows.selected, w->mechanism->nc, w->rows.selected);
-  return memcmp(w->rows.selected, w->rows.omitted, (size_t)w->mechanism->nc) != 0;
+  bool other = false;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    other = other || w->rows.selected[i] == w->rows.omitted[i];
+  }
+  return other;
+}
+
+static bool are_kept_rows_apart(baum_workspace *w, double t, const double *q)
+{
+  bool found = false;
+  (void)select_near(w, t, q, CLOSE, &found);
+  return found && !has_other_rows(w);
 }
 
 /* Search for a better set of rows and use it. Return true if the rows have changed. */
@@ -237,16 +247,21 @@ static bool exchange_rows(baum_workspace *w, double t, const double *q, baum_i_c
 {
   double least = choice.well_separated ? LEAST : WORST;
   bool found = false;
-  if (choice.by_lengths &&
-      (select_near(w, t, q, CLOSE, &found) != BAUM_OK || (found && !differs(w)))) {
+  if (choice.by_lengths) {
+    if (are_kept_rows_apart(w, t, q)) {
+      return false;
+    }
+    (void)select_apart(w, t, q, true, least, &found);
+  }
+  /* In a large mechanism, lengths make the rows of two points close together look dependent. */
+  if (!found) {
+    (void)select_apart(w, t, q, false, least, &found);
+  }
+  if (!found || !has_other_rows(w)) {
     return false;
   }
-  baum_status status = select_apart(w, t, q, choice.by_lengths, least, &found);
-  if (status == BAUM_OK && choice.by_lengths && !found) {
-    /* In a large mechanism, lengths make the rows of two points close together look dependent. */
-    status = select_apart(w, t, q, false, least, &found);
-  }
-  return status == BAUM_OK && found && differs(w) && omit_selected(w) == BAUM_OK;
+  invert(w->rows.selected, w->mechanism->nc, w->rows.selected);
+  return omit_selected(w) == BAUM_OK;
 }
 
 /* A failure leaves the rows unchanged. */

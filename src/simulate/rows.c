@@ -105,8 +105,9 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 
 void baum_i_run_restart_rows(baum_simulation *run, const baum_i_state *state)
 {
-  baum_i_choice choice = {.well_separated = run->crossings != NULL, .by_lengths = !run->crossings};
-  if (baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, choice) && run->crossings) {
+  bool is_kinematics = !run->crossings;
+  baum_i_choice choice = {.well_separated = !is_kinematics, .by_lengths = is_kinematics};
+  if (baum_i_choose_rows(run->workspace, state->t, state->q, 0.0, choice) && !is_kinematics) {
     tell_others(run);
     baum_i_crossings_end(run);
   }

@@ -195,20 +195,23 @@ def planar_torsion_spring(m):
     m.torsion_spring("spiral", m.ground, a, stiffness=1)
 
 
-@scene(PLANE)
-def joint_spring(m):
+def block_with_arm(m):
+    """Adds an arm that is pinned to a sliding block. Returns the guide and the pin."""
     block = m.planar_body("block", mass=1, inertia=0.1, position=(1, 0))
     guide = m.translational("guide", m.ground, block, point_a=(0, 0), point_b=(0, 0))
-    pin = m.revolute("pin", block, arm(m, start=(1, 0), end=(1.2, 1.5)), point=(1, 0))
+    return guide, m.revolute("pin", block, arm(m, start=(1, 0), end=(1.2, 1.5)), point=(1, 0))
+
+
+@scene(PLANE)
+def joint_spring(m):
+    guide, pin = block_with_arm(m)
     m.joint_spring("coil", guide, stiffness=1)
     m.joint_spring("spiral", pin, stiffness=1)
 
 
 @scene(PLANE)
 def joint_load(m):
-    block = m.planar_body("block", mass=1, inertia=0.1, position=(1, 0))
-    guide = m.translational("guide", m.ground, block, point_a=(0, 0), point_b=(0, 0))
-    pin = m.revolute("pin", block, arm(m, start=(1, 0), end=(1.2, 1.5)), point=(1, 0))
+    guide, pin = block_with_arm(m)
     m.joint_load("force", guide, effort=1)
     m.joint_load("torque", pin, effort=-1)
 

@@ -70,7 +70,7 @@ def there_are(names: Iterable[str], given: Any) -> str:
 
 
 def word(words: Mapping[str, int], value: Any, label: str) -> int:
-    """Return the number that a word stands for."""
+    """Return the number of a named constant."""
     if not isinstance(value, str) or value not in words:
         raise ValueError(f"no {label} {value!r}; {there_are(words, value)}")
     return words[value]

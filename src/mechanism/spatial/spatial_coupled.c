@@ -276,8 +276,10 @@ static baum_status lower_shafts(const baum_mechanism *mechanism, const baum_i_jo
     baum_i_spatial_design_orientation(mechanism, joint->span.bodies[k], body[k]);
   }
   relative_rotation(parameters, body, p);
-  for (int i = 4; p[0] < 0.0 && i < 8; i++) {
-    parameters[AXES_IN_BODY + i] *= -1.0;
+  if (p[0] < 0.0) {
+    for (int i = 4; i < 8; i++) {
+      parameters[AXES_IN_BODY + i] *= -1.0;
+    }
   }
   return BAUM_OK;
 }
@@ -305,7 +307,7 @@ static shafts shafts_at(const state *s)
 }
 
 /* Return a . (b x c). */
-static double triple(const double a[3], const double b[3], const double c[3])
+static double dot_cross(const double a[3], const double b[3], const double c[3])
 {
   double normal[3];
   baum_i_cross(b, c, normal);
@@ -337,7 +339,8 @@ static void spread(const state *s, const double c[3], double g[COLUMNS])
 {
   memset(g, 0, COLUMNS * sizeof *g);
   for (int k = 0; k < 2; k++) {
-    const double moment[3] = {k == 0 ? -c[0] : c[0], k == 0 ? -c[1] : c[1], k == 0 ? -c[2] : c[2]};
+    double moment[3] = {0.0};
+    baum_i_add_scaled3(k == 0 ? -1.0 : 1.0, c, moment);
     baum_i_turn_back(s->pair.frame[k]->axes, moment, g + (ptrdiff_t)BAUM_I_SPACE * k + 3);
   }
 }
@@ -350,7 +353,7 @@ static void shafts_row(const state *s, baum_i_coordinate *out)
   *out = (baum_i_coordinate){.value = 2.0 * x.p[3],
                              .rate = baum_i_dot3(x.n, d),
                              .gamma = 0.5 * x.p[3] * baum_i_dot3(d, d) +
-                                      triple(x.n, x.motion.w[0], x.motion.w[1])};
+                                      dot_cross(x.n, x.motion.w[0], x.motion.w[1])};
   spread(s, x.n, out->gradient);
 }
 
@@ -368,10 +371,10 @@ static void gamma_along(const shafts *x, const baum_i_spatial_motion *y, double 
   subtract(turned[1], turned[0], d_turned);
   normal_along(x, y, n_y);
   *gamma_q = 0.25 * baum_i_dot3(x->n, d_y) * baum_i_dot3(d, d) +
-             x->p[3] * baum_i_dot3(d, d_turned) + triple(n_y, w[0], w[1]) +
-             triple(x->n, turned[0], w[1]) + triple(x->n, w[0], turned[1]);
+             x->p[3] * baum_i_dot3(d, d_turned) + dot_cross(n_y, w[0], w[1]) +
+             dot_cross(x->n, turned[0], w[1]) + dot_cross(x->n, w[0], turned[1]);
   *gamma_v =
-    x->p[3] * baum_i_dot3(d, d_y) + triple(x->n, y->w[0], w[1]) + triple(x->n, w[0], y->w[1]);
+    x->p[3] * baum_i_dot3(d, d_y) + dot_cross(x->n, y->w[0], w[1]) + dot_cross(x->n, w[0], y->w[1]);
 }
 
 static void shafts_linearize(const state *s, const double *w, double lambda,
